@@ -1,0 +1,140 @@
+"""The beam: its data, and the scales that make the paper's variables nondimensional."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, fields
+
+from .input_checks import RotbeamWarning, positive
+
+BETA_1 = 1.8751040687119611
+"""First root of cos β cosh β = -1: the first mode of the cantilever, ω0 = β² √(EI/mL³)."""
+
+_RPM_SUSPECT = 10.0
+"""Rotation speeds above this many ω0 are taken for a slip in units; the benchmark ends near 4."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beam:
+    """A uniform, initially straight beam; SI units.
+
+    Parameters
+    ----------
+    length : float
+        Length L [m].
+    area : float
+        Cross-sectional area A [m²].
+    second_moment : float
+        Second moment of area I about the axis of rotation's direction [m⁴].
+    youngs_modulus : float
+        Young's modulus E [Pa].
+    density : float
+        Mass density ρ [kg/m³].
+
+    Raises
+    ------
+    ValueError
+        If a value is not finite and positive.
+    TypeError
+        If a value is not a number.
+
+    Examples
+    --------
+    >>> beam = Beam.reference()
+    >>> round(beam.omega_0, 6)
+    2.909236
+    """
+
+    length: float
+    area: float
+    second_moment: float
+    youngs_modulus: float
+    density: float
+
+    def __post_init__(self) -> None:
+        for field, unit in zip(fields(self), ("m", "m^2", "m^4", "Pa", "kg/m^3"), strict=True):
+            object.__setattr__(
+                self, field.name, positive(field.name, getattr(self, field.name), unit)
+            )
+
+    @classmethod
+    def reference(cls) -> Beam:
+        """Return the paper's beam (Sec. 2)."""
+        return cls(
+            length=8.0,
+            area=7.299e-5,
+            second_moment=8.214e-9,
+            youngs_modulus=6.895e10,
+            density=2767.0,
+        )
+
+    @classmethod
+    def from_stiffness(
+        cls,
+        *,
+        length: float,
+        axial_stiffness: float,
+        bending_stiffness: float,
+        mass_per_length: float,
+    ) -> Beam:
+        """Return a beam given by EA [N], EI [N m²] and ρA [kg/m], as benchmarks often are.
+
+        Only the products enter the thin beam; the area is set to 1 m² to split them.
+        """
+        axial_stiffness = positive("axial_stiffness", axial_stiffness, "N")
+        return cls(
+            length=length,
+            area=1.0,
+            second_moment=positive("bending_stiffness", bending_stiffness, "N m^2")
+            / axial_stiffness,
+            youngs_modulus=axial_stiffness,
+            density=positive("mass_per_length", mass_per_length, "kg/m"),
+        )
+
+    @property
+    def mass(self) -> float:
+        """Total mass m = ρAL [kg]."""
+        return self.density * self.area * self.length
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass per length ρA [kg/m]."""
+        return self.density * self.area
+
+    @property
+    def bending_stiffness(self) -> float:
+        """Bending stiffness EI [N m²]."""
+        return self.youngs_modulus * self.second_moment
+
+    @property
+    def axial_stiffness(self) -> float:
+        """Axial stiffness EA [N]."""
+        return self.youngs_modulus * self.area
+
+    @property
+    def slenderness(self) -> float:
+        """Slenderness μ = I/(AL²), Eq. 78 [-]."""
+        return self.second_moment / (self.area * self.length**2)
+
+    @property
+    def frequency_scale(self) -> float:
+        """√(EI/(mL³)), the frequency scale of τ in Eq. 40 [rad/s]."""
+        return math.sqrt(self.bending_stiffness / (self.mass * self.length**3))
+
+    @property
+    def omega_0(self) -> float:
+        """First natural frequency of the beam at rest, Eq. 40 (3.516 in full) [rad/s]."""
+        return BETA_1**2 * self.frequency_scale
+
+
+def warn_if_rpm(beam: Beam, omega: float) -> None:
+    """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""
+    ratio = omega / beam.omega_0
+    if ratio > _RPM_SUSPECT:
+        warnings.warn(
+            f"omega = {omega:g} rad/s is {ratio:.0f} times the first natural frequency "
+            f"({beam.omega_0:.3f} rad/s): rpm? {omega:g} rpm are {omega * math.pi / 30:.4g} rad/s",
+            RotbeamWarning,
+            stacklevel=3,
+        )

@@ -1,0 +1,1 @@
+"""The rotating cantilever beam in Exudyn."""
