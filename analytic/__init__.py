@@ -7,20 +7,17 @@ each name below is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
 from .beam import Beam
 from .spin_up import SpinUp
 
-if TYPE_CHECKING:
-    pass
 
 _LAZY: dict[str, str] = {}
 
 __all__ = ["Beam", "SpinUp"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _LAZY:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f".{_LAZY[name]}", __name__), name)

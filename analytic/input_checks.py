@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
-from typing import Any
 
 
 class RotbeamWarning(UserWarning):
     """Input or a result that is legal but probably not what was meant."""
 
 
-def _number(name: str, value: Any, unit: str) -> float:
+def _number(name: str, value: object, unit: str) -> float:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {value!r}")
     number = float(value)
@@ -32,7 +31,7 @@ def _in(unit: str) -> str:
     return f" in {unit}" if unit else ""
 
 
-def positive(name: str, value: Any, unit: str = "") -> float:
+def positive(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number above zero."""
     number = _number(name, value, unit)
     if number <= 0.0:
@@ -40,7 +39,7 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     return number
 
 
-def not_negative(name: str, value: Any, unit: str = "", remedy: str = "") -> float:
+def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number of zero or more."""
     number = _number(name, value, unit)
     if number < 0.0:
@@ -49,7 +48,7 @@ def not_negative(name: str, value: Any, unit: str = "", remedy: str = "") -> flo
     return number
 
 
-def whole_number(name: str, value: Any, least: int = 1) -> int:
+def whole_number(name: str, value: object, least: int = 1) -> int:
     """Return `value` as an int, refusing what is not a whole number of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number, got {value!r}")
@@ -59,7 +58,7 @@ def whole_number(name: str, value: Any, least: int = 1) -> int:
     return number
 
 
-def rotation_speed(omega: Any, name: str = "omega") -> float:
+def rotation_speed(omega: object, name: str = "omega") -> float:
     """Return the rotation speed [rad/s] as a float; by mirror symmetry it is never negative."""
     return not_negative(
         name,

@@ -83,7 +83,8 @@ class SpinUp:
         )
 
     def _clipped(self, t: float | FloatArray) -> FloatArray:
-        return np.clip(np.asarray(t, dtype=float), 0.0, self.ramp_time)
+        clipped: FloatArray = np.clip(np.asarray(t, dtype=np.float64), 0.0, self.ramp_time)
+        return clipped
 
 
 def _like(t: float | FloatArray, value: FloatArray) -> float | FloatArray:
