@@ -11,7 +11,6 @@ from importlib import import_module
 from .beam import Beam
 from .spin_up import SpinUp
 
-
 _LAZY: dict[str, str] = {}
 
 __all__ = ["Beam", "SpinUp"]
