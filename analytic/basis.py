@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
@@ -41,7 +41,11 @@ def axial_basis(count: int, x: FloatArray) -> BasisValues:
     """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`."""
     slope, value = _integrals(count, x, times=1)
     curvature = 2.0 * legendre.legval(2.0 * x - 1.0, legendre.legder(_normalized(count), axis=0))
-    return BasisValues(value, slope, np.moveaxis(curvature, 0, -1))
+    return BasisValues(value, slope, _points_first(curvature))
+
+
+def _points_first(values: ArrayLike) -> FloatArray:
+    return np.moveaxis(np.asarray(values, dtype=np.float64), 0, -1)
 
 
 def _normalized(count: int) -> FloatArray:
@@ -53,7 +57,9 @@ def _integrals(count: int, x: FloatArray, times: int) -> list[FloatArray]:
     coefficients = _normalized(count)
     values = []
     for _ in range(times + 1):
-        values.append(np.moveaxis(legendre.legval(2.0 * x - 1.0, coefficients), 0, -1))
+        values.append(_points_first(legendre.legval(2.0 * x - 1.0, coefficients)))
         # dx is half of the Legendre variable's own differential.
-        coefficients = legendre.legint(coefficients, lbnd=-1.0, scl=0.5, axis=0)
+        coefficients = np.asarray(
+            legendre.legint(coefficients, lbnd=-1.0, scl=0.5, axis=0), dtype=np.float64
+        )
     return values
