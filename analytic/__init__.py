@@ -7,13 +7,44 @@ each name below is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 from .beam import Beam
 from .spin_up import SpinUp
 
-_LAZY: dict[str, str] = {}
+if TYPE_CHECKING:
+    from .campbell import Campbell, Crossing, campbell
+    from .linear_modes import LinearModes, linear_modes
+    from .periodic import Backbone, BeamState, periodic_orbits
+    from .transient import SpinUpResponse, spin_up_response
 
-__all__ = ["Beam", "SpinUp"]
+_LAZY: dict[str, str] = {
+    "Backbone": "periodic",
+    "BeamState": "periodic",
+    "Campbell": "campbell",
+    "Crossing": "campbell",
+    "LinearModes": "linear_modes",
+    "SpinUpResponse": "transient",
+    "campbell": "campbell",
+    "linear_modes": "linear_modes",
+    "periodic_orbits": "periodic",
+    "spin_up_response": "transient",
+}
+
+__all__ = [
+    "Backbone",
+    "Beam",
+    "BeamState",
+    "Campbell",
+    "Crossing",
+    "LinearModes",
+    "SpinUp",
+    "SpinUpResponse",
+    "campbell",
+    "linear_modes",
+    "periodic_orbits",
+    "spin_up_response",
+]
 
 
 def __getattr__(name: str) -> object:
