@@ -13,20 +13,20 @@ from .beam import Beam
 from .spin_up import SpinUp
 
 if TYPE_CHECKING:
-    from .campbell import Campbell, Crossing, campbell
-    from .linear_modes import LinearModes, linear_modes
+    from .campbell_diagram import Campbell, Crossing, campbell
+    from .modes import LinearModes, linear_modes
     from .periodic import Backbone, BeamState, periodic_orbits
     from .transient import SpinUpResponse, spin_up_response
 
 _LAZY: dict[str, str] = {
     "Backbone": "periodic",
     "BeamState": "periodic",
-    "Campbell": "campbell",
-    "Crossing": "campbell",
-    "LinearModes": "linear_modes",
+    "Campbell": "campbell_diagram",
+    "Crossing": "campbell_diagram",
+    "LinearModes": "modes",
     "SpinUpResponse": "transient",
-    "campbell": "campbell",
-    "linear_modes": "linear_modes",
+    "campbell": "campbell_diagram",
+    "linear_modes": "modes",
     "periodic_orbits": "periodic",
     "spin_up_response": "transient",
 }

@@ -21,6 +21,7 @@ Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
 _NEWTON_STEPS = 12
+_CONVERGED = 1e-13  # of the coordinates, which are of order 1
 _SLOW = 0.2  # a contraction worse than this pays for a new factorization
 
 
@@ -30,16 +31,15 @@ class Collocation:
     def __init__(self, stages: int) -> None:
         inner, _ = special.roots_jacobi(stages - 1, 1.0, 0.0)
         self.nodes: FloatArray = 0.5 * (np.append(inner, 1.0) + 1.0)
-        self._to_legendre = np.linalg.inv(
-            legendre.legvander(2.0 * self.nodes - 1.0, stages - 1)
-        )
+        self._to_legendre = np.linalg.inv(legendre.legvander(2.0 * self.nodes - 1.0, stages - 1))
         self.velocity = self.integral(self.nodes)
         # The velocity is interpolated too: integrating the acceleration twice is not A-stable.
         self.position = self.velocity @ self.velocity
 
     def values(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to those of their interpolant."""
-        return legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1) @ self._to_legendre
+        waves: FloatArray = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
+        return waves @ self._to_legendre
 
     def integral(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to the integral of their interpolant."""
@@ -74,14 +74,11 @@ class Collocation:
         q: FloatArray,
         q_dot: FloatArray,
         guess: FloatArray,
+        *,
         residual: Residual,
         tangent: Linearization,
-        tolerance: float,
     ) -> FloatArray | None:
-        """Return the accelerations (stages, n) that make the residuals zero, None if not found.
-
-        Newton's method until a step changes the position by less than `tolerance`.
-        """
+        """Return the accelerations (stages, n) that make the residuals zero, None if not found."""
         acceleration, factors, last = guess, None, np.inf
         for _ in range(_NEWTON_STEPS):
             state = self.stages(h, q, q_dot, acceleration)
@@ -98,7 +95,7 @@ class Collocation:
             if not np.isfinite(size):
                 return None
             contraction = size / last if np.isfinite(last) else 1.0
-            if size * min(1.0, contraction) < tolerance:
+            if size * min(1.0, contraction) < _CONVERGED:
                 return acceleration
             if contraction > _SLOW and np.isfinite(last):
                 factors = None

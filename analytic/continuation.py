@@ -9,7 +9,7 @@ import numpy as np
 from .basis import FloatArray
 from .continuum import Continuum
 from .harmonic_balance import NoOrbitError, PeriodicOrbit, solve
-from .linear_modes import Modes
+from .modes import Modes
 
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""

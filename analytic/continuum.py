@@ -68,8 +68,8 @@ class Continuum:
         μ = I/(AL²); zero for the inextensible beam.
     bending, axial : int
         Number of functions for θ and for e.
-    rotary_inertia : bool
-        Whether the cross-sections have inertia against rotation, ρI.
+    rotary_inertia : float
+        Inertia of the cross-sections against rotation per length: μ, or 0 to leave it out.
 
     Attributes
     ----------
@@ -78,13 +78,13 @@ class Continuum:
     """
 
     def __init__(
-        self, slenderness: float, bending: int, axial: int, *, rotary_inertia: bool = False
+        self, slenderness: float, bending: int, axial: int, *, rotary_inertia: float = 0.0
     ) -> None:
         self.slenderness = slenderness
         self.bending = bending
         self.axial = axial
         self.size = bending + axial
-        self.rotary = slenderness if rotary_inertia else 0.0
+        self.rotary = rotary_inertia
         self._epsilon = math.sqrt(slenderness)  # e = √μ ε makes the axial stiffness 1 as well
         self.points, self.weights = gauss_points(2 * bending)
         self._phi = axial_basis(bending, self.points).value
@@ -207,7 +207,8 @@ class Continuum:
         """Return z' = (1 + e) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""
         phi, psi = self._bases(x)
         theta, epsilon = self.split(q)
-        return (1.0 + self._epsilon * (epsilon @ psi.T)) * np.exp(1j * (theta @ phi.T))
+        turn: ComplexArray = np.exp(1j * (theta @ phi.T))
+        return (1.0 + self._epsilon * (epsilon @ psi.T)) * turn
 
     def slope_rate(
         self, q: FloatArray, q_dot: FloatArray, x: FloatArray | None = None
@@ -217,9 +218,7 @@ class Continuum:
         theta_dot, epsilon_dot = self.split(q_dot)
         z = self.slope(q, x)
         # ż' = z' (iθ̇ + ė/(1 + e)), which also serves for any small change of q.
-        return z * (
-            1j * (theta_dot @ phi.T) + self._epsilon * (epsilon_dot @ psi.T) / np.abs(z)
-        )
+        return z * (1j * (theta_dot @ phi.T) + self._epsilon * (epsilon_dot @ psi.T) / np.abs(z))
 
     def _bases(self, x: FloatArray | None) -> tuple[FloatArray, FloatArray]:
         if x is None:
@@ -248,16 +247,15 @@ class Continuum:
 
     def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
         """Return ½∫|ż|² - ½w²∫|z|² + V, constant at a constant rate w of the frame, (samples,)."""
-        return self.kinetic_energy(q, q_dot) + 0.5 * np.sum(q**2, axis=-1) - 0.5 * (
-            rate**2 * self._squared(self.slope(q))
-        )
+        elastic: FloatArray = 0.5 * np.sum(q**2, axis=-1)
+        centrifugal = 0.5 * rate**2 * self._squared(self.slope(q))
+        return self.kinetic_energy(q, q_dot) + elastic - centrifugal
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""
-        rotary = self._rotary_mass @ q_dot[..., : self.bending, None]
-        return 0.5 * self._squared(self.slope_rate(q, q_dot)) + 0.5 * np.sum(
-            q_dot[..., : self.bending] * rotary[..., 0], axis=-1
-        )
+        spin = q_dot[..., : self.bending]
+        rotary: FloatArray = 0.5 * np.sum(spin * (spin @ self._rotary_mass), axis=-1)
+        return 0.5 * self._squared(self.slope_rate(q, q_dot)) + rotary
 
     def _squared(self, slope: ComplexArray) -> FloatArray:
         squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)
@@ -281,7 +279,7 @@ class Continuum:
 
 @lru_cache(maxsize=32)
 def continuum(
-    slenderness: float, bending: int, axial: int, rotary_inertia: bool = False
+    slenderness: float, bending: int, axial: int, rotary_inertia: float = 0.0
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
     return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia)

@@ -102,7 +102,7 @@ class PeriodicOrbit:
             model.slenderness,
             model.bending + model.bending // 2,
             model.axial + model.axial // 2,
-            model.rotary > 0.0,
+            model.rotary,
         )
         q, q_dot, q_ddot = (model.padded(c, finer) for c in self.coordinates(self._fine_phases))
         defect = finer.residual(q, q_dot, q_ddot, self.rate)
@@ -182,7 +182,10 @@ def _jacobian(orbit: PeriodicOrbit) -> FloatArray:
         )
     )
     theta, epsilon = slice(0, bending), slice(bending, None)
-    sides = ((theta, series.onto_sines, series.theta), (epsilon, series.onto_cosines, series.epsilon))
+    sides = (
+        (theta, series.onto_sines, series.theta),
+        (epsilon, series.onto_cosines, series.epsilon),
+    )
 
     def block(rows: slice, onto: FloatArray, columns: slice, waves: FloatArray) -> FloatArray:
         part = in_time[:, rows, columns]
@@ -198,9 +201,9 @@ def _jacobian(orbit: PeriodicOrbit) -> FloatArray:
             for rows, onto, _ in sides
         ]
     )
-    by_frequency = (
-        tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None]
-    )[..., 0] / orbit.frequency
+    by_frequency = (tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None])[
+        ..., 0
+    ] / orbit.frequency
     unknowns = len(by_harmonics) + 1
     jacobian = np.zeros((unknowns, unknowns))
     jacobian[:-1, :-1] = by_harmonics
@@ -273,7 +276,7 @@ def solve(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
             return replace(_at_peak(orbit)[0], amplitude=amplitude)
         if size > 1.0 or orbit.frequency <= 0.0:
             break
-        if contraction > _SLOW:
+        if contraction > _SLOW and np.isfinite(last):
             factors = None
         last = size
     raise NoOrbitError("Newton's method does not converge")

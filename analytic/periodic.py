@@ -17,7 +17,7 @@ from .continuum import ComplexArray
 from .floquet import floquet_multipliers, is_stable
 from .harmonic_balance import NoOrbitError, PeriodicOrbit, solve
 from .input_checks import RotbeamWarning, finite_values, rotation_speed, whole_number
-from .linear_modes import resolved_model, solve_modes, steady_rate
+from .modes import resolved_model, solve_modes, steady_rate
 
 _NEAR = 0.02  # an internal resonance is this near, relative to the other mode's frequency
 _NOTICEABLE = 1e-6  # size of a harmonic, relative to the first, that can drive another mode
@@ -222,7 +222,8 @@ def periodic_orbits(
 
     ascending, order = np.unique(asked, return_inverse=True)
     found: list[PeriodicOrbit] = []
-    last, before = double, seed
+    last: PeriodicOrbit = double
+    before: PeriodicOrbit | None = seed
     for a in ascending:
         if a < last.amplitude:
             last, before = seed, None
@@ -230,8 +231,8 @@ def periodic_orbits(
             last, before = followed(last, before, float(a))
         except NoOrbitError as reason:
             raise RuntimeError(
-                f"no orbit of {where} with a peak |q|/L of {a:g} was found: {reason}; "
-                "ask for smaller amplitudes"
+                f"no orbit of {where} with a peak |q|/L of {a:g} was found; the last amplitude "
+                f"reached is {last.amplitude:g}, and {reason}; ask for smaller amplitudes"
             ) from None
         found.append(last)
     orbits = tuple(found[k] for k in order)
@@ -246,9 +247,7 @@ def periodic_orbits(
         frequency=np.array([orbit.frequency for orbit in orbits]) * beam.frequency_scale,
         lambda_omega=float((4.0 * near - far) / 3.0),
         lambda_omega_error=float(abs(near - far) / 3.0),
-        harmonics=np.array(
-            [np.pad(o.tip_harmonics, (0, count - o.harmonics)) for o in orbits]
-        ),
+        harmonics=np.array([np.pad(o.tip_harmonics, (0, count - o.harmonics)) for o in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),
         jacobi_drift=np.array([orbit.jacobi_drift for orbit in orbits]),
         _orbits=orbits,
@@ -262,9 +261,10 @@ def _warn_of_resonances(
     warned: set[tuple[int, int]] = set()
     for orbit in orbits:
         sizes = np.linalg.norm(orbit.sines, axis=1) / np.linalg.norm(orbit.sines[0])
-        for k in 1 + np.flatnonzero(sizes > _NOTICEABLE):
+        for k in (1 + np.flatnonzero(sizes > _NOTICEABLE)).tolist():
             frequency = k * orbit.frequency
-            for j in 1 + np.flatnonzero(np.abs(frequency / modes - 1.0) < _NEAR):
+            near = np.abs(frequency / modes - 1.0) < _NEAR
+            for j in (1 + np.flatnonzero(near)).tolist():
                 if j == mode or (k, j) in warned:
                     continue
                 warned.add((k, j))

@@ -121,7 +121,8 @@ def resolved_model(
         )
     slenderness = 0.0 if inextensible else beam.slenderness
     axial = 1 if inextensible else max(4, 5 * functions // 8)
-    return continuum(slenderness, functions, axial, rotary_inertia)
+    rotary = beam.slenderness if rotary_inertia else 0.0
+    return continuum(slenderness, functions, axial, rotary)
 
 
 def steady_rate(beam: Beam, omega: float, model: Continuum) -> float:
@@ -175,6 +176,4 @@ def solve_modes(model: Continuum, rate: float) -> Modes:
     slopes = model.slope_rate(steady, coordinates)
     tips = slopes @ model.weights
     scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
-    return Modes(
-        1.0 / inverse[::-1][kept], coordinates / scale[:, None], slopes / scale[:, None]
-    )
+    return Modes(1.0 / inverse[::-1][kept], coordinates / scale[:, None], slopes / scale[:, None])
