@@ -9,11 +9,11 @@ from __future__ import annotations
 from importlib import import_module
 
 from .beam import Beam
-from .spin_up import SpinUp
+from .spin_up import SpinUp, SteadyRotation
 
 _LAZY: dict[str, str] = {}
 
-__all__ = ["Beam", "SpinUp"]
+__all__ = ["Beam", "SpinUp", "SteadyRotation"]
 
 
 def __getattr__(name: str) -> object:
