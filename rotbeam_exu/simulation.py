@@ -307,8 +307,8 @@ def _dataset(
     x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
     root = coordinates[:, 0]
     columns = {
-        "q": (y, "m", "transverse tip displacement"),
-        "q_dot": (absolute[:, -1, 1] - rate * x, "m/s", "rate of transverse tip displacement"),
+        "q": (y, "m", "tip displacement q"),
+        "q_dot": (absolute[:, -1, 1] - rate * x, "m/s", "tip velocity dq/dt"),
         "tip_x": (np.cos(angle) * x - np.sin(angle) * y, "m", "tip position along inertial x"),
         "tip_y": (np.sin(angle) * x + np.cos(angle) * y, "m", "tip position along inertial y"),
         "angle": (angle, "rad", "angle of the clamp"),
