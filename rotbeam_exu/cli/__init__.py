@@ -9,6 +9,8 @@ from collections.abc import Sequence
 import cyclopts
 from rich.console import Console
 
+from analytic.input_checks import RotbeamWarning
+
 from .. import __version__
 
 app = cyclopts.App(
@@ -16,6 +18,7 @@ app = cyclopts.App(
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
     version=__version__,
     result_action="return_value",
+    suppress_keyboard_interrupt=False,
 )
 for _command in ("run", "doctor"):
     app.command(f"{__name__}.{_command}:{_command}", name=_command)
@@ -29,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         errors.print(f"[yellow]warning:[/] {message}")
 
     with warnings.catch_warnings():
+        warnings.simplefilter("always", RotbeamWarning)
         warnings.showwarning = one_line  # type: ignore[assignment]
         try:
             app(arguments, exit_on_error=False, print_error=False)
