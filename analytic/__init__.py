@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .beam import Beam
-from .spin_up import SpinUp
+from .spin_up import SpinUp, SteadyRotation
 
 if TYPE_CHECKING:
     from .campbell_diagram import Campbell, Crossing, campbell
@@ -40,6 +40,7 @@ __all__ = [
     "LinearModes",
     "SpinUp",
     "SpinUpResponse",
+    "SteadyRotation",
     "campbell",
     "linear_modes",
     "periodic_orbits",

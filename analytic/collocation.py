@@ -38,15 +38,14 @@ class Collocation:
 
     def values(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to those of their interpolant."""
-        waves: FloatArray = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
-        return waves @ self._to_legendre
+        waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
+        return np.asarray(waves @ self._to_legendre, dtype=np.float64)
 
     def integral(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to the integral of their interpolant."""
         coefficients = legendre.legint(np.eye(self.nodes.size), lbnd=-1.0, scl=0.5, axis=0)
-        return legendre.legvander(2.0 * at - 1.0, self.nodes.size) @ (
-            coefficients @ self._to_legendre
-        )
+        waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size)
+        return np.asarray(waves @ coefficients @ self._to_legendre, dtype=np.float64)
 
     def stages(
         self, h: float, q: FloatArray, q_dot: FloatArray, acceleration: FloatArray

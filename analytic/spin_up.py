@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import overload
+from typing import Any, Protocol, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,65 @@ from numpy.typing import NDArray
 from .input_checks import positive, rotation_speed
 
 FloatArray = NDArray[np.float64]
+
+
+class Rotation(Protocol):
+    """A prescribed rotation: angle, rate and acceleration as functions of time."""
+
+    @overload
+    def angle(self, t: float) -> float: ...
+    @overload
+    def angle(self, t: FloatArray) -> FloatArray: ...
+
+    @overload
+    def rate(self, t: float) -> float: ...
+    @overload
+    def rate(self, t: FloatArray) -> FloatArray: ...
+
+    @overload
+    def acceleration(self, t: float) -> float: ...
+    @overload
+    def acceleration(self, t: FloatArray) -> FloatArray: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadyRotation:
+    """Rotation at a constant angular velocity from t = 0 on.
+
+    Parameters
+    ----------
+    omega : float
+        Angular velocity ω [rad/s]; zero or positive.
+    """
+
+    omega: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "omega", rotation_speed(self.omega))
+
+    @overload
+    def angle(self, t: float) -> float: ...
+    @overload
+    def angle(self, t: FloatArray) -> FloatArray: ...
+    def angle(self, t: float | FloatArray) -> float | FloatArray:
+        """Angle ωt [rad]; `t` [s] scalar or array."""
+        return self.omega * t
+
+    @overload
+    def rate(self, t: float) -> float: ...
+    @overload
+    def rate(self, t: FloatArray) -> FloatArray: ...
+    def rate(self, t: float | FloatArray) -> float | FloatArray:
+        """Angular velocity ω [rad/s], in the shape of `t`."""
+        return self.omega + 0.0 * t
+
+    @overload
+    def acceleration(self, t: float) -> float: ...
+    @overload
+    def acceleration(self, t: FloatArray) -> FloatArray: ...
+    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
+        """Angular acceleration, zero [rad/s²], in the shape of `t`."""
+        return 0.0 * t
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,14 +113,12 @@ class SpinUp:
     def angle(self, t: FloatArray) -> FloatArray: ...
     def angle(self, t: float | FloatArray) -> float | FloatArray:
         """Angle θ(t) [rad], Eq. 1; `t` [s] scalar or array, result of the same shape."""
-        ramp = self._clipped(t)
-        frequency = 2.0 * np.pi / self.ramp_time
-        during = (
-            self.omega
-            / self.ramp_time
-            * (0.5 * ramp**2 - (2.0 / frequency**2) * np.sin(0.5 * frequency * ramp) ** 2)
-        )
-        return _like(t, during + self.omega * np.maximum(np.asarray(t) - self.ramp_time, 0.0))
+        ramp, sin = self._ramp(t)
+        wave = self.ramp_time / np.pi * sin(np.pi * ramp / self.ramp_time)
+        during = 0.5 * self.omega / self.ramp_time * (ramp - wave) * (ramp + wave)
+        after = self.omega * (t - ramp) * (t > self.ramp_time)
+        angle: float | FloatArray = during + after
+        return angle
 
     @overload
     def rate(self, t: float) -> float: ...
@@ -67,9 +126,12 @@ class SpinUp:
     def rate(self, t: FloatArray) -> FloatArray: ...
     def rate(self, t: float | FloatArray) -> float | FloatArray:
         """Angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        ramp = self._clipped(t)
+        ramp, sin = self._ramp(t)
         frequency = 2.0 * np.pi / self.ramp_time
-        return _like(t, self.omega / self.ramp_time * (ramp - np.sin(frequency * ramp) / frequency))
+        rate: float | FloatArray = (
+            self.omega / self.ramp_time * (ramp - sin(frequency * ramp) / frequency)
+        )
+        return rate
 
     @overload
     def acceleration(self, t: float) -> float: ...
@@ -77,15 +139,14 @@ class SpinUp:
     def acceleration(self, t: FloatArray) -> FloatArray: ...
     def acceleration(self, t: float | FloatArray) -> float | FloatArray:
         """Angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        ramp = self._clipped(t)
-        return _like(
-            t, 2.0 * self.omega / self.ramp_time * np.sin(np.pi * ramp / self.ramp_time) ** 2
+        ramp, sin = self._ramp(t)
+        acceleration: float | FloatArray = (
+            2.0 * self.omega / self.ramp_time * sin(np.pi * ramp / self.ramp_time) ** 2
         )
+        return acceleration
 
-    def _clipped(self, t: float | FloatArray) -> FloatArray:
-        clipped: FloatArray = np.clip(np.asarray(t, dtype=np.float64), 0.0, self.ramp_time)
-        return clipped
-
-
-def _like(t: float | FloatArray, value: FloatArray) -> float | FloatArray:
-    return float(value) if np.ndim(t) == 0 else value
+    def _ramp(self, t: float | FloatArray) -> tuple[Any, Callable[[Any], Any]]:
+        """Time within [0, T] and the sine for its type: a solver asks for one t at a time, fast."""
+        if isinstance(t, np.ndarray):
+            return np.clip(t, 0.0, self.ramp_time), np.sin
+        return min(max(t, 0.0), self.ramp_time), math.sin

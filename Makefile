@@ -1,0 +1,44 @@
+# Everything runs in a virtual environment of its own, made on first use.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check -q
+# Linear algebra here is small: threads would only get in each other's way.
+export OMP_NUM_THREADS ?= 1
+export OPENBLAS_NUM_THREADS ?= 1
+
+.PHONY: run test test-all bench lint check clean
+
+run: $(VENV)/.run  ## the main job: spin the paper's beam up
+	$(BIN)/python models/rotating_beam.py
+
+test: $(VENV)/.dev  ## the default test suite
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks"
+
+test-all: $(VENV)/.dev  ## the default suite and what is marked slow
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks"
+
+bench: $(VENV)/.dev  ## speed and memory, each against a reference measured in the same run
+	$(BIN)/python -m pytest -m benchmarks --benchmark-enable
+
+lint: $(VENV)/.dev  ## linters and type checks
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+check: lint test
+
+$(VENV)/.venv:
+	$(PYTHON) -m venv $(VENV)
+	touch $@
+
+$(VENV)/.run: pyproject.toml constraints.txt | $(VENV)/.venv
+	$(PIP) install -c constraints.txt -e .
+	touch $@
+
+$(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.venv
+	$(PIP) install -c constraints.txt -e ".[test,dev]"
+	touch $@ $(VENV)/.run
+
+clean:
+	rm -rf $(VENV) results .pytest_cache .mypy_cache .ruff_cache

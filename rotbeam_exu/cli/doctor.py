@@ -1,0 +1,23 @@
+"""`rotbeam doctor`: whether this installation works."""
+
+from __future__ import annotations
+
+import time
+
+from rich.console import Console
+
+from analytic import Beam, SpinUp
+
+from ..simulation import simulate, versions
+
+
+def doctor() -> None:
+    """Print the versions in use and run one short spin-up with all its checks."""
+    console = Console(highlight=False, soft_wrap=True)
+    for name, version in versions().items():
+        console.print(f"{name:<14}{version}")
+    started = time.perf_counter()
+    run = simulate(
+        Beam.reference(), SpinUp(omega=2.0, ramp_time=0.5), elements=4, duration=1.0, step=5e-3
+    )
+    console.print(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")

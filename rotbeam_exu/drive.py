@@ -1,0 +1,138 @@
+"""The clamp and its prescribed rotation, in the inertial and in the rotating frame.
+
+In the inertial frame the root's direction follows θ(t) of Eq. 1 by a rheonomic constraint. In the
+rotating frame the root stands still and the beam carries the inertial forces of the frame,
+
+    f = θ'² M e - θ'' M J e - 2 θ' M J e',
+
+exact where, as in all elements here, mass matrix and elastic forces commute with a rotation.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import (
+    MarkerNodeCoordinate,
+    MarkerNodeCoordinates,
+    NodePointGround,
+    ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateVector,
+    ObjectGenericODE2,
+)
+from scipy import sparse
+
+from analytic.spin_up import Rotation
+
+from .elements import Chain, Formulation
+from .elements.formulation import FloatArray
+
+
+def fix_root(mbs: exudyn.MainSystem, chain: Chain, coordinates: tuple[int, ...]) -> None:
+    """Hold the given coordinates of the root at their reference values."""
+    ground = mbs.AddNode(NodePointGround())
+    at_rest = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
+    for coordinate in coordinates:
+        moving = mbs.AddMarker(
+            MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=coordinate)
+        )
+        mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=[at_rest, moving]))
+
+
+def prescribe_rotation(
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation
+) -> None:
+    """Make the direction of the root follow Eq. 1 (inertial frame)."""
+    ground = mbs.AddNode(NodePointGround())
+    at_rest = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=ground))
+    root = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
+    at_time: list[Any] = [np.nan, 0.0, 1.0, None]  # asked for several times at each t
+
+    def turn_to(t: float) -> None:
+        if t != at_time[0]:
+            angle = rotation.angle(t)
+            sine, cosine = np.sin(angle), np.cos(angle)
+            at_time[:] = [t, sine, cosine, element.direction_gradient(sine, cosine)]
+
+    def residual(
+        mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
+    ) -> list[float]:
+        turn_to(t)
+        return [element.direction(q, at_time[1], at_time[2])]
+
+    def jacobian(
+        mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
+    ) -> FloatArray:
+        turn_to(t)
+        gradient: FloatArray = at_time[3]
+        return gradient
+
+    size = element.quarter_turn.shape[0]
+    mbs.AddObject(
+        ObjectConnectorCoordinateVector(
+            markerNumbers=[at_rest, root],
+            scalingMarker0=np.zeros((1, 3)),
+            scalingMarker1=np.zeros((1, size)),
+            constraintUserFunction=residual,
+            jacobianUserFunction=jacobian,
+        )
+    )
+
+
+def add_inertial_forces(
+    mbs: exudyn.MainSystem,
+    chain: Chain,
+    element: Formulation,
+    mass: sparse.csr_array,
+    rotation: Rotation,
+) -> None:
+    """Load the beam with centrifugal, Euler and Coriolis forces (rotating frame).
+
+    `mass` is the mass matrix of the chain alone, over all its coordinates, root first.
+    """
+    turn = sparse.kron(sparse.eye_array(len(chain.nodes)), element.quarter_turn, format="csr")
+    gyroscopic = (mass @ turn).tocsr()
+    # A projector to what turns: positions and slopes, not angles.
+    centrifugal = (-(mass @ turn @ turn)).tocsr()
+    reference = np.concatenate(
+        [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
+    )
+    stiff_triplets, gyro_triplets = _triplets(centrifugal), _triplets(gyroscopic)
+
+    def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
+        total = reference + np.asarray(q)
+        rate, acceleration = rotation.rate(t), rotation.acceleration(t)
+        return np.asarray(
+            rate**2 * (centrifugal @ total)
+            - gyroscopic @ (acceleration * total + 2.0 * rate * np.asarray(q_t))
+        )
+
+    def jacobian(
+        mbs: Any, t: float, item: int, q: Any, q_t: Any, factor_q: float, factor_q_t: float
+    ) -> Any:
+        rate, acceleration = rotation.rate(t), rotation.acceleration(t)
+        stiffness = stiff_triplets.copy()
+        stiffness[:, 2] *= -factor_q * rate**2
+        coupling = gyro_triplets.copy()
+        coupling[:, 2] *= factor_q * acceleration + 2.0 * factor_q_t * rate
+        container = exudyn.MatrixContainer()
+        container.SetWithSparseMatrix(np.vstack([stiffness, coupling]), *mass.shape)
+        return container
+
+    empty = exudyn.MatrixContainer()
+    empty.SetWithSparseMatrix(sparse.csr_matrix(mass.shape))
+    mbs.AddObject(
+        ObjectGenericODE2(
+            nodeNumbers=list(chain.nodes),
+            massMatrix=empty,
+            forceUserFunction=force,
+            jacobianUserFunction=jacobian,
+        )
+    )
+
+
+def _triplets(matrix: sparse.csr_array) -> FloatArray:
+    entries = matrix.tocoo()
+    return np.column_stack([entries.row, entries.col, entries.data]).astype(np.float64)

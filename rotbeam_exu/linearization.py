@@ -1,0 +1,135 @@
+"""The finite element model about its rotating equilibrium: mass, stretch, natural frequencies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import exudyn
+import numpy as np
+from scipy import linalg, sparse
+
+from analytic import Beam, SteadyRotation
+from analytic.beam import warn_if_rpm
+from analytic.input_checks import rotation_speed, whole_number
+
+from . import drive
+from .elements import Formulation, formulation
+from .elements.formulation import FloatArray
+from .verdict import SimulationError
+
+
+def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_array:
+    """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    try:
+        model.lay(mbs, beam, elements)
+        mbs.Assemble()
+        system: Any = mbs.ComputeLinearizedSystem(_static_settings(beam, elements))
+    finally:
+        mbs.Reset()
+        container.Reset()
+    return sparse.csr_array(np.asarray(system[0]))
+
+
+def natural_frequencies(
+    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16, count: int = 3
+) -> FloatArray:
+    """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
+
+    Small in-plane vibration about the equilibrium stretched by the rotation, Coriolis and
+    centrifugal terms included: the ω_n to which a nonlinear frequency of the same mesh belongs.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    omega : float
+        Steady angular velocity ω [rad/s].
+    element, elements
+        Formulation and number of elements, as in `simulate`.
+    count : int
+        How many frequencies.
+
+    Returns
+    -------
+    ndarray of shape (count,)
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or the mesh has fewer than `count` modes.
+    SimulationError
+        If the static equilibrium is not found.
+    """
+    whole_number("count", count)
+    _, system = _steady_state(beam, omega, element, elements)
+    mass, stiffness, gyroscopic = system
+    if count > mass.shape[0]:
+        raise ValueError(
+            f"count = {count} is more than the {mass.shape[0]} modes of {elements} {element!r} "
+            "elements; take more elements"
+        )
+    # λ² M + λ G + K = 0 for 1/λ: the lowest modes become the largest eigenvalues, which the
+    # axial modes, 10⁸ times stiffer, then do not round off.
+    size = mass.shape[0]
+    companion = np.zeros((2 * size, 2 * size))
+    companion[:size, :] = -linalg.solve(stiffness, np.hstack([gyroscopic, mass]))
+    companion[size:, :size] = np.eye(size)
+    inverse = linalg.eigvals(companion, overwrite_a=True, check_finite=False)
+    frequencies = 1.0 / np.sort(np.abs(inverse.imag))[::-1]
+    return np.asarray(frequencies[: 2 * count : 2])
+
+
+def steady_stretch(
+    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16
+) -> float:
+    """Tip displacement [m] along the beam in steady rotation without vibration.
+
+    To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67; the whole of it is
+    tan(kL)/k - L with k = ω √(ρ/E), larger by the factor 1 + (2/5)(kL)².
+    """
+    stretch, _ = _steady_state(beam, omega, element, elements)
+    return stretch
+
+
+def _steady_state(
+    beam: Beam, omega: float, element: str, elements: int
+) -> tuple[float, tuple[FloatArray, FloatArray, FloatArray]]:
+    """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium."""
+    omega = rotation_speed(omega)
+    warn_if_rpm(beam, omega)
+    model = formulation(element)
+    mass = mass_matrix(model, beam, whole_number("elements", elements))
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    try:
+        chain = model.lay(mbs, beam, elements)
+        drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+        drive.add_inertial_forces(mbs, chain, model, mass, SteadyRotation(omega=omega))
+        mbs.Assemble()
+        settings = _static_settings(beam, elements)
+        try:
+            mbs.SolveStatic(settings, updateInitialValues=True)
+        except Exception as error:
+            raise SimulationError(
+                f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
+                f"EA = {beam.axial_stiffness:g} N and the speed"
+            ) from error
+        tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
+        linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
+    finally:
+        mbs.Reset()
+        container.Reset()
+    mass_projected, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+    return float(tip[0]), (mass_projected, stiffness, gyroscopic)
+
+
+def _static_settings(beam: Beam, elements: int) -> exudyn.SimulationSettings:
+    settings = exudyn.SimulationSettings()
+    settings.solution.file.write = False
+    settings.staticSolver.verboseMode = 0
+    # Newton cannot go below the round-off of the axial force EA (|r'| - 1), r' from r/l.
+    round_off = 1e-14 * elements * beam.axial_stiffness
+    settings.staticSolver.newton.absoluteTolerance = round_off
+    return settings

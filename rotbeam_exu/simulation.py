@@ -1,0 +1,340 @@
+"""The spin-up in Exudyn: `simulate` builds the beam, drives it with Eq. 1 and judges the run."""
+
+from __future__ import annotations
+
+import json
+import platform
+import time as clock
+from collections.abc import Callable
+from dataclasses import asdict
+from importlib import metadata
+from typing import Any, Literal
+
+import exudyn
+import numpy as np
+import xarray as xr
+from exudyn.itemInterface import SensorBody, SensorNode
+
+from analytic import Beam, SpinUp
+from analytic.beam import warn_if_rpm
+from analytic.input_checks import positive, whole_number
+
+from . import __version__, drive
+from .elements import Chain, Formulation, formulation
+from .elements.formulation import FloatArray
+from .linearization import mass_matrix
+from .verdict import SimulationError, judge
+
+Frame = Literal["inertial", "rotating"]
+
+SAMPLE_INTERVAL = 5e-3
+"""Samples are kept about this far apart [s]: 400 a period of the paper's beam."""
+
+_OUTPUT = exudyn.OutputVariableType
+
+
+def simulate(
+    beam: Beam,
+    spin_up: SpinUp,
+    *,
+    element: str = "cable",
+    elements: int = 16,
+    duration: float = 15.0,
+    step: float = 1e-3,
+    frame: Frame = "inertial",
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Spin the beam up and let it oscillate (Secs. 2 and 6), undamped.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    spin_up : SpinUp
+        Prescribed rotation of the clamped end, Eq. 1.
+    element : str
+        Beam formulation, a key of `rotbeam_exu.elements.FORMULATIONS`.
+    elements : int
+        Number of elements of equal length.
+    duration : float
+        End of the run [s]; longer than the ramp.
+    step : float
+        Step size of the integrator [s]; `duration` holds a whole number of them.
+    frame : {"inertial", "rotating"}
+        Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
+        constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule, whose
+        step error is about 14 times smaller.
+    progress : callable, optional
+        Called with the fraction done, from 0 to 1, about a hundred times.
+
+    Returns
+    -------
+    Dataset
+        Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x, tip_y [m] in the
+        inertial frame, angle [rad], kinetic_energy, elastic_energy, jacobi_energy = E - θ' L_z
+        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest over the
+        nodes). The attributes hold every input, versions, settings, wall time and the verdict.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an input is refused.
+    SimulationError
+        If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+    KeyboardInterrupt
+        On Ctrl-C, at the next step.
+    """
+    model = formulation(element)
+    whole_number("elements", elements)
+    step = positive("step", step, "s")
+    duration = _checked_duration(duration, spin_up)
+    steps = _whole_steps(duration, step)
+    if frame not in ("inertial", "rotating"):
+        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
+    warn_if_rpm(beam, spin_up.omega)
+    every = max(n for n in range(1, max(1, round(SAMPLE_INTERVAL / step)) + 1) if steps % n == 0)
+
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    try:
+        chain = model.lay(mbs, beam, elements)
+        mass = mass_matrix(model, beam, elements)
+        if frame == "inertial":
+            drive.fix_root(mbs, chain, model.fixed_at_root)
+            drive.prescribe_rotation(mbs, chain, model, spin_up)
+        else:
+            drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+            drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
+        sensors = _Sensors(mbs, chain)
+        mbs.Assemble()
+        settings, described = _settings(duration, steps, every, frame)
+        started = clock.perf_counter()
+        _solve(mbs, settings, duration, progress)
+        wall_time = clock.perf_counter() - started
+        time, coordinates, velocities, elastic = sensors.read()
+        if time.size != steps // every + 1:
+            raise SimulationError(
+                f"the solver kept {time.size} samples up to t = {time[-1]:.6g} s instead of "
+                f"{steps // every + 1}: take a smaller step than {step:g} s"
+            )
+    finally:
+        # Systems are not collected by themselves: memory would grow from run to run.
+        mbs.Reset()
+        container.Reset()
+
+    run = _dataset(model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step)
+    run.attrs = {
+        **{f"beam_{name}": value for name, value in asdict(beam).items()},
+        **asdict(spin_up),
+        "element": element,
+        "elements": elements,
+        "duration": duration,
+        "step": step,
+        "frame": frame,
+        "settings": json.dumps(described),
+        "versions": json.dumps(versions()),
+        "wall_time": wall_time,
+    }
+    run.attrs["verdict"] = judge(run)
+    return run
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that a result depends on."""
+    libraries = {name: metadata.version(name) for name in ("exudyn", "numpy", "scipy")}
+    return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
+
+
+def _checked_duration(duration: float, spin_up: SpinUp) -> float:
+    duration = positive("duration", duration, "s")
+    if duration <= spin_up.ramp_time:
+        raise ValueError(
+            f"duration {duration:g} s ends before the steady rotation, which begins at "
+            f"ramp_time {spin_up.ramp_time:g} s; the paper runs 15 s"
+        )
+    return duration
+
+
+def _whole_steps(duration: float, step: float) -> int:
+    steps = round(duration / step)
+    if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
+        nearest = duration / max(steps, 1)
+        raise ValueError(
+            f"duration {duration:g} s is not a whole number of steps of {step:g} s; "
+            f"try a step of {nearest:.6g} s"
+        )
+    return steps
+
+
+def _settings(
+    duration: float, steps: int, every: int, frame: Frame
+) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
+    """Solver settings, and the same as a plain record.
+
+    The default absolute tolerance lies under the round-off floor, and adaptive stepping then
+    halves steps silently. In the rotating frame each iteration calls back into Python, and a new
+    Jacobian for each step saves iterations.
+    """
+    described: dict[str, Any] = {
+        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
+        "spectral_radius": 0.9 if frame == "inertial" else 1.0,
+        "relative_tolerance": 1e-8,
+        "absolute_tolerance": 1e-6,
+        "sample_every": every,
+    }
+    settings = exudyn.SimulationSettings()
+    integration = settings.timeIntegration
+    integration.endTime = duration
+    integration.numberOfSteps = steps
+    integration.adaptiveStep = False
+    integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
+    integration.newton.relativeTolerance = described["relative_tolerance"]
+    integration.newton.absoluteTolerance = described["absolute_tolerance"]
+    integration.newton.modifiedNewtonJacUpdatePerStep = frame == "rotating"
+    integration.verboseMode = 0
+    settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
+    settings.solution.file.write = False
+    # A little under the interval, so that round-off in t does not skip a sample.
+    settings.solution.sensors.writePeriod = every * duration / steps
+    return settings, described
+
+
+def _solve(
+    mbs: exudyn.MainSystem,
+    settings: exudyn.SimulationSettings,
+    duration: float,
+    progress: Callable[[float], None] | None,
+) -> None:
+    """Run the solver; its failures and Ctrl-C come out as what they are."""
+    shown = 0.0
+
+    def before_step(mbs: Any, t: float) -> bool:
+        # Being called at all lets Python see Ctrl-C between two steps.
+        nonlocal shown
+        if progress is not None and t >= shown:
+            progress(min(t / duration, 1.0))
+            shown += 0.01 * duration
+        return True
+
+    mbs.SetPreStepUserFunction(before_step)
+    try:
+        mbs.SolveDynamic(settings)
+    except BaseException as error:
+        if "KeyboardInterrupt" in _chain_of(error):
+            raise KeyboardInterrupt from None
+        raise SimulationError(
+            f"the solver gave up at t = {mbs.systemData.GetTime():.6g} s of {duration:g} s: "
+            f"take a smaller step than {duration / settings.timeIntegration.numberOfSteps:g} s"
+        ) from error
+    if progress is not None:
+        progress(1.0)
+
+
+def _chain_of(error: BaseException | None) -> str:
+    """Names and texts of an error and of what caused it."""
+    text = ""
+    while error is not None:
+        text += f"{type(error).__name__} {error} "
+        error = error.__cause__ or error.__context__
+    return text
+
+
+class _Sensors:
+    """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
+
+    def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
+        self._mbs = mbs
+        self._reference = np.array(
+            [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
+        )
+        self._coordinates = [self._of_node(n, _OUTPUT.Coordinates) for n in chain.nodes]
+        self._velocities = [self._of_node(n, _OUTPUT.Coordinates_t) for n in chain.nodes]
+        self._elastic = [
+            mbs.AddSensor(
+                SensorBody(
+                    bodyNumber=body,
+                    outputVariableType=_OUTPUT.PotentialEnergy,
+                    storeInternal=True,
+                    writeToFile=False,
+                )
+            )
+            for body in chain.bodies
+        ]
+
+    def _of_node(self, node: Any, variable: Any) -> Any:
+        return self._mbs.AddSensor(
+            SensorNode(
+                nodeNumber=node, outputVariableType=variable, storeInternal=True, writeToFile=False
+            )
+        )
+
+    def read(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Time (n,), coordinates and velocities (n, nodes, ·), elastic energy (n,)."""
+        table = self._mbs.GetSensorStoredData
+        time = np.array(table(self._coordinates[0])[:, 0])
+        coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
+        velocities = np.stack([table(s)[:, 1:] for s in self._velocities], axis=1)
+        elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
+        return time, coordinates + self._reference, velocities, elastic
+
+
+def _dataset(
+    model: Formulation,
+    mass: Any,
+    spin_up: SpinUp,
+    frame: Frame,
+    time: FloatArray,
+    coordinates: FloatArray,
+    velocities: FloatArray,
+    elastic: FloatArray,
+    *,
+    step: float,
+) -> xr.Dataset:
+    """Everything a run is asked for, from coordinates in the frame that turns with the clamp."""
+    # The integrator adds up its steps; the grid is what was asked for.
+    time = step * np.rint(time / step)
+    angle, rate = spin_up.angle(time), spin_up.rate(time)
+    turned = coordinates @ model.quarter_turn.T
+    if frame == "inertial":
+        coordinates, absolute = model.turn(coordinates, -angle), model.turn(velocities, -angle)
+        turned = coordinates @ model.quarter_turn.T
+    else:
+        absolute = velocities + rate[:, None, None] * turned
+    flat = absolute.reshape(time.size, -1)
+    momentum = flat @ mass
+    kinetic = 0.5 * np.sum(flat * momentum, axis=1)
+    angular_momentum = np.sum(turned.reshape(time.size, -1) * momentum, axis=1)
+    x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
+    root = coordinates[:, 0]
+    columns = {
+        "q": (y, "m", "tip displacement q"),
+        "q_dot": (absolute[:, -1, 1] - rate * x, "m/s", "tip velocity dq/dt"),
+        "tip_x": (np.cos(angle) * x - np.sin(angle) * y, "m", "tip position along inertial x"),
+        "tip_y": (np.sin(angle) * x + np.cos(angle) * y, "m", "tip position along inertial y"),
+        "angle": (angle, "rad", "angle of the clamp"),
+        "kinetic_energy": (kinetic, "J", "kinetic energy"),
+        "elastic_energy": (elastic, "J", "elastic energy"),
+        "jacobi_energy": (
+            kinetic + elastic - rate * angular_momentum,
+            "J",
+            "Jacobi energy E - ω L_z",
+        ),
+        "clamp_residual": (np.hypot(root[:, 0], root[:, 1]), "m", "position error of the clamp"),
+        "direction_residual": (
+            np.array([model.direction(r, 0.0, 1.0) for r in root]),
+            "1",
+            "direction error of the clamp",
+        ),
+        "axial_strain": (
+            np.abs(model.axial_strain(coordinates)).max(axis=1),
+            "1",
+            "largest axial strain over the nodes",
+        ),
+    }
+    return xr.Dataset(
+        {
+            name: ("time", values, {"units": unit, "long_name": label})
+            for name, (values, unit, label) in columns.items()
+        },
+        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
+    )

@@ -1,0 +1,160 @@
+"""`rotbeam` as a user meets it."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rotbeam_exu import load
+from rotbeam_exu.cli import main
+
+REPOSITORY = Path(__file__).parents[2]
+SHORT = ["--elements", "4", "--step", "0.005", "--duration", "8"]
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+
+
+def refused(capsys, *arguments):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    return stop.value.code, capsys.readouterr().err
+
+
+def test_the_main_job_prints_a_summary_and_writes_four_files(tmp_path, capsys):
+    main(["run", *SHORT, "--out", str(tmp_path)])
+    summary = capsys.readouterr().out
+    for word in (
+        "natural frequency", "steady amplitude", "steady frequency", "constraint residual",
+        "energy drift", "wall time", "verdict               passed",
+    ):  # fmt: skip
+        assert word in summary
+    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv", ".nc", ".pdf", ".png"]
+    run = load(next(tmp_path.glob("*.nc")))
+    assert run.attrs["elements"] == 4
+
+
+def test_the_script_is_the_command(tmp_path):
+    script = REPOSITORY / "models" / "rotating_beam.py"
+    assert len(script.read_text().splitlines()) < 40
+    done = subprocess.run(
+        [sys.executable, script, *SHORT, "--out", tmp_path],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "verdict               passed" in done.stdout
+    assert done.stderr == ""
+
+
+def test_another_beam_from_toml(tmp_path, capsys):
+    config = tmp_path / "beam.toml"
+    config.write_text(
+        "[beam]\nlength = 10\naxial_stiffness = 2.8e7\n"
+        "bending_stiffness = 1.4e4\nmass_per_length = 1.2\n"
+    )
+    main(["run", *SHORT, "--config", str(config), "--out", str(tmp_path / "out")])
+    assert "L = 10 m, EI = 14000 N m²" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("[beam]\nlenght = 8.0\n", "unknown key 'lenght' in [beam]; did you mean 'length'?"),
+        ("[beam]\nlength = 8.0\n", "[beam] lacks area, second_moment, youngs_modulus, density"),
+        ("[beem]\nlength = 8.0\n", "unknown table or key 'beem'"),
+        ("length = \n", "is not valid TOML"),
+        ("", "has no table [beam]"),
+        (
+            "[beam]\nlength = -8.0\narea = 1\nsecond_moment = 1\nyoungs_modulus = 1\ndensity = 1\n",
+            "length must be positive, got -8.0 m",
+        ),
+    ],
+)
+def test_a_bad_beam_file_is_one_sentence(tmp_path, capsys, text, sentence):
+    config = tmp_path / "beam.toml"
+    config.write_text(text)
+    code, error = refused(capsys, "run", "--config", str(config), "--out", str(tmp_path))
+    assert code == 2
+    assert sentence in error
+    assert len(error.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--ramp-time", "-2"], "ramp_time must be positive, got -2.0 s"),
+        (["--omega", "nan"], "omega must be finite"),
+        (["--duration", "2"], "duration 2 s ends before"),
+        (["--step", "0"], "step must be positive"),
+        (["--elements", "0"], "elements must be at least 1"),
+        (["--elements", "many"], "many"),
+        (["--element", "brick"], "unknown element 'brick'; known are 'cable'"),
+        (["--config", "none.toml"], "there is no file none.toml"),
+        (["--speed", "6"], "--speed"),
+    ],
+)
+def test_bad_arguments_exit_with_2_and_one_sentence(tmp_path, capsys, arguments, sentence):
+    code, error = refused(capsys, "run", "--out", str(tmp_path), *arguments)
+    assert code == 2
+    assert sentence in error
+    assert "Traceback" not in error
+    assert len(error.splitlines()) == 1
+
+
+def test_an_unwritable_folder_is_found_before_the_simulation(tmp_path, capsys, monkeypatch):
+    import rotbeam_exu.cli.run as job
+
+    monkeypatch.setattr(job, "simulate", lambda *_, **__: pytest.fail("simulated first"))
+    (tmp_path / "file").write_text("")
+    code, error = refused(capsys, "run", "--out", str(tmp_path / "file"))
+    assert code == 2
+    assert "cannot write to the folder" in error
+
+
+def test_a_failed_run_exits_with_1_and_writes_nothing(tmp_path, capsys):
+    code, error = refused(capsys, "run", "--step", "0.5", "--out", str(tmp_path))
+    assert code == 1
+    assert "take a smaller step than 0.5 s" in error
+    assert not list(tmp_path.iterdir())
+
+
+def test_rpm_is_a_warning_on_the_command_line(tmp_path, capsys):
+    _, error = refused(capsys, "run", *SHORT, "--omega", "400", "--out", str(tmp_path))
+    assert "warning: omega = 400 rad/s is 137 times" in error
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_interrupt_stops_within_a_second_and_leaves_nothing(tmp_path, frame):
+    job = subprocess.Popen(
+        [sys.executable, "-m", "rotbeam_exu.cli", "run", "--step", "1e-5", "--frame", frame,
+         "--out", tmp_path],
+        cwd=REPOSITORY, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip
+    try:
+        time.sleep(8.0)  # well into the solver, on a machine as slow as can be
+        assert job.poll() is None
+        job.send_signal(signal.SIGINT)
+        asked = time.monotonic()
+        _, error = job.communicate(timeout=30.0)
+        waited = time.monotonic() - asked
+    finally:
+        job.kill()
+    assert job.returncode == 130
+    assert "interrupted" in error
+    assert not list(tmp_path.iterdir())
+    # Asked: a second. Python's own exit takes a third of it.
+    assert waited < 1.0
+
+
+def test_doctor(capsys):
+    main(["doctor"])
+    assert "spin-up       passed" in capsys.readouterr().out

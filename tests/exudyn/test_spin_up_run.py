@@ -1,0 +1,143 @@
+"""The spin-up of the paper's beam at ω = 6 rad/s, T = 3 s: convergence and conservation."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu.verdict import energy_drift
+
+TIMES = [1.5, 3.0, 6.0, 10.0, 15.0]
+CONVERGED = np.array([-4.887901, 1.441960, 2.349072, -0.895043, -0.287494])
+
+
+def at(run, times):
+    return run["q"].sel(time=times, method="nearest", tolerance=1e-9).to_numpy()
+
+
+@pytest.fixture(scope="module")
+def fine(beam, spin_up):
+    return simulate(beam, spin_up, elements=32, step=2e-3, frame="rotating")
+
+
+@pytest.fixture(scope="module")
+def main_job(beam, spin_up):
+    return simulate(beam, spin_up)
+
+
+def test_history_reaches_the_converged_one(fine):
+    largest = np.abs(fine["q"]).max().item()
+    # Asked: 1e-3 of max|q|. Mesh and step leave 1.2e-4 here.
+    assert np.abs(at(fine, TIMES) - CONVERGED).max() < 2e-4 * largest
+
+
+def test_main_job_reaches_the_converged_one(main_job):
+    largest = np.abs(main_job["q"]).max().item()
+    assert np.abs(at(main_job, TIMES) - CONVERGED).max() < 1e-3 * largest
+
+
+def test_amplitude_and_frequency(beam, fine):
+    steady = steady_oscillation(fine)
+    omega_n = natural_frequencies(beam, 6.0, elements=32)[0]
+    # Step error of ω_NL at 2 ms, rotating frame: 5e-6; printed digits: 5e-7, 5e-6.
+    assert steady.frequency / omega_n == pytest.approx(0.997901, abs=6e-6)
+    assert steady.amplitude == pytest.approx(0.32020, abs=5e-5)
+    assert steady.frequency_error < 1e-6
+    assert abs(steady.offset) < 1e-5
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_step_order_is_two(beam, spin_up, frame, fitted_order):
+    steps = np.array([4e-3, 2e-3, 1e-3, 5e-4])
+    times = np.arange(0.1, 6.01, 0.1)
+    runs = [
+        at(simulate(beam, spin_up, elements=4, step=h, duration=6.0, frame=frame), times)
+        for h in steps
+    ]
+    changes = [np.abs(a - b).max() for a, b in pairwise(runs)]
+    assert fitted_order(steps[:-1], changes) == pytest.approx(2.0, abs=0.03)
+
+
+def test_rotating_frame_has_a_tenth_of_the_step_error(beam, spin_up):
+    def change(frame):
+        coarse, fine = (
+            simulate(beam, spin_up, elements=4, step=h, duration=6.0, frame=frame)["q"][-1].item()
+            for h in (4e-3, 2e-3)
+        )
+        return abs(coarse - fine)
+
+    assert change("inertial") > 10.0 * change("rotating")
+
+
+def test_mesh_order_is_four(beam, spin_up, fitted_order):
+    meshes = [4, 8, 16, 32]
+    runs = [
+        simulate(beam, spin_up, elements=n, step=2e-3, duration=6.0, frame="rotating")["q"]
+        for n in meshes
+    ]
+    changes = [np.abs(a - b).max().item() for a, b in pairwise(runs)]
+    # Still approaching four on meshes this coarse: 3.6 and 3.9 between neighbors.
+    assert -fitted_order(meshes[:-1], changes) == pytest.approx(4.0, abs=0.35)
+
+
+def test_both_frames_converge_to_the_same(beam, spin_up):
+    """Two formulations of drive, inertia and integrator; the difference falls with the step."""
+    gaps = []
+    for step in (2e-3, 1e-3):
+        inertial, rotating = (
+            simulate(beam, spin_up, elements=4, step=step, duration=6.0, frame=frame)
+            for frame in ("inertial", "rotating")
+        )
+        gaps.append(np.abs(inertial["q"] - rotating["q"]).max().item())
+    assert gaps[1] < 0.26 * gaps[0]
+    assert gaps[1] < 1e-3
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_constraints_and_energy(beam, spin_up, frame):
+    run = simulate(beam, spin_up, frame=frame)
+    assert np.abs(run["direction_residual"]).max() < 1e-10
+    assert run["clamp_residual"].max() < 1e-10
+    drift, ripple = energy_drift(run)
+    # Neither integrator gains or loses energy for good: asked 1e-5 of the largest strain energy.
+    assert drift < 1e-5
+    # The truncation error comes and goes; second order, 1.2e-5 and 1e-6 at this step.
+    assert ripple < {"inertial": 1.5e-5, "rotating": 1.5e-6}[frame]
+
+
+def test_velocity_is_the_rate_of_q(main_job):
+    slope = np.gradient(main_job["q"], main_job["time"])
+    # Central differences at 5 ms: h²/6 times the third derivative (25 rad/s)³ of small content.
+    inner = slice(1, -1)
+    assert np.abs(slope - main_job["q_dot"])[inner].max() < 2e-3
+
+
+def test_work_of_the_drive_is_the_energy(main_job):
+    """dE/dt is the drive's power; with E - θ' L_z steady it is ω dL_z/dt, on average zero."""
+    steady = main_job.where(main_job["time"] >= 3.0, drop=True)
+    total = steady["kinetic_energy"] + steady["elastic_energy"]
+    assert total.max() - total.min() > 1.0
+    assert np.ptp(steady["jacobi_energy"].to_numpy()) < 1e-3 * np.ptp(total.to_numpy())
+
+
+def test_tip_stays_on_its_definition(main_job):
+    """Eq. 16: q is the tip along the axis that turns with the clamp."""
+    theta = main_job["angle"]
+    q = -np.sin(theta) * main_job["tip_x"] + np.cos(theta) * main_job["tip_y"]
+    assert np.abs(q - main_job["q"]).max() < 1e-13 * 8.0
+
+
+def test_a_beam_at_rest_stays_at_rest(beam):
+    from analytic import SpinUp
+
+    run = simulate(beam, SpinUp(omega=0.0, ramp_time=1.0), elements=4, duration=2.0, step=1e-2)
+    assert np.abs(run["q"]).max() < 1e-15
+
+
+def test_progress_runs_from_zero_to_one(beam, spin_up):
+    seen = []
+    simulate(beam, spin_up, elements=2, duration=4.0, step=5e-3, progress=seen.append)
+    assert seen[-1] == 1.0
+    assert seen == sorted(seen)
+    assert 90 < len(seen) < 110
