@@ -61,7 +61,8 @@ def followed(
             halvings += 1
             if halvings > _HALVINGS:
                 raise NoOrbitError(
-                    f"the continuation stops at {last.amplitude:.4g}, beyond which {reason}"
+                    f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}",
+                    last,
                 ) from None
             target = 0.5 * (last.amplitude + target)
             continue
@@ -92,7 +93,7 @@ def _predicted(
 def _resolved(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
     """Return the orbit near `guess` with as many harmonics as its Jacobi integral needs."""
     orbit = solve(guess, amplitude)
-    while orbit.jacobi_drift > _JACOBI_BOUND:
+    while orbit.jacobi_drift > _JACOBI_BOUND + orbit.jacobi_noise:
         if orbit.harmonics >= _MOST_HARMONICS:
             raise NoOrbitError(
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "

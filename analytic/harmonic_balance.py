@@ -20,12 +20,17 @@ from .basis import FloatArray
 from .continuum import Continuum, continuum
 
 _NEWTON_STEPS = 15
-_CONVERGED = 1e-13  # of the coordinates: a little above the round-off of the residual
+_CONVERGED = 1e-13  # of the coordinates of θ and of Ω
+_ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of steady e
 _SLOW = 0.1  # a contraction worse than this pays for a new tangent
 
 
 class NoOrbitError(Exception):
-    """Newton's method found no orbit; the message says why."""
+    """Newton's method found no orbit; the message says why, `last` is the last orbit found."""
+
+    def __init__(self, message: str, last: PeriodicOrbit | None = None) -> None:
+        super().__init__(message)
+        self.last = last
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,6 +120,14 @@ class PeriodicOrbit:
         q, q_dot, _ = self.coordinates(self._fine_phases)
         integral = self.model.jacobi_integral(q, q_dot, self.rate)
         return float(np.ptp(integral) / self.model.kinetic_energy(q, q_dot).max())
+
+    @cached_property
+    def jacobi_noise(self) -> float:
+        """Round-off of `jacobi_drift`: the centrifugal part outweighs small orbits."""
+        q, q_dot, _ = self.coordinates(self._fine_phases)
+        size = np.abs(self.model.jacobi_integral(q, q_dot, self.rate)).max()
+        kinetic = self.model.kinetic_energy(q, q_dot).max()
+        return float(4.0 * np.finfo(float).eps * size / kinetic)
 
     def with_harmonics(self, count: int) -> PeriodicOrbit:
         """Return the same orbit with its series cut or padded to `count` harmonics."""
@@ -270,9 +283,13 @@ def solve(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
             cosines=orbit.cosines - change[cut:-1].reshape(orbit.cosines.shape),
             frequency=orbit.frequency - float(change[-1]),
         )
-        size = float(np.linalg.norm(change) / np.linalg.norm(orbit.sines))
+        size = float(
+            np.linalg.norm(change[:-1]) / np.linalg.norm(orbit.sines)
+            + abs(change[-1]) / orbit.frequency
+        )
         contraction = size / last if np.isfinite(last) else 1.0
-        if size * min(1.0, contraction) < _CONVERGED:
+        stagnates = size < _ROUND_OFF and contraction > _SLOW
+        if stagnates or size * min(1.0, contraction) < _CONVERGED:
             return replace(_at_peak(orbit)[0], amplitude=amplitude)
         if size > 1.0 or orbit.frequency <= 0.0:
             break

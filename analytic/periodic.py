@@ -206,6 +206,7 @@ def periodic_orbits(
     model = resolved_model(beam, mode, inextensible, rotary_inertia, functions)
     rate = steady_rate(beam, omega, model)
     modes = solve_modes(model, rate)
+    resolved = modes.frequencies[: functions // 2]
     omega_n = float(modes.frequencies[mode - 1])
     small = 0.02 / mode**2
     where = f"mode {mode} at omega = {omega:g} rad/s"
@@ -231,12 +232,13 @@ def periodic_orbits(
             last, before = followed(last, before, float(a))
         except NoOrbitError as reason:
             raise RuntimeError(
-                f"no orbit of {where} with a peak |q|/L of {a:g} was found; the last amplitude "
-                f"reached is {last.amplitude:g}, and {reason}; ask for smaller amplitudes"
+                f"no orbit of {where} with a peak |q|/L of {a:g} was found: {reason}"
+                f"{_nearest_resonance(reason.last or last, resolved, mode)}; ask for smaller "
+                "amplitudes"
             ) from None
         found.append(last)
     orbits = tuple(found[k] for k in order)
-    _warn_of_resonances(found, modes.frequencies[: functions // 2], mode, beam.frequency_scale)
+    _warn_of_resonances(found, resolved, mode, beam.frequency_scale)
     count = max(orbit.harmonics for orbit in orbits)
     return Backbone(
         beam=beam,
@@ -252,6 +254,15 @@ def periodic_orbits(
         jacobi_drift=np.array([orbit.jacobi_drift for orbit in orbits]),
         _orbits=orbits,
     )
+
+
+def _nearest_resonance(orbit: PeriodicOrbit, modes: FloatArray, mode: int) -> str:
+    """Return which harmonic is nearest to another mode: the usual reason why a branch bends."""
+    multiples = np.arange(2, orbit.harmonics + 1) * orbit.frequency
+    distance = np.abs(multiples[:, None] / modes - 1.0)
+    distance[:, mode - 1] = np.inf
+    k, j = np.unravel_index(np.argmin(distance), distance.shape)
+    return f" (harmonic {k + 2} is {100.0 * distance[k, j]:.1f} % from mode {j + 1} there)"
 
 
 def _warn_of_resonances(
