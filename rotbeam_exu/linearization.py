@@ -33,7 +33,12 @@ def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_arr
 
 
 def natural_frequencies(
-    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16, count: int = 3
+    beam: Beam,
+    omega: float,
+    *,
+    element: str | Formulation = "cable",
+    elements: int = 16,
+    count: int = 3,
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
@@ -66,8 +71,9 @@ def natural_frequencies(
     _, system = _steady_state(beam, omega, element, elements)
     mass, stiffness, gyroscopic = system
     if count > mass.shape[0]:
+        name = formulation(element).name
         raise ValueError(
-            f"count = {count} is more than the {mass.shape[0]} modes of {elements} {element!r} "
+            f"count = {count} is more than the {mass.shape[0]} modes of {elements} {name!r} "
             "elements; take more elements"
         )
     # λ² M + λ G + K = 0 for 1/λ: the lowest modes become the largest eigenvalues, which the
@@ -82,7 +88,7 @@ def natural_frequencies(
 
 
 def steady_stretch(
-    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16
+    beam: Beam, omega: float, *, element: str | Formulation = "cable", elements: int = 16
 ) -> float:
     """Tip displacement [m] along the beam in steady rotation without vibration.
 
@@ -94,7 +100,7 @@ def steady_stretch(
 
 
 def _steady_state(
-    beam: Beam, omega: float, element: str, elements: int
+    beam: Beam, omega: float, element: str | Formulation, elements: int
 ) -> tuple[float, tuple[FloatArray, FloatArray, FloatArray]]:
     """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium."""
     omega = rotation_speed(omega)
@@ -105,7 +111,7 @@ def _steady_state(
     mbs = container.AddSystem()
     try:
         chain = model.lay(mbs, beam, elements)
-        drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+        drive.fix_root(mbs, chain, model, direction=True)
         drive.add_inertial_forces(mbs, chain, model, mass, SteadyRotation(omega=omega))
         mbs.Assemble()
         settings = _static_settings(beam, elements)

@@ -20,8 +20,8 @@ from analytic.beam import warn_if_rpm
 from analytic.input_checks import positive, whole_number
 
 from . import __version__, drive
-from .elements import Chain, Formulation, formulation
-from .elements.formulation import FloatArray
+from .elements import Chain, Formulation, formulation, options_of
+from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix
 from .verdict import SimulationError, judge
 
@@ -37,7 +37,7 @@ def simulate(
     beam: Beam,
     spin_up: SpinUp,
     *,
-    element: str = "cable",
+    element: str | Formulation = "cable",
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
@@ -52,8 +52,9 @@ def simulate(
         The beam.
     spin_up : SpinUp
         Prescribed rotation of the clamped end, Eq. 1.
-    element : str
-        Beam formulation, a key of `rotbeam_exu.elements.FORMULATIONS`.
+    element : str or Formulation
+        Beam formulation: a key of `rotbeam_exu.elements.FORMULATIONS`, or an instance with its
+        options, such as `Exact(nodes=3)`.
     elements : int
         Number of elements of equal length.
     duration : float
@@ -72,8 +73,8 @@ def simulate(
     Dataset
         Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x, tip_y [m] in the
         inertial frame, angle [rad], kinetic_energy, elastic_energy, jacobi_energy = E - θ' L_z
-        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest over the
-        nodes). The attributes hold every input, versions, settings, wall time and the verdict.
+        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest along
+        the beam). The attributes hold every input, versions, settings, wall time and the verdict.
 
     Raises
     ------
@@ -100,10 +101,10 @@ def simulate(
         chain = model.lay(mbs, beam, elements)
         mass = mass_matrix(model, beam, elements)
         if frame == "inertial":
-            drive.fix_root(mbs, chain, model.fixed_at_root)
+            drive.fix_root(mbs, chain, model)
             drive.prescribe_rotation(mbs, chain, model, spin_up)
         else:
-            drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+            drive.fix_root(mbs, chain, model, direction=True)
             drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
         sensors = _Sensors(mbs, chain)
         mbs.Assemble()
@@ -122,11 +123,14 @@ def simulate(
         mbs.Reset()
         container.Reset()
 
-    run = _dataset(model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step)
+    run = _dataset(
+        beam, model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step
+    )
     run.attrs = {
         **{f"beam_{name}": value for name, value in asdict(beam).items()},
         **asdict(spin_up),
-        "element": element,
+        "element": model.name,
+        "element_options": json.dumps(options_of(model)),
         "elements": elements,
         "duration": duration,
         "step": step,
@@ -243,7 +247,7 @@ class _Sensors:
     """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
 
     def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
-        self._mbs = mbs
+        self._mbs, self._chain = mbs, chain
         self._reference = np.array(
             [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
         )
@@ -274,11 +278,15 @@ class _Sensors:
         time = np.array(table(self._coordinates[0])[:, 0])
         coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
         velocities = np.stack([table(s)[:, 1:] for s in self._velocities], axis=1)
+        coordinates += self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
-        return time, coordinates + self._reference, velocities, elastic
+        if self._chain.elastic_energy is not None:
+            elastic = elastic + self._chain.elastic_energy(coordinates)
+        return time, coordinates, velocities, elastic
 
 
 def _dataset(
+    beam: Beam,
     model: Formulation,
     mass: Any,
     spin_up: SpinUp,
@@ -294,18 +302,18 @@ def _dataset(
     # The integrator adds up its steps; the grid is what was asked for.
     time = step * np.rint(time / step)
     angle, rate = spin_up.angle(time), spin_up.rate(time)
-    turned = coordinates @ model.quarter_turn.T
     if frame == "inertial":
-        coordinates, absolute = model.turn(coordinates, -angle), model.turn(velocities, -angle)
-        turned = coordinates @ model.quarter_turn.T
+        coordinates = turned(model, coordinates, -angle)
+        absolute = turned_velocities(model, velocities, -angle)
     else:
-        absolute = velocities + rate[:, None, None] * turned
+        absolute = velocities + rate[:, None, None] * spun(model, coordinates)
     flat = absolute.reshape(time.size, -1)
     momentum = flat @ mass
     kinetic = 0.5 * np.sum(flat * momentum, axis=1)
-    angular_momentum = np.sum(turned.reshape(time.size, -1) * momentum, axis=1)
+    angular_momentum = np.sum(spun(model, coordinates).reshape(time.size, -1) * momentum, axis=1)
     x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
     root = coordinates[:, 0]
+    gradient, target = model.clamp(0.0)
     columns = {
         "q": (y, "m", "tip displacement q"),
         "q_dot": (absolute[:, -1, 1] - rate * x, "m/s", "tip velocity dq/dt"),
@@ -321,14 +329,14 @@ def _dataset(
         ),
         "clamp_residual": (np.hypot(root[:, 0], root[:, 1]), "m", "position error of the clamp"),
         "direction_residual": (
-            np.array([model.direction(r, 0.0, 1.0) for r in root]),
+            np.abs(root @ gradient.T - target).max(axis=1),
             "1",
             "direction error of the clamp",
         ),
         "axial_strain": (
-            np.abs(model.axial_strain(coordinates)).max(axis=1),
+            np.abs(model.axial_strain(beam, coordinates)).max(axis=1),
             "1",
-            "largest axial strain over the nodes",
+            "largest axial strain along the beam",
         ),
     }
     return xr.Dataset(
