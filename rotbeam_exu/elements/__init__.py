@@ -6,11 +6,12 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+from .ancf3 import Ancf3
 from .cable import Cable
 from .exact import Exact
 from .formulation import Chain, Formulation
 
-FORMULATIONS: dict[str, type[Any]] = {cls.name: cls for cls in (Cable, Exact)}
+FORMULATIONS: dict[str, type[Any]] = {cls.name: cls for cls in (Cable, Exact, Ancf3)}
 """The class of each formulation, a frozen dataclass whose fields are its options."""
 
 
@@ -44,4 +45,13 @@ def options_of(element: Formulation) -> dict[str, Any]:
     return dataclasses.asdict(element)  # type: ignore[call-overload, no-any-return]
 
 
-__all__ = ["FORMULATIONS", "Cable", "Chain", "Exact", "Formulation", "formulation", "options_of"]
+__all__ = [
+    "FORMULATIONS",
+    "Ancf3",
+    "Cable",
+    "Chain",
+    "Exact",
+    "Formulation",
+    "formulation",
+    "options_of",
+]
