@@ -56,20 +56,27 @@ def rotating_frequencies(w_bar: float, count: int = 3) -> FloatArray:
     return np.asarray(1.0 / np.sqrt(reciprocal[::-1][:count]))
 
 
-def coriolis_coupling(mode: RotatingMode, functions: int = _FUNCTIONS) -> CoriolisCoupling:
+def coupling_vector(mode: RotatingMode, count: int) -> FloatArray:
+    """Return d = D[φ_k], (count,), for every function of the `transverse_basis`."""
+    x, weights = gauss_points(_POINTS)
+    phi, slope, _ = transverse_basis(count, x)
+    # ∫A(φ) φ₁ dx = -½∫φ₁' φ' S dx with S = ∫ₓ¹ φ₁ dξ, and A(φ₁) is φ_u of Eq. 28.
+    beyond = x[:, np.newaxis] + (1.0 - x[:, np.newaxis]) * x
+    outboard = (1.0 - x) * (mode.deflection(beyond) @ weights)
+    return np.asarray(
+        -(weights * 0.5 * outboard * mode.slope(x)) @ slope
+        - (weights * mode.foreshortening(x)) @ phi
+    )
+
+
+def coriolis_coupling(mode: RotatingMode, count: int = _FUNCTIONS) -> CoriolisCoupling:
     """Return what all other bending modes do to the first, by one linear solve."""
     x, weights = gauss_points(_POINTS)
-    phi, slope, _ = transverse_basis(functions, x)
-    # ∫A(φ) φ₁ dx = -½∫φ₁' φ' S dx with S = ∫ₓ¹ φ₁ dξ, and A(φ₁) is φ_u of Eq. 28.
-    outboard = (1.0 - x) * (
-        mode.deflection(x[:, np.newaxis] + (1.0 - x[:, np.newaxis]) * x) @ weights
-    )
-    d = -(weights * 0.5 * outboard * mode.slope(x)) @ slope
-    d -= (weights * mode.foreshortening(x)) @ phi
-    K, M = rotating_eigenproblem(mode.w_bar, functions)
+    d = coupling_vector(mode, count)
+    K, M = rotating_eigenproblem(mode.w_bar, count)
     follow = solve(K - 4.0 * mode.w_n**2 * M, 4.0 * mode.w_bar * d, assume_a="sym")
     M_1 = weights @ mode.deflection(x) ** 2
-    tip = transverse_basis(functions, np.array([1.0])).value[0]
+    tip = transverse_basis(count, np.array([1.0])).value[0]
     return CoriolisCoupling(
         g2=float(4.0 * mode.w_bar * (d @ follow) / M_1), tip=float(tip @ follow)
     )

@@ -268,8 +268,7 @@ def _finite(name: str, values: ArrayLike) -> FloatArray:
     if array.dtype.kind not in "iuf" and array.size:
         raise TypeError(f"{name} must hold numbers, got {values!r}")
     array = np.asarray(array, dtype=np.float64)
-    # The sum is finite unless a value is not, or (never here) it overflows.
-    if not np.isfinite(array.sum()) and not np.isfinite(array).all():
-        bad = array[~np.isfinite(array)].flat[0]
-        raise ValueError(f"{name} must be finite, got {bad}")
+    finite = np.isfinite(array)
+    if not finite.all():
+        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}")
     return array
