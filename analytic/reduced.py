@@ -44,7 +44,8 @@ class ReducedModel:
     w_n, g1, g2 : float
         Coefficients of Eq. 41 (w_n² its linear term), nondimensional.
     tip_coupling : float
-        Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included.
+        Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
+        second order. Their own third harmonics are not, so λ_x is the first mode's, not the tip's.
     """
 
     beam: Beam
