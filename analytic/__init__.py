@@ -7,13 +7,39 @@ each name below is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 from .beam import Beam
 from .spin_up import SpinUp, SteadyRotation
 
-_LAZY: dict[str, str] = {}
+if TYPE_CHECKING:
+    from .reduced import ReducedModel, critical_speed, reduced_model
+    from .softening import softening_speed
+    from .tables import paper_table
+    from .variants import VARIANTS, Variant
 
-__all__ = ["Beam", "SpinUp", "SteadyRotation"]
+_LAZY: dict[str, str] = {
+    "VARIANTS": "variants",
+    "ReducedModel": "reduced",
+    "Variant": "variants",
+    "critical_speed": "reduced",
+    "paper_table": "tables",
+    "reduced_model": "reduced",
+    "softening_speed": "softening",
+}
+
+__all__ = [
+    "VARIANTS",
+    "Beam",
+    "ReducedModel",
+    "SpinUp",
+    "SteadyRotation",
+    "Variant",
+    "critical_speed",
+    "paper_table",
+    "reduced_model",
+    "softening_speed",
+]
 
 
 def __getattr__(name: str) -> object:

@@ -20,7 +20,7 @@ app = cyclopts.App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for _command in ("run", "doctor"):
+for _command in ("run", "backbone", "table", "doctor"):
     app.command(f"{__name__}.{_command}:{_command}", name=_command)
 
 
