@@ -15,7 +15,7 @@ from .output import Format, print_columns
 def backbone(
     *,
     omega: float,
-    amplitude: Annotated[list[float], Parameter(consume_multiple=True)],
+    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: str = "FrE",
     all_variants: Annotated[bool, Parameter(negative=())] = False,
     form: Annotated[Format, Parameter(name="--format")] = "table",
