@@ -9,6 +9,9 @@ from __future__ import annotations
 import math
 from numbers import Integral, Real
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class RotbeamWarning(UserWarning):
     """Input or a result that is legal but probably not what was meant."""
@@ -66,3 +69,20 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
         "rad/s",
         "a beam that turns the other way is the mirror image, so change the sign of q",
     )
+
+
+def finite_values(name: str, values: object, unit: str = "") -> NDArray[np.float64]:
+    """Return a number or a sequence of numbers as a 1-d array, refusing what is not finite."""
+    try:
+        array = np.atleast_1d(np.asarray(values))
+        if array.dtype.kind not in "fiu":
+            raise TypeError
+        array = array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {values!r}") from None
+    if array.ndim != 1 or array.size == 0:
+        raise ValueError(f"{name} must be a sequence of numbers, got shape {array.shape}")
+    if not np.all(np.isfinite(array)):
+        first = array[~np.isfinite(array)][0]
+        raise ValueError(f"{name} must be finite, got {first}{_unit(unit)}")
+    return array

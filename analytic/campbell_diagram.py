@@ -1,0 +1,137 @@
+"""Campbell diagram of the rotating beam: in-plane frequencies over the speed, tracked by shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import optimize
+
+from .basis import FloatArray
+from .beam import Beam
+from .input_checks import finite_values, rotation_speed, whole_number
+from .modes import LinearModes, linear_modes
+
+_SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
+
+
+@dataclass(frozen=True, kw_only=True)
+class Crossing:
+    """Where a mode's frequency is a multiple of the speed: `mode` meets the line kω.
+
+    Attributes
+    ----------
+    mode : int
+        Mode, from 1, in the order of the frequencies at the lowest speed.
+    order : int
+        Engine order k.
+    omega : float
+        Speed [rad/s].
+    frequency : float
+        Frequency kω [rad/s].
+    """
+
+    mode: int
+    order: int
+    omega: float
+    frequency: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Campbell:
+    """In-plane frequencies against the speed; made by `campbell`.
+
+    Attributes
+    ----------
+    beam : Beam
+    omegas : ndarray (speeds,)
+        Rotation speeds [rad/s].
+    frequencies : ndarray (speeds, count)
+        Frequencies in the rotating frame [rad/s], one column for each tracked mode.
+    mac : ndarray (speeds - 1, count)
+        Modal assurance criterion of each mode from one speed to the next; well below 1 the
+        tracking is in doubt and the speeds are too far apart.
+    crossings : tuple of Crossing
+        Where frequencies cross the lines kω, k from 1, within the speeds.
+    """
+
+    beam: Beam
+    omegas: FloatArray
+    frequencies: FloatArray
+    mac: FloatArray
+    crossings: tuple[Crossing, ...]
+
+
+def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) -> Campbell:
+    """Return the Campbell diagram of the first `count` in-plane modes.
+
+    Parameters
+    ----------
+    beam : Beam
+    omegas : array_like
+        Rotation speeds [rad/s], ascending.
+    count : int
+        Number of modes, those lowest at the first speed.
+    orders : int
+        Lines kω up to this k.
+
+    Raises
+    ------
+    ValueError
+        If the speeds do not ascend from 0 or above, or `linear_modes` refuses one.
+    """
+    speeds = finite_values("omegas", omegas, "rad/s")
+    for speed in speeds:
+        rotation_speed(float(speed), "omegas")
+    if np.any(np.diff(speeds) <= 0.0):
+        raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
+    count, orders = whole_number("count", count), whole_number("orders", orders)
+
+    def modes_at(omega: float) -> LinearModes:
+        wanted = count + _SPARE_MODES
+        return linear_modes(beam, omega, wanted, functions=max(20, 2 * wanted))
+
+    here = modes_at(float(speeds[0]))
+    tracked = np.arange(count)
+    frequencies, assurances = [here.frequencies[:count]], []
+    crossings: list[Crossing] = []
+    for low, high in pairwise(speeds.tolist()):
+        there = modes_at(high)
+        assurance = _assurance(here, there)[tracked]
+        following = np.asarray(optimize.linear_sum_assignment(-assurance)[1])
+        frequencies.append(there.frequencies[following])
+        assurances.append(assurance[np.arange(count), following])
+
+        def detuning(omega: float, mode: int, order: int, start: LinearModes = here) -> float:
+            modes = modes_at(omega)
+            same = int(np.argmax(_assurance(start, modes)[mode]))
+            return float(modes.frequencies[same] - order * omega)
+
+        for column, mode in enumerate(tracked):
+            for order in range(1, orders + 1):
+                before = frequencies[-2][column] - order * low
+                after = frequencies[-1][column] - order * high
+                if before > 0.0 >= after or before < 0.0 <= after:
+                    omega = optimize.brentq(
+                        detuning, low, high, args=(int(mode), order), xtol=1e-12, rtol=1e-13
+                    )
+                    crossings.append(
+                        Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
+                    )
+        here, tracked = there, following
+    return Campbell(
+        beam=beam,
+        omegas=speeds,
+        frequencies=np.array(frequencies),
+        mac=np.array(assurances).reshape(-1, count),
+        crossings=tuple(sorted(crossings, key=lambda c: (c.mode, c.order))),
+    )
+
+
+def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
+    """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
+    a = one.coordinates / np.linalg.norm(one.coordinates, axis=1, keepdims=True)
+    b = other.coordinates / np.linalg.norm(other.coordinates, axis=1, keepdims=True)
+    return np.asarray((a @ b.T) ** 2)

@@ -1,0 +1,108 @@
+"""Radau IIA collocation of any order for M(t, q) q̈ = ..., in position, velocity, acceleration.
+
+Stiffly accurate and L-stable: axial and high bending waves far faster than the step, which carry
+no energy worth mentioning, are damped away, while what the step resolves is integrated to the
+order 2s - 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import legendre
+from scipy import linalg, special
+
+from .basis import FloatArray
+from .continuum import Tangent
+
+Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
+Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
+
+_NEWTON_STEPS = 12
+_CONVERGED = 1e-13  # of the coordinates, which are of order 1
+_SLOW = 0.2  # a contraction worse than this pays for a new factorization
+
+
+class Collocation:
+    """The polynomial of degree s - 1 for the acceleration over one step of unit length."""
+
+    def __init__(self, stages: int) -> None:
+        inner, _ = special.roots_jacobi(stages - 1, 1.0, 0.0)
+        self.nodes: FloatArray = 0.5 * (np.append(inner, 1.0) + 1.0)
+        self._to_legendre = np.linalg.inv(legendre.legvander(2.0 * self.nodes - 1.0, stages - 1))
+        self.velocity = self.integral(self.nodes)
+        # The velocity is interpolated too: integrating the acceleration twice is not A-stable.
+        self.position = self.velocity @ self.velocity
+
+    def values(self, at: FloatArray) -> FloatArray:
+        """Matrix (at, stages) from values at the nodes to those of their interpolant."""
+        waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
+        return np.asarray(waves @ self._to_legendre, dtype=np.float64)
+
+    def integral(self, at: FloatArray) -> FloatArray:
+        """Matrix (at, stages) from values at the nodes to the integral of their interpolant."""
+        coefficients = legendre.legint(np.eye(self.nodes.size), lbnd=-1.0, scl=0.5, axis=0)
+        waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size)
+        return np.asarray(waves @ coefficients @ self._to_legendre, dtype=np.float64)
+
+    def stages(
+        self, h: float, q: FloatArray, q_dot: FloatArray, acceleration: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return q, q̇ and q̈ (stages, n) at the nodes of a step of length `h`."""
+        return (
+            q + h * self.nodes[:, None] * q_dot + h**2 * self.position @ acceleration,
+            q_dot + h * self.velocity @ acceleration,
+            acceleration,
+        )
+
+    def matrix(self, h: float, tangent: Tangent) -> FloatArray:
+        """Return the derivative (s n, s n) of the residuals at the nodes to the accelerations."""
+        s, n = tangent.residual.shape
+        blocks = (
+            h**2 * self.position[:, None, :, None] * tangent.stiffness[:, :, None, :]
+            + h * self.velocity[:, None, :, None] * tangent.damping[:, :, None, :]
+        )
+        blocks[range(s), :, range(s), :] += tangent.mass
+        return np.asarray(blocks.reshape(s * n, s * n), dtype=np.float64)
+
+    def step(
+        self,
+        h: float,
+        q: FloatArray,
+        q_dot: FloatArray,
+        guess: FloatArray,
+        *,
+        residual: Residual,
+        tangent: Linearization,
+    ) -> FloatArray | None:
+        """Return the accelerations (stages, n) that make the residuals zero, None if not found."""
+        acceleration, factors, last = guess, None, np.inf
+        for _ in range(_NEWTON_STEPS):
+            state = self.stages(h, q, q_dot, acceleration)
+            if factors is None:
+                at = tangent(*state)
+                factors = linalg.lu_factor(self.matrix(h, at), check_finite=False)
+                defect = at.residual
+            else:
+                defect = residual(*state)
+            change = linalg.lu_solve(factors, defect.ravel(), check_finite=False)
+            change = change.reshape(guess.shape)
+            acceleration = acceleration - change
+            size = float(np.abs(h**2 * self.position @ change).max())
+            if not np.isfinite(size):
+                return None
+            contraction = size / last if np.isfinite(last) else 1.0
+            if size * min(1.0, contraction) < _CONVERGED:
+                return acceleration
+            if contraction > _SLOW and np.isfinite(last):
+                factors = None
+            last = size
+        return None
+
+
+@lru_cache(maxsize=8)
+def radau(stages: int) -> Collocation:
+    """Return the method with so many stages, built once."""
+    return Collocation(stages)

@@ -1,0 +1,179 @@
+"""Linear modes of the exact beam about its rotating steady state, in the plane of rotation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import linalg
+
+from .basis import FloatArray
+from .beam import Beam, warn_if_rpm
+from .continuum import ComplexArray, Continuum, continuum
+from .input_checks import rotation_speed, whole_number
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearModes:
+    """In-plane modes about the rotating steady state; made by `linear_modes`.
+
+    Attributes
+    ----------
+    beam : Beam
+    omega : float
+        Rotation speed ω [rad/s].
+    frequencies : ndarray (count,)
+        Natural frequencies in the rotating frame [rad/s], ascending.
+    coordinates : ndarray (count, n)
+        The modes in the energy norm of the discretization, by which `campbell` tells them apart.
+    """
+
+    beam: Beam
+    omega: float
+    frequencies: FloatArray
+    coordinates: FloatArray = field(repr=False)
+    model: Continuum = field(repr=False)
+    _slopes: ComplexArray = field(repr=False)
+
+    def shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the deflections v at `x` [m], (points, count), 1 at the tip.
+
+        Only a mode whose tip moves more along the beam than across has u(L) = 1 instead.
+        """
+        return self._displacement(x).imag
+
+    def axial_shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the axial displacements u at `x` [m], (points, count), on the scale of `shapes`.
+
+        The Coriolis force puts them a quarter of a period from the deflections.
+        """
+        return self._displacement(x).real
+
+    def _displacement(self, x: ArrayLike) -> ComplexArray:
+        at = np.atleast_1d(np.asarray(x, dtype=np.float64)) / self.beam.length
+        return self.model.integrated(self._slopes, at).T
+
+
+def linear_modes(
+    beam: Beam,
+    omega: float,
+    count: int = 3,
+    *,
+    inextensible: bool = False,
+    rotary_inertia: bool = False,
+    functions: int = 20,
+) -> LinearModes:
+    """Return the in-plane modes of the beam in steady rotation at `omega`.
+
+    Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
+    bending and axial motion. Without extension (`inextensible`) they are the modes of
+    v'''' - (w̄²/2)[(1 - x²)v']' - (w̄² + w̄_n²)v = 0, from which the corrected Eq. 81 follows.
+
+    Parameters
+    ----------
+    beam : Beam
+    omega : float
+        Rotation speed ω [rad/s].
+    count : int
+        Number of modes.
+    inextensible : bool
+        Leave the axial motion out, the limit of the slenderness μ → 0.
+    rotary_inertia : bool
+        Give the cross-sections their inertia against rotation.
+    functions : int
+        Number of functions for the tangent's angle; half as many modes are resolved.
+
+    Raises
+    ------
+    ValueError
+        If `omega` is negative, not finite, or tears the beam; if `count` is beyond what the
+        functions resolve.
+    """
+    omega = rotation_speed(omega)
+    count = whole_number("count", count)
+    warn_if_rpm(beam, omega)
+    model = resolved_model(beam, count, inextensible, rotary_inertia, functions)
+    rate = steady_rate(beam, omega, model)
+    modes = solve_modes(model, rate)
+    coordinates = modes.coordinates[:count]
+    return LinearModes(
+        beam=beam,
+        omega=omega,
+        frequencies=modes.frequencies[:count] * beam.frequency_scale,
+        coordinates=coordinates,
+        model=model,
+        _slopes=modes.slopes[:count],
+    )
+
+
+def resolved_model(
+    beam: Beam, mode: int, inextensible: bool, rotary_inertia: bool, functions: int
+) -> Continuum:
+    """Return the discretization, refusing a mode that it does not resolve."""
+    functions = whole_number("functions", functions, least=4)
+    if mode > functions // 2:
+        raise ValueError(
+            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
+            f"ask for functions={2 * mode} or more"
+        )
+    slenderness = 0.0 if inextensible else beam.slenderness
+    axial = 1 if inextensible else max(4, 5 * functions // 8)
+    rotary = beam.slenderness if rotary_inertia else 0.0
+    return continuum(slenderness, functions, axial, rotary)
+
+
+def steady_rate(beam: Beam, omega: float, model: Continuum) -> float:
+    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists.
+
+    With x + u = sin(kx)/(k cos(kL)), k = ω√(ρ/E), the elongation is infinite at kL = π/2.
+    """
+    rate = omega / beam.frequency_scale
+    if rate * math.sqrt(model.slenderness) >= 0.5 * math.pi:
+        limit = 0.5 * math.pi / math.sqrt(beam.slenderness) * beam.frequency_scale
+        raise ValueError(
+            f"omega = {omega:g} rad/s leaves no steady state: this beam is stretched without "
+            f"bound at {limit:.6g} rad/s; rotate slower or raise the axial stiffness "
+            f"(EA = {beam.axial_stiffness:g} N)"
+        )
+    return rate
+
+
+class Modes(NamedTuple):
+    """Nondimensional frequencies (n,), coordinates (n, n) and slopes z' (n, points)."""
+
+    frequencies: FloatArray
+    coordinates: FloatArray
+    slopes: ComplexArray
+
+
+def solve_modes(model: Continuum, rate: float) -> Modes:
+    """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
+
+    With θ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric. For
+    ν = 1/Ω and M = FFᵀ that is the symmetric eigenproblem
+    [[S, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y, in which the lowest modes come out most exactly.
+    """
+    steady = model.steady_state(rate)
+    at_rest = np.zeros((1, model.size))
+    tangent = model.tangent(steady[None], at_rest, at_rest, rate)
+    n, nb = model.size, model.bending
+    gyroscopic = np.zeros((n, n))
+    gyroscopic[:nb, nb:] = tangent.damping[0, :nb, nb:]
+    gyroscopic += gyroscopic.T
+    squares, vectors = np.linalg.eigh(tangent.mass[0])
+    factor = vectors * np.sqrt(np.maximum(squares, 0.0))
+    inverse, vectors = linalg.eigh(
+        np.block([[gyroscopic, factor], [factor.T, np.zeros((n, n))]]),
+        linalg.block_diag(tangent.stiffness[0], np.eye(n)),
+        subset_by_index=(n, 2 * n - 1),
+    )
+    # The inextensible beam has no axial modes: they come out with ν = 0.
+    kept = inverse[::-1] > 1e-12
+    coordinates = vectors[:n, ::-1].T[kept]
+    slopes = model.slope_rate(steady, coordinates)
+    tips = slopes @ model.weights
+    scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
+    return Modes(1.0 / inverse[::-1][kept], coordinates / scale[:, None], slopes / scale[:, None])

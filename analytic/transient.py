@@ -1,0 +1,201 @@
+"""Spin-up of the exact beam from rest, integrated until its own refinement agrees."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .basis import FloatArray
+from .beam import Beam, warn_if_rpm
+from .collocation import radau
+from .continuum import ComplexArray, Continuum, continuum
+from .input_checks import finite_values, positive
+from .modes import steady_rate
+from .spin_up import SpinUp
+
+_STAGES = 8
+_FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
+_STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
+_REFINEMENTS = 7
+_FINEST = 1e-11  # the least tolerance that round-off leaves in reach
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpinUpResponse:
+    """Response of the exact beam to a spin-up; made by `spin_up_response`.
+
+    Attributes
+    ----------
+    beam : Beam
+    spin_up : SpinUp
+    time : ndarray (times,)
+        Times [s].
+    q : ndarray (times,)
+        Deflection of the tip across the turning line of the clamp, Eq. 16 [m]; it lags behind
+        (q < 0) while the rotation speeds up.
+    q_dot : ndarray (times,)
+        Its rate in the rotating frame, Eq. 16 [m/s].
+    tip : ndarray (times, 2)
+        Position of the tip in the inertial frame [m].
+    error : float
+        Estimated error of the tip's position over the largest |q|: the difference from the next
+        coarser solution in step and functions, hence an upper estimate.
+    steps, functions : int
+        Steps of order 15 and functions for θ of the solution returned.
+    """
+
+    beam: Beam
+    spin_up: SpinUp
+    time: FloatArray
+    q: FloatArray = field(repr=False)
+    q_dot: FloatArray = field(repr=False)
+    tip: FloatArray = field(repr=False)
+    error: float
+    steps: int
+    functions: int
+
+
+def spin_up_response(
+    beam: Beam,
+    spin_up: SpinUp,
+    times: float | ArrayLike,
+    *,
+    tolerance: float = 1e-8,
+    rotary_inertia: bool = False,
+) -> SpinUpResponse:
+    """Return the exact response of the undamped beam, at rest and straight before t = 0.
+
+    Radau collocation of order 15 in the rotating frame, with the centrifugal, Coriolis and Euler
+    forces of the spin-up; step and functions are refined together until two solutions agree.
+
+    Parameters
+    ----------
+    beam : Beam
+    spin_up : SpinUp
+    times : array_like
+        Times of the response [s], ascending, not before 0.
+    tolerance : float
+        Largest error of the tip's position over the largest |q|.
+    rotary_inertia : bool
+        Give the cross-sections their inertia against rotation.
+
+    Raises
+    ------
+    ValueError
+        If the times are not ascending from 0 on, the tolerance below 1e-11, or the final speed
+        leaves no steady state.
+    RuntimeError
+        If the tolerance is not reached.
+    """
+    time = finite_values("times", times, "s")
+    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
+        raise ValueError("times must ascend from 0 s on, for the beam is at rest before")
+    tolerance = positive("tolerance", tolerance)
+    if tolerance < _FINEST:
+        raise ValueError(
+            f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
+        )
+    warn_if_rpm(beam, spin_up.omega)
+    rotary = beam.slenderness if rotary_inertia else 0.0
+    coarser, error = None, math.inf
+    for level in range(_REFINEMENTS):
+        functions = _FUNCTIONS + _MORE_FUNCTIONS * level
+        model = continuum(beam.slenderness, functions, functions // 2, rotary)
+        rate = steady_rate(beam, spin_up.omega, model)
+        longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level
+        grid = _grid(spin_up, float(time[-1]), longest / beam.frequency_scale)
+        finer = _integrated(beam, spin_up, model, grid, time)
+        if finer is None:
+            coarser = None
+            continue
+        if coarser is not None:
+            size = float(np.abs(finer[0].imag).max())
+            error = float(np.abs(finer[0] - coarser[0]).max() / (size or 1.0))
+            if error <= tolerance:
+                z, z_dot = beam.length * finer[0], beam.length * beam.frequency_scale * finer[1]
+                tip = z * np.exp(1j * spin_up.angle(time))
+                return SpinUpResponse(
+                    beam=beam,
+                    spin_up=spin_up,
+                    time=time,
+                    q=z.imag,
+                    q_dot=z_dot.imag,
+                    tip=np.stack((tip.real, tip.imag), axis=-1),
+                    error=error,
+                    steps=grid.size - 1,
+                    functions=functions,
+                )
+        coarser = finer
+    raise RuntimeError(
+        f"the response does not settle to {tolerance:g}: the finest two solutions differ by "
+        f"{error:.1e} of the largest deflection; ask for less or for a shorter time"
+    )
+
+
+def _grid(spin_up: SpinUp, end: float, longest: float) -> FloatArray:
+    """Return the ends of the steps [s]; one is the end of the ramp, where Eq. 1 has a kink."""
+    corners = [0.0, min(spin_up.ramp_time, end)]
+    if end > spin_up.ramp_time:
+        corners.append(end)
+    # A short ramp still has to be seen as the smooth curve it is.
+    longest_in_ramp = min(longest, spin_up.ramp_time / 4.0)
+    parts = [
+        np.linspace(a, b, math.ceil((b - a) / step) + 1)[1:]
+        for (a, b), step in zip(pairwise(corners), (longest_in_ramp, longest), strict=False)
+        if b > a
+    ]
+    return np.concatenate(([0.0], *parts))
+
+
+def _integrated(
+    beam: Beam, spin_up: SpinUp, model: Continuum, grid: FloatArray, time: FloatArray
+) -> tuple[ComplexArray, ComplexArray] | None:
+    """Return the tip's z and ż (times,) in the rotating frame, None where Newton's method fails."""
+    method, per_second = radau(_STAGES), beam.frequency_scale
+    q, q_dot = np.zeros(model.size), np.zeros(model.size)
+    acceleration = np.zeros((_STAGES, model.size))
+    z = np.ones(time.size, dtype=np.complex128)
+    z_dot = np.zeros(time.size, dtype=np.complex128)
+    previous = 0.0
+    for start, end in pairwise(grid):
+        h = (end - start) * per_second
+        stages = start + (end - start) * method.nodes
+        rate = spin_up.rate(stages) / per_second
+        rate_dot = spin_up.acceleration(stages) / per_second**2
+
+        guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
+        if previous:
+            guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
+        found = None
+        for guess in guesses:
+            found = method.step(
+                h,
+                q,
+                q_dot,
+                guess,
+                residual=partial(model.residual, rate=rate, rate_dot=rate_dot),
+                tangent=partial(model.tangent, rate=rate, rate_dot=rate_dot),
+            )
+            if found is not None:
+                break
+        if found is None:
+            return None
+        acceleration, previous = found, h
+        inside = (time > start) & (time <= end)
+        at = (time[inside] - start) / (end - start)
+        velocities = q_dot + h * method.integral(at) @ acceleration
+        positions = (
+            q
+            + h * at[:, None] * q_dot
+            + h**2 * method.integral(at) @ method.velocity @ acceleration
+        )
+        z[inside] = model.tip(positions)
+        z_dot[inside] = model.tip_rate(positions, velocities)
+        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
+        q, q_dot = positions[-1], velocities[-1]
+    return z, z_dot

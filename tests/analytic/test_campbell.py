@@ -1,0 +1,56 @@
+"""Campbell diagram: tracking by shape, crossings with the engine orders."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, campbell, linear_modes
+
+
+@pytest.fixture(scope="module")
+def diagram(beam):
+    return campbell(beam, np.linspace(0.0, 12.0, 7), 3)
+
+
+def test_frequencies_are_those_of_the_linear_modes(diagram, beam):
+    for omega, row in zip(diagram.omegas, diagram.frequencies, strict=True):
+        assert row == pytest.approx(linear_modes(beam, omega, 3).frequencies, rel=1e-10)
+    assert diagram.mac.min() > 0.9
+
+
+def test_crossings_lie_on_the_line_and_on_the_mode(diagram, beam):
+    assert diagram.crossings
+    for crossing in diagram.crossings:
+        assert crossing.frequency == crossing.order * crossing.omega
+        there = linear_modes(beam, crossing.omega, 3).frequencies[crossing.mode - 1]
+        assert there == pytest.approx(crossing.frequency, rel=1e-9)
+
+
+def test_every_order_that_must_cross_does(diagram):
+    found = {(c.mode, c.order) for c in diagram.crossings}
+    for mode in range(3):
+        for order in range(1, 11):
+            # From above the line at rest to below it at the end, or not.
+            crosses = diagram.frequencies[-1, mode] < order * diagram.omegas[-1]
+            assert ((mode + 1, order) in found) == crosses
+
+
+def test_a_mode_is_followed_through_another(beam):
+    """The axial mode of a thick beam rises more slowly than bending mode 3, which overtakes it."""
+    thick = Beam.from_stiffness(
+        length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
+    )
+    speeds = np.linspace(0.0, 14.0, 57)
+    diagram = campbell(thick, speeds, 4)
+    sorted_by_frequency = np.sort(diagram.frequencies, axis=1)
+    assert diagram.mac.min() > 0.5
+    # Each column is smooth where the sorted ones kink at the crossing.
+    assert (
+        np.abs(np.diff(diagram.frequencies, n=2, axis=0)).max()
+        <= np.abs(np.diff(sorted_by_frequency, n=2, axis=0)).max()
+    )
+
+
+@pytest.mark.parametrize("omegas", [[1.0, 1.0], [2.0, 1.0], [-1.0, 1.0], [0.0, np.nan]])
+def test_bad_speeds(beam, omegas):
+    with pytest.raises(ValueError, match="omegas must"):
+        campbell(beam, omegas)

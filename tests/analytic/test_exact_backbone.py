@@ -1,0 +1,256 @@
+"""Periodic orbits of the exact beam: golden frequencies, perturbation theory, invariants."""
+
+import warnings
+
+import numpy as np
+import pytest
+from scipy import linalg
+
+from analytic import Beam, linear_modes, periodic_orbits
+from analytic.basis import axial_basis, gauss_points, transverse_basis
+from analytic.input_checks import RotbeamWarning
+
+AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
+RATIOS = {
+    2.0: [1.000022, 1.000090, 1.000203, 1.000364, 1.000574],
+    8.0: [0.999940, 0.999761, 0.999459, 0.999032, 0.998473],
+}
+LAMBDA = {2.0: -0.00897, 4.0: 0.00874, 6.0: 0.01967, 8.0: 0.02383}
+
+
+def perturbed_lambda(rate):
+    """λ_ω of the inextensible beam to leading order, all Coriolis-coupled modes condensed.
+
+    One mode with foreshortening to fourth order, then
+    λ_ω += (4 w̄²/M₁) dᵀ(K - 4 w̄₁² M)⁻¹d: displacements and a Galerkin basis in v, nothing of
+    the solver under test.
+    """
+    count = 16
+    x, weights = gauss_points(60)
+    basis = transverse_basis(count, x)
+    mass = basis.value.T @ (weights[:, None] * basis.value)
+    tension = 0.5 * (1.0 - x**2) * weights
+    stiffness = np.eye(count) - rate**2 * mass
+    stiffness += rate**2 * basis.slope.T @ (tension[:, None] * basis.slope)
+    inverse, vectors = linalg.eigh(mass, stiffness)
+    square = 1.0 / inverse[-1]
+    c = vectors[:, -1] / (transverse_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])
+    v, slope, curvature = basis.value @ c, basis.slope @ c, basis.curvature @ c
+    modal = weights @ v**2
+
+    def integral(f):
+        """Integral from the clamp, by the Legendre interpolant."""
+        legendre = axial_basis(x.size, x)
+        return legendre.value @ (legendre.slope * weights[:, None]).T @ f
+
+    # u' = -v'²/2 - v'⁴/8: V/a⁴ and T/(a²ȧ²), with the centrifugal potential in V.
+    shortening = weights @ integral(slope**2) ** 2
+    quartic = weights @ (curvature * slope) ** 2 / 2.0
+    quartic += rate**2 / 8.0 * (tension @ slope**4 - shortening)
+    g1 = 4.0 * quartic / modal
+    g2 = shortening / modal
+    a_phi = -0.5 * np.array([integral(slope * column) for column in basis.slope.T]).T
+    a_first = -0.5 * integral(slope**2)
+    d = weights @ (a_phi * v[:, None] - a_first[:, None] * basis.value)
+    coupled = np.linalg.solve(stiffness - 4.0 * square * mass, d)
+    return g2 / 4.0 - 3.0 * g1 / (8.0 * square) + 4.0 * rate**2 / modal * (d @ coupled)
+
+
+@pytest.fixture(scope="module", params=sorted(RATIOS))
+def backbone(request, beam):
+    return periodic_orbits(beam, request.param, AMPLITUDES)
+
+
+def test_golden_frequencies(backbone):
+    ratio = backbone.frequency / backbone.omega_n
+    assert ratio == pytest.approx(RATIOS[backbone.omega], abs=6e-7)  # six decimals
+
+
+def test_two_resolutions_agree(backbone, beam, monkeypatch):
+    monkeypatch.setattr("analytic.continuation._FEWEST_HARMONICS", 22)
+    finer = periodic_orbits(beam, backbone.omega, AMPLITUDES, functions=24)
+    assert finer.harmonics.shape[1] > backbone.harmonics.shape[1]
+    assert backbone.frequency == pytest.approx(finer.frequency, rel=1e-9)
+    assert backbone.first_harmonic == pytest.approx(finer.first_harmonic, rel=1e-7)
+
+
+def test_error_falls_spectrally_with_the_functions(beam, monkeypatch):
+    monkeypatch.setattr("analytic.continuation.RESIDUAL_BOUND", 1.0)
+    counts = np.array([6, 8, 10, 12])
+    exact = periodic_orbits(beam, 8.0, [0.2], functions=20).frequency[0]
+    errors = [
+        abs(periodic_orbits(beam, 8.0, [0.2], functions=int(n)).frequency[0] / exact - 1.0)
+        for n in counts
+    ]
+    # Faster than any power: each two functions more gain about a digit.
+    assert np.all(np.diff(np.log10(errors)) < -0.75)
+
+
+def test_invariants(backbone):
+    assert backbone.jacobi_drift.max() < 1e-10
+    assert backbone.residual.max() < 1e-5
+
+
+@pytest.mark.parametrize("omega", LAMBDA)
+def test_lambda_omega(beam, omega):
+    # Half a unit of the last digit printed.
+    assert periodic_orbits(beam, omega, [0.05]).lambda_omega == pytest.approx(
+        LAMBDA[omega], abs=6e-6
+    )
+
+
+@pytest.mark.parametrize("omega", np.linspace(0.0, 12.0, 7))
+def test_lambda_omega_is_that_of_perturbation_theory(beam, omega):
+    exact = periodic_orbits(beam, omega, [0.05])
+    theory = perturbed_lambda(omega / beam.frequency_scale)
+    assert exact.lambda_omega == pytest.approx(theory, abs=2e-5)
+    # Without extension nothing is left but the extrapolation to a = 0.
+    inextensible = periodic_orbits(beam, omega, [0.05], inextensible=True)
+    assert inextensible.lambda_omega == pytest.approx(theory, abs=2e-8)
+
+
+def test_the_difference_from_perturbation_theory_is_extensibility(beam, fitted_order):
+    theory = perturbed_lambda(8.0)
+    slenderness = 1e-6 * 2.0 ** np.arange(4)
+    apart = []
+    for mu in slenderness:
+        unit = Beam.from_stiffness(
+            length=1.0, axial_stiffness=1.0 / mu, bending_stiffness=1.0, mass_per_length=1.0
+        )
+        apart.append(abs(periodic_orbits(unit, 8.0, [0.05]).lambda_omega - theory))
+    assert fitted_order(slenderness, apart) == pytest.approx(1.0, abs=0.02)
+
+
+def test_lambda_omega_at_rest(beam):
+    first = periodic_orbits(beam, 0.0, [0.05], inextensible=True)
+    assert first.lambda_omega == pytest.approx(-0.0193835, abs=1e-7)
+    second = periodic_orbits(beam, 0.0, [0.02], mode=2, inextensible=True)
+    assert second.lambda_omega == pytest.approx(6.45441, abs=1e-5)
+
+
+def test_frequency_departs_from_the_leading_order_as_the_fourth_power(beam, fitted_order):
+    a = np.array([0.05, 0.07, 0.1, 0.14])
+    b = periodic_orbits(beam, 6.0, a)
+    rest = np.abs(b.frequency / b.omega_n - (1.0 - b.lambda_omega * a**2))
+    assert fitted_order(a, rest) == pytest.approx(4.0, abs=0.1)
+
+
+def test_small_orbit_is_the_linear_mode(beam):
+    b = periodic_orbits(beam, 6.0, [1e-4])
+    modes = linear_modes(beam, 6.0, 1)
+    assert b.frequency[0] == pytest.approx(modes.frequencies[0], rel=1e-9)
+    x = np.linspace(0.0, beam.length, 9)
+    moving = b.state(0, x, 0.5 * np.pi).v / (1e-4 * beam.length)
+    assert moving == pytest.approx(modes.shapes(x)[:, 0], abs=1e-6)
+
+
+def test_large_amplitudes_are_reached(beam):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)
+        for omega in (2.0, 8.0):
+            b = periodic_orbits(beam, omega, [0.6])
+            assert b.amplitude[0] == 0.6
+            assert b.jacobi_drift[0] < 1e-10
+            assert np.max(np.abs(b.orbit(0, 2000)[0])) == pytest.approx(0.6, rel=1e-5)
+
+
+def test_orbit_response_and_state_tell_the_same(beam):
+    b = periodic_orbits(beam, 4.0, [0.3])
+    x, rate = b.orbit(0, 400)
+    tau = np.linspace(0.0, 2.0 * np.pi * beam.frequency_scale / b.frequency[0], 401)
+    assert x[0] == pytest.approx(0.0, abs=1e-15)
+    assert x == pytest.approx(-x[::-1], abs=1e-13)  # (v, t) → (-v, -t)
+    assert rate[1:-1] == pytest.approx(np.gradient(x, tau)[1:-1], abs=2e-3)
+    times = tau / beam.frequency_scale
+    assert b.response(times, 0) == pytest.approx(x, abs=1e-13)
+    assert b.response(b.peak_time[0], 0) == pytest.approx(0.3, rel=1e-12)
+    series = b.harmonics[0] @ np.sin(
+        np.outer(np.arange(1, b.harmonics.shape[1] + 1), b.frequency[0] * times)
+    )
+    assert series == pytest.approx(x, abs=1e-9)
+
+
+def test_state_is_consistent_in_space_and_time(beam):
+    b = periodic_orbits(beam, 4.0, [0.3])
+    x, phase, h = np.linspace(0.0, 8.0, 9), 0.7, 1e-4
+    here = b.state(0, x, phase)
+    ahead, behind = (b.state(0, x, phase + s * h * b.frequency[0]) for s in (1.0, -1.0))
+    for name in ("u", "v", "u_slope", "v_slope"):
+        rate = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * h)
+        assert getattr(here, f"{name}_dot") == pytest.approx(rate, abs=1e-6)
+    inner = x[1:-1]
+    after, before = b.state(0, inner + h, phase), b.state(0, inner - h, phase)
+    for name in ("u", "v"):
+        slope = (getattr(after, name) - getattr(before, name)) / (2.0 * h)
+        assert getattr(here, f"{name}_slope")[1:-1] == pytest.approx(slope, abs=1e-8)
+    straight = b.state(0, x)
+    assert straight.v == pytest.approx(0.0, abs=1e-15)
+    assert straight.u[0] == straight.u_slope_dot[0] == 0.0
+
+
+def test_scaling_the_beam_leaves_the_nondimensional_backbone():
+    one = periodic_orbits(Beam.reference(), 4.0, [0.2])
+    beam = Beam.reference()
+    large = Beam(
+        length=beam.length * 2.0,
+        area=beam.area * 4.0,
+        second_moment=beam.second_moment * 16.0,
+        youngs_modulus=beam.youngs_modulus * 3.0,
+        density=beam.density * 5.0,
+    )
+    other = periodic_orbits(large, 4.0 * large.frequency_scale / beam.frequency_scale, [0.2])
+    assert other.frequency / other.omega_n == pytest.approx(one.frequency / one.omega_n, rel=1e-12)
+
+
+def test_orbits_of_the_first_mode_are_stable(beam):
+    b = periodic_orbits(beam, 8.0, [0.1, 0.3])
+    assert b.stable.all()
+    # Two multipliers are 1 in a conservative system, as a double root split by round-off.
+    assert np.sort(np.abs(b.multipliers - 1.0), axis=1)[:, :2] == pytest.approx(0.0, abs=1e-6)
+    # Small orbits have those of the linear modes, exp(2πi ω_j/ω_1).
+    small = periodic_orbits(beam, 8.0, [1e-3])
+    frequencies = linear_modes(beam, 8.0, 3).frequencies
+    for frequency in frequencies[1:]:
+        expected = np.exp(2j * np.pi * frequency / frequencies[0])
+        assert np.abs(small.multipliers - expected).min() < 1e-4
+
+
+def test_an_internal_resonance_is_named(beam):
+    with pytest.warns(RotbeamWarning, match=r"harmonic 17 of the orbit of mode 1 .* mode 3"):
+        periodic_orbits(beam, 2.0, [0.6])
+
+
+def test_amplitudes_in_any_order(beam):
+    b = periodic_orbits(beam, 6.0, [0.2, 0.01, 0.2])
+    assert b.frequency[0] == b.frequency[2]
+    assert b.amplitude.tolist() == [0.2, 0.01, 0.2]
+    assert b.frequency[1] == pytest.approx(b.omega_n * (1.0 - b.lambda_omega * 1e-4), rel=1e-8)
+
+
+def test_an_amplitude_out_of_reach_names_the_last_reached(beam):
+    with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.02.*% from mode"):
+        periodic_orbits(beam, 4.0, [0.2], mode=3)
+
+
+def test_an_orbit_with_a_large_residual_is_refused(beam):
+    with pytest.raises(RuntimeError, match="met to .* only"):
+        periodic_orbits(beam, 8.0, [0.5], functions=5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "sentence"),
+    [
+        ({"amplitudes": [0.1, 1.2]}, ValueError, "between 0 and 1, got 1.2"),
+        ({"amplitudes": [0.0]}, ValueError, "between 0 and 1, got 0"),
+        ({"amplitudes": [np.nan]}, ValueError, "must be finite, got nan"),
+        ({"amplitudes": []}, ValueError, "sequence of numbers"),
+        ({"amplitudes": ["a"]}, TypeError, "must be numbers"),
+        ({"amplitudes": [0.1], "mode": 9}, ValueError, "mode 9 is beyond the 8"),
+        ({"amplitudes": [0.1], "mode": 0}, ValueError, "at least 1"),
+        ({"amplitudes": [0.1], "omega": -1.0}, ValueError, "must not be negative"),
+        ({"amplitudes": [0.1], "omega": np.inf}, ValueError, "must be finite"),
+    ],
+)
+def test_bad_input(beam, arguments, error, sentence):
+    with pytest.raises(error, match=sentence):
+        periodic_orbits(beam, **{"omega": 4.0, **arguments})

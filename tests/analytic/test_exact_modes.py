@@ -1,0 +1,138 @@
+"""Linear modes of the exact beam: published frequencies, the stretched rod, limits."""
+
+import numpy as np
+import pytest
+from scipy import linalg
+
+from analytic import Beam, linear_modes
+from analytic.basis import gauss_points, transverse_basis
+from analytic.continuum import continuum
+from analytic.modes import solve_modes
+
+# In-plane; Wright et al. 1982, Hodges and Rutkowski 1981 and Banerjee 2000 give the squares
+# of the out-of-plane ones, larger by w̄², to fewer digits.
+INEXTENSIBLE = {
+    0.0: (3.516015269, 22.03449156, 61.69721441),
+    4.0: (3.897722524, 23.94150143, 63.84157304),
+    8.0: (4.657149596, 28.90887294, 69.83624083),
+    12.0: (5.427049278, 35.63697598, 78.70492478),
+}
+EXTENSIBLE = {2.0: 3.03488474, 4.0: 3.34561553, 6.0: 3.73040139, 8.0: 4.12389509}
+
+
+@pytest.mark.parametrize("rate", INEXTENSIBLE)
+def test_inextensible_modes_are_the_published_ones(beam, rate):
+    modes = linear_modes(beam, rate * beam.frequency_scale, inextensible=True)
+    # The numbers carry ten digits, the last ones rounded.
+    assert modes.frequencies / beam.frequency_scale == pytest.approx(INEXTENSIBLE[rate], abs=1e-8)
+
+
+@pytest.mark.parametrize("rate", [0.0, 3.0, 12.0])
+def test_inextensible_modes_agree_with_the_equation_in_the_deflection(beam, rate):
+    x, weights = gauss_points(30)
+    phi = transverse_basis(14, x)
+    tension = 0.5 * rate**2 * (1.0 - x**2) * weights
+    mass = phi.value.T @ (weights[:, None] * phi.value)
+    stiffness = phi.curvature.T @ (weights[:, None] * phi.curvature) - rate**2 * mass
+    stiffness += phi.slope.T @ (tension[:, None] * phi.slope)
+    # The inverse problem gives the lowest frequencies most exactly.
+    inverse = linalg.eigh(mass, stiffness, eigvals_only=True)[::-1]
+    modes = linear_modes(beam, rate * beam.frequency_scale, 3, inextensible=True)
+    assert modes.frequencies / beam.frequency_scale == pytest.approx(
+        1.0 / np.sqrt(inverse[:3]), rel=1e-9
+    )
+
+
+@pytest.mark.parametrize("omega", EXTENSIBLE)
+def test_extensible_first_frequency(beam, omega):
+    first = linear_modes(beam, omega).frequencies[0]
+    assert first == pytest.approx(EXTENSIBLE[omega], abs=1e-8)
+
+
+def test_frequencies_differ_from_the_inextensible_in_proportion_to_the_slenderness(fitted_order):
+    slenderness = 1e-6 * 2.0 ** np.arange(5)
+    exact = solve_modes(continuum(0.0, 20, 1), 6.0).frequencies[0]
+    apart = [
+        abs(solve_modes(continuum(mu, 20, 12), 6.0).frequencies[0] - exact) for mu in slenderness
+    ]
+    assert fitted_order(slenderness, apart) == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize("rate", [0.5, 6.0, 14.0])
+def test_steady_state_is_the_rotating_rod(rate):
+    model = continuum(1e-2, 16, 14)
+    k = 0.1 * rate  # up to 1.4, near π/2 where the rod is stretched without bound
+    x = np.linspace(0.0, 1.0, 11)
+    slope = model.slope(model.steady_state(rate), x)
+    assert slope.imag == pytest.approx(0.0, abs=0.0)
+    assert slope.real == pytest.approx(np.cos(k * x) / np.cos(k), rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("omega", "stretch"),
+    [(2.0, 2.73958e-5), (4.0, 1.095831e-4), (6.0, 2.465620e-4), (8.0, 4.383324e-4)],
+)
+def test_stretch_of_the_paper_beam(beam, omega, stretch):
+    model = continuum(beam.slenderness, 16, 10)
+    rate = omega / beam.frequency_scale
+    tip = model.tip(model.steady_state(rate)[None])[0].real
+    # Printed is the leading order mω²L²/(3EA); the exact stretch is larger by 2(kL)²/5 of it.
+    exact = stretch * (1.0 + 0.4 * beam.slenderness * rate**2)
+    assert (tip - 1.0) * beam.length == pytest.approx(exact, rel=3e-6)
+
+
+def test_axial_frequencies_at_rest_are_those_of_a_rod():
+    thick = Beam.from_stiffness(
+        length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
+    )
+    axial = 0.5 * np.pi * np.sqrt(2e3)
+    modes = linear_modes(thick, 0.0, 5)
+    found = int(np.argmin(np.abs(modes.frequencies - axial)))
+    assert modes.frequencies[found] == pytest.approx(axial, rel=1e-12)
+    x = np.linspace(0.0, 1.0, 5)
+    assert modes.axial_shapes(x)[:, found] == pytest.approx(np.sin(0.5 * np.pi * x), abs=1e-10)
+
+
+def test_shapes_are_clamped_and_one_at_the_tip(beam):
+    modes = linear_modes(beam, 5.0, 4)
+    shapes = modes.shapes([0.0, 1e-6 * beam.length, beam.length])
+    assert shapes[0] == pytest.approx(0.0, abs=1e-15)
+    assert shapes[1] == pytest.approx(0.0, abs=1e-9)  # no slope at the clamp either
+    assert shapes[2] == pytest.approx(1.0)
+
+
+def test_rotary_inertia_lowers_frequencies_by_the_rayleigh_quotient(beam):
+    thick = Beam.from_stiffness(
+        length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+    )
+    plain = linear_modes(thick, 0.0, 1)
+    heavy = linear_modes(thick, 0.0, 1, rotary_inertia=True)
+    x, weights = gauss_points(20)
+    h = 1e-5
+    shape = plain.shapes(x)[:, 0]
+    slope = (plain.shapes(x + h)[:, 0] - plain.shapes(x - h)[:, 0]) / (2.0 * h)
+    ratio = thick.slenderness * (weights @ slope**2) / (weights @ shape**2)
+    drop = 1.0 - heavy.frequencies[0] / plain.frequencies[0]
+    assert drop == pytest.approx(0.5 * ratio, rel=1e-3)  # first order in μ = 1e-4
+
+
+def test_a_speed_that_tears_the_beam_is_refused(beam):
+    soft = Beam.from_stiffness(
+        length=1.0, axial_stiffness=100.0, bending_stiffness=1.0, mass_per_length=1.0
+    )
+    linear_modes(soft, 15.7)
+    with pytest.raises(ValueError, match=r"stretched without bound at 15\.708 rad/s"):
+        linear_modes(soft, 15.71)
+
+
+def test_a_mode_beyond_the_resolved_ones_is_refused(beam):
+    with pytest.raises(ValueError, match="mode 11 is beyond the 10 that 20 functions resolve"):
+        linear_modes(beam, 1.0, 11)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, -1.0, np.nan])
+def test_axial_stiffness_must_be_positive(stiffness):
+    with pytest.raises(ValueError, match="axial_stiffness must be"):
+        Beam.from_stiffness(
+            length=1.0, axial_stiffness=stiffness, bending_stiffness=1.0, mass_per_length=1.0
+        )

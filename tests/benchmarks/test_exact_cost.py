@@ -1,0 +1,38 @@
+"""What the exact answers cost, against the simulation they judge, in the same run."""
+
+import time
+from statistics import median
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp, periodic_orbits, spin_up_response
+from rotbeam_exu import simulate
+
+pytestmark = pytest.mark.benchmarks
+
+
+def seconds(function, repeats=3):
+    taken = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        function()
+        taken.append(time.perf_counter() - start)
+    return median(taken)
+
+
+@pytest.mark.parametrize("omega", [2.0, 4.0, 6.0, 8.0])
+def test_ten_orbits_take_a_tenth_of_a_simulation(beam, omega):
+    amplitudes = np.linspace(0.03, 0.3, 10)
+    spin_up = SpinUp(omega=omega, ramp_time=3.0)
+    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
+    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes))
+    assert orbits < run / 10.0, f"{orbits:.3f} s against {run:.3f} s"
+
+
+@pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])
+def test_spin_up_to_1e_6_takes_less_than_64_elements(beam, omega, ramp_time):
+    spin_up, times = SpinUp(omega=omega, ramp_time=ramp_time), np.linspace(0.0, 15.0, 1501)
+    run = seconds(lambda: simulate(beam, spin_up, elements=64, duration=15.0), repeats=1)
+    exact = seconds(lambda: spin_up_response(beam, spin_up, times, tolerance=1e-6))
+    assert exact < run, f"{exact:.3f} s against {run:.3f} s"
