@@ -43,6 +43,7 @@ _LAZY: dict[str, str] = {
 }
 
 __all__ = [
+    "VARIANTS",
     "Backbone",
     "Beam",
     "BeamState",
@@ -53,7 +54,6 @@ __all__ = [
     "SpinUp",
     "SpinUpResponse",
     "SteadyRotation",
-    "VARIANTS",
     "Variant",
     "campbell",
     "critical_speed",
@@ -63,7 +63,6 @@ __all__ = [
     "reduced_model",
     "softening_speed",
     "spin_up_response",
-]
 ]
 
 
