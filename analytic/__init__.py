@@ -16,7 +16,11 @@ if TYPE_CHECKING:
     from .campbell_diagram import Campbell, Crossing, campbell
     from .modes import LinearModes, linear_modes
     from .periodic import Backbone, BeamState, periodic_orbits
+    from .reduced import ReducedModel, critical_speed, reduced_model
+    from .softening import softening_speed
+    from .tables import paper_table
     from .transient import SpinUpResponse, spin_up_response
+    from .variants import VARIANTS, Variant
 
 _LAZY: dict[str, str] = {
     "Backbone": "periodic",
@@ -24,26 +28,40 @@ _LAZY: dict[str, str] = {
     "Campbell": "campbell_diagram",
     "Crossing": "campbell_diagram",
     "LinearModes": "modes",
+    "ReducedModel": "reduced",
     "SpinUpResponse": "transient",
+    "VARIANTS": "variants",
+    "Variant": "variants",
     "campbell": "campbell_diagram",
+    "critical_speed": "reduced",
     "linear_modes": "modes",
+    "paper_table": "tables",
     "periodic_orbits": "periodic",
+    "reduced_model": "reduced",
+    "softening_speed": "softening",
     "spin_up_response": "transient",
 }
 
 __all__ = [
+    "VARIANTS",
     "Backbone",
     "Beam",
     "BeamState",
     "Campbell",
     "Crossing",
     "LinearModes",
+    "ReducedModel",
     "SpinUp",
     "SpinUpResponse",
     "SteadyRotation",
+    "Variant",
     "campbell",
+    "critical_speed",
     "linear_modes",
+    "paper_table",
     "periodic_orbits",
+    "reduced_model",
+    "softening_speed",
     "spin_up_response",
 ]
 

@@ -8,6 +8,7 @@ at any degree in use.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -25,10 +26,16 @@ class BasisValues(NamedTuple):
     curvature: FloatArray
 
 
+@cache
 def gauss_points(count: int) -> tuple[FloatArray, FloatArray]:
-    """Return Gauss-Legendre points and weights (count,) on [0, 1], exact to degree 2 count - 1."""
+    """Return Gauss-Legendre points and weights (count,) on [0, 1], exact to degree 2 count - 1.
+
+    Computed once per count, and read-only because shared.
+    """
     points, weights = legendre.leggauss(count)
-    return 0.5 * (points + 1.0), 0.5 * weights
+    points, weights = 0.5 * (points + 1.0), 0.5 * weights
+    points.flags.writeable = weights.flags.writeable = False
+    return points, weights
 
 
 def transverse_basis(count: int, x: FloatArray) -> BasisValues:

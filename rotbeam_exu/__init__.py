@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .oscillation import SteadyOscillation, steady_oscillation
     from .simulation import simulate
     from .storage import load, save
+    from .sweeps import sweep
     from .verdict import SimulationError
 
 __version__ = "0.1.0"
@@ -26,6 +27,7 @@ _LAZY = {
     "simulate": "simulation",
     "steady_oscillation": "oscillation",
     "steady_stretch": "linearization",
+    "sweep": "sweeps",
 }
 
 __all__ = [
@@ -37,6 +39,7 @@ __all__ = [
     "simulate",
     "steady_oscillation",
     "steady_stretch",
+    "sweep",
 ]
 
 

@@ -20,8 +20,8 @@ app = cyclopts.App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for _command in ("run", "doctor"):
-    app.command(f"{__name__}.{_command}:{_command}", name=_command)
+for _command in ("run", "backbone", "compare_modes", "table", "doctor"):
+    app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

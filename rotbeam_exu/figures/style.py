@@ -13,7 +13,10 @@ from matplotlib.figure import Figure
 from ..storage import whole_file
 
 COLUMN = 3.5
-"""Width of a journal's column [in]; two columns are 7.2."""
+"""Width of a journal's column [in]."""
+
+COLUMNS = 7.2
+"""Width of two columns [in]."""
 
 # Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the truth.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
@@ -24,6 +27,19 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
     "#CC79A7",
     "#56B4E9",
 )
+
+CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
+
+MODEL_LINES: dict[str, dict[str, Any]] = {
+    "CI": {"color": RED, "ls": (0, (1, 1))},
+    "CE": {"color": PURPLE, "ls": (0, (3, 1))},
+    "FrI": {"color": ORANGE, "ls": (0, (5, 1, 1, 1))},
+    "FrE": {"color": GREEN, "ls": "--"},
+    "FrC": {"color": SKY, "ls": (0, (4, 1, 1, 1, 1, 1))},
+    "FrM": {"color": BLUE, "ls": "-"},
+    "exact": {"color": "black", "ls": "-", "lw": 0.7},
+}
+"""One line per model in every figure; black is the truth."""
 
 STYLE: Any = {
     "font.size": 8.0,

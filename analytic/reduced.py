@@ -1,0 +1,275 @@
+"""The reduced models: one beam, rotation speed and variant, and what Eq. 41 answers for them.
+
+Variants are described in `analytic.variants`; which to trust is a matter of λ_ω, see there.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import first_integral
+from .beam import Beam, warn_if_rpm
+from .coriolis import coriolis_coupling
+from .energies import energy_coefficients
+from .input_checks import RotbeamWarning, not_negative, rotation_speed, whole_number
+from .model_range import warn_beyond_range
+from .rotating_mode import RotatingMode
+from .shapes import CantileverMode
+from .variants import VARIANTS, Variant
+
+FloatArray = NDArray[np.float64]
+
+_PAPER_AMPLITUDE = 0.2
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class ReducedModel:
+    """Eq. 41 for one beam, rotation speed and variant; made by `reduced_model`.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    omega : float
+        Rotation speed ω [rad/s].
+    variant : Variant
+        The variant.
+    w_n, g1, g2 : float
+        Coefficients of Eq. 41 (w_n² its linear term), nondimensional.
+    tip_coupling : float
+        Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
+        second order. Their own third harmonics are not, so λ_x is the first mode's, not the tip's.
+    """
+
+    beam: Beam
+    omega: float
+    variant: Variant
+    w_n: float
+    g1: float
+    g2: float
+    tip_coupling: float = 0.0
+
+    @property
+    def speed_ratio(self) -> float:
+        """Ω = ω/ω0, Eq. 40 [-]."""
+        return self.omega / self.beam.omega_0
+
+    @property
+    def omega_n(self) -> float:
+        """Natural frequency of small oscillations [rad/s]."""
+        return self.w_n * self.beam.frequency_scale
+
+    @property
+    def lambda_omega(self) -> float:
+        """λ_ω of Eq. 64 = g2/4 - 3 g1/(8 ω_n²) [-]; positive softens."""
+        return self.g2 / 4.0 - 3.0 * self.g1 / (8.0 * self.w_n**2)
+
+    @property
+    def lambda_x(self) -> float:
+        """λ_x of Eq. 65 = g2/16 - g1/(32 ω_n²) [-]."""
+        return self.g2 / 16.0 - self.g1 / (32.0 * self.w_n**2)
+
+    @property
+    def largest_amplitude(self) -> float:
+        """Largest amplitude a/L for which both Eq. 63 and Eq. 41 have a periodic orbit, up to 1."""
+        return min(1.0, self._largest_perturbed(), self._largest_exact())
+
+    @overload
+    def frequency(self, a: float) -> float: ...
+    @overload
+    def frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
+    def frequency(self, a: ArrayLike) -> float | FloatArray:
+        """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63.
+
+        Parameters
+        ----------
+        a : array_like
+            Amplitude a0 of the first harmonic over L, in 0 .. 1; the result has its shape.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is negative, above 1 or not finite, or Eq. 63 gives no positive
+            frequency for it.
+        TypeError
+            If `a` does not hold numbers.
+        """
+        amplitude = self._amplitudes(a, self._largest_perturbed(), "Eq. 63 has no frequency")
+        # In place, so that millions of amplitudes cost what the bare formula does.
+        result = amplitude * amplitude
+        result *= -self.lambda_omega * self.omega_n
+        result += self.omega_n
+        return result if result.ndim else float(result)
+
+    @overload
+    def exact_frequency(self, a: float) -> float: ...
+    @overload
+    def exact_frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
+    def exact_frequency(self, a: ArrayLike) -> float | FloatArray:
+        """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
+
+        Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
+        errors are those of `frequency`, but `a` is the peak of x.
+        """
+        amplitude = self._amplitudes(a, self._largest_exact(), "Eq. 41 has no periodic orbit")
+        result = self.beam.frequency_scale * first_integral.exact_frequency(
+            amplitude, self.w_n, self.g1, self.g2
+        )
+        return result if result.ndim else float(result)
+
+    def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
+        """Return x(t) = q/L of Eq. 65, of the shape of `t`.
+
+        Corrected: it starts from a0 (1 - λ_x a0²) at phase zero, not from a0 (Eq. 53).
+
+        Parameters
+        ----------
+        t : array_like
+            Time [s].
+        a0 : float
+            Amplitude of the first harmonic over L.
+        phase : float
+            φ0 of Eq. 65 [rad].
+        """
+        psi = self.frequency(not_negative("a0", a0)) * _finite("t", t) + float(
+            _finite("phase", phase)
+        )
+        return np.asarray(a0 * np.cos(psi) - self.lambda_x * a0**3 * np.cos(3.0 * psi))
+
+    def orbit(self, a0: float, n: int = 200) -> tuple[FloatArray, FloatArray]:
+        """Return x and dx/dτ of Eq. 41, each (n,), once around the orbit with peak `a0`.
+
+        Without perturbation, by the first integral; equally spaced in the angle ψ of
+        x = a0 cos ψ, and the last point is the first.
+        """
+        a0 = not_negative("a0", a0)
+        self._amplitudes(a0, self._largest_exact(), "Eq. 41 has no periodic orbit")
+        n = whole_number("n", n, least=2)
+        return first_integral.orbit(a0, n, self.w_n, self.g1, self.g2)
+
+    def __repr__(self) -> str:
+        kind = "softens" if self.lambda_omega > 0.0 else "hardens"
+        return (
+            f"{self.variant.name} at ω = {self.omega:g} rad/s (Ω = {self.speed_ratio:.4g}): "
+            f"ω_n = {self.omega_n:.6f} rad/s, g1 = {self.g1:.6g}, g2 = {self.g2:.6g}, "
+            f"λ_ω = {self.lambda_omega:.7f} ({kind}), λ_x = {self.lambda_x:.7f}"
+        )
+
+    def _largest_perturbed(self) -> float:
+        return 1.0 / math.sqrt(self.lambda_omega) if self.lambda_omega > 0.0 else math.inf
+
+    def _largest_exact(self) -> float:
+        return first_integral.largest_amplitude(self.w_n, self.g1, self.g2)
+
+    def _amplitudes(self, a: ArrayLike, largest: float, beyond: str) -> FloatArray:
+        """Return `a` as floats; refuse negative ones, those above 1, and from `largest` on."""
+        amplitude = _finite("amplitude", a)
+        if amplitude.size == 0:
+            return amplitude
+        low, high = float(amplitude.min()), float(amplitude.max())
+        not_negative("amplitude", low, remedy="the phase, not the sign, turns the start around")
+        if high > 1.0:
+            raise ValueError(f"amplitude is the tip's over L and at most 1, got {high}: meters?")
+        if high >= largest:
+            raise ValueError(
+                f"{beyond} at amplitude {high:g} in {self.variant.name} at omega = "
+                f"{self.omega:g} rad/s: keep it below {largest:.6g}"
+            )
+        if high > _PAPER_AMPLITUDE:
+            warnings.warn(
+                f"amplitude {high:g} is above {_PAPER_AMPLITUDE:g}, the paper's own bound for the "
+                f"reduced models; periodic_orbits has none",
+                RotbeamWarning,
+                stacklevel=3,
+            )
+        return amplitude
+
+
+def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
+    """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    omega : float
+        Rotation speed ω [rad/s], zero or positive.
+    variant : str or Variant
+        "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC" or "FrM" of ours, or any
+        other setting of the switches.
+
+    Raises
+    ------
+    ValueError
+        If `omega` is negative or not finite, the variant unknown, or the model has no oscillation.
+
+    Warns
+    -----
+    RotbeamWarning
+        Where the model is used beyond its range: ω above 2ω_n in a model without the other modes,
+        2ω_n near another mode in one with them, ω so large that it may be meant in rpm.
+
+    Examples
+    --------
+    >>> model = reduced_model(Beam.reference(), omega=6.0, variant="FrE")
+    >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
+    (3.730549, 0.02355)
+    """
+    omega = rotation_speed(omega)
+    if isinstance(variant, str):
+        if variant not in VARIANTS:
+            raise ValueError(f"variant must be one of {', '.join(VARIANTS)}, got {variant!r}")
+        variant = VARIANTS[variant]
+    model = model_at(beam, omega, variant)
+    warn_if_rpm(beam, omega)
+    warn_beyond_range(beam, omega, variant, model.w_n)
+    return model
+
+
+def critical_speed(beam: Beam) -> float:
+    """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1."""
+    linear = energy_coefficients(CantileverMode(), "none")
+    return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
+
+
+def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
+    """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
+    w_bar = omega / beam.frequency_scale
+    shape = variant.shape_at(w_bar)
+    coefficients = energy_coefficients(shape, variant.axial)
+    square = coefficients.omega_n_squared(w_bar, beam.slenderness)
+    if square <= 0.0:
+        raise ValueError(
+            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
+            f"EI/(mL³) there, so lower omega or take another variant"
+        )
+    coupling = (
+        coriolis_coupling(shape) if variant.coriolis and isinstance(shape, RotatingMode) else None
+    )
+    return ReducedModel(
+        beam=beam,
+        omega=omega,
+        variant=variant,
+        w_n=math.sqrt(square),
+        g1=coefficients.g1(w_bar),
+        g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
+        tip_coupling=coupling.tip if coupling else 0.0,
+    )
+
+
+def _finite(name: str, values: ArrayLike) -> FloatArray:
+    array = np.asarray(values)
+    if array.dtype.kind not in "iuf" and array.size:
+        raise TypeError(f"{name} must hold numbers, got {values!r}")
+    array = np.asarray(array, dtype=np.float64)
+    finite = np.isfinite(array)
+    if not finite.all():
+        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}")
+    return array

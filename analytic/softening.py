@@ -1,0 +1,32 @@
+"""Where hardening turns into softening: the rotation speed at which λ_ω changes sign."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .beam import Beam
+from .reduced import model_at
+from .variants import VARIANTS, Variant
+
+_HIGHEST_SPEED_RATIO = 4.0
+
+
+def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
+    """Return the speed ratio Ω = ω/ω0 at which the model turns from hardening to softening.
+
+    The exact beam does so near Ω = 1.0219. None where λ_ω does not rise through zero up to Ω = 4:
+    such a model softens, or hardens, at every speed of interest.
+    """
+    setting = VARIANTS[variant] if isinstance(variant, str) else variant
+
+    def lambda_omega(speed_ratio: float) -> float:
+        return model_at(beam, speed_ratio * beam.omega_0, setting).lambda_omega
+
+    speeds = np.linspace(0.0, _HIGHEST_SPEED_RATIO, 21)
+    softens = np.array([lambda_omega(s) > 0.0 for s in speeds])
+    turns = np.flatnonzero(~softens[:-1] & softens[1:])
+    if turns.size == 0:
+        return None
+    first = turns[0]
+    return float(brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12))

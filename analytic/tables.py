@@ -1,0 +1,263 @@
+"""Tables 1-5 as printed, beside what the package derives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+
+from .beam import BETA_1, Beam
+from .energies import EnergyCoefficients, energy_coefficients
+from .input_checks import whole_number
+from .reduced import reduced_model
+from .shapes import CantileverMode, static_deflection
+
+PRINTED_BETA = 1.8751
+"""β as the paper rounded it, in Eq. 78 at least."""
+_ROUNDED = "beyond rounding: the print used rounded constants"
+
+_RATIONAL: dict[int, dict[str, tuple[str, str]]] = {
+    1: {
+        "phi_v": ("3*x**2/2 - x**3/2", ""),
+        "phi_u": ("9*x**4/8 - 3*x**3/2 - 9*x**5/40", ""),
+        "omega_0": ("sqrt(140/11)", ""),
+        "omega_n_squared": ("350*Omega**2/121 + 140/11", ""),
+        "g1": ("144/11 - 9940*Omega**2/1331", ""),
+        "g2": ("142/121", ""),
+        "lambda_omega": ("(106855*Omega**2 - 34408)/(84700*Omega**2 + 372680)", ""),
+        "lambda_x": ("(52185*Omega**2 + 61424)/(338800*Omega**2 + 1490720)", ""),
+    },
+    2: {
+        "phi_v": ("2*x**2 - 4*x**3/3 + x**4/3", ""),
+        "phi_u": ("4*x**4 - 8*x**3/3 - 8*x**5/3 + 8*x**6/9 - 8*x**7/63", ""),
+        "omega_0": ("sqrt(162/13)", ""),
+        "omega_n_squared": ("729*Omega**2/338 + 162/13", ""),
+        "g1": ("1296/143 - 1188*Omega**2/169", ""),
+        "g2": ("44/39", ""),
+        "lambda_omega": ("(5808*Omega**2 + 208)/(3861*Omega**2 + 22308)", ""),
+        "lambda_x": ("(1331*Omega**2 + 2132)/(7722*Omega**2 + 44616)", ""),
+    },
+    3: {
+        "phi_v": ("20*x**2/11 - 10*x**3/11 + x**5/11", ""),
+        "phi_u": (
+            "300*x**4/121 - 800*x**3/363 - 90*x**5/121 - 100*x**6/363 + 150*x**7/847"
+            " - 25*x**9/2178",
+            "",
+        ),
+        "omega_0": ("32670/2641", "erratum: the square root is missing"),
+        "omega_n_squared": ("32359635*Omega**2/13949762 + 32670/2641", ""),
+        "g1": (
+            "?/4154293 - 828367611375*Omega**2/117150101276",
+            "erratum: the numerator 40633500 is lost",
+        ),
+        "g2": (
+            "(16545041526500300*Omega**2 - 6609344514291675)"
+            "/(11579025031377804*Omega**2 + 61747006780148976)",
+            "erratum: the row holds λ_ω, with a stray digit in 660934414291675",
+        ),
+        "lambda_omega": (
+            "(15442484235760175*Omega**2 + 23089508813459450)"
+            "/(92632200251022432*Omega**2 + 493976054241191808)",
+            "erratum: the row holds λ_x",
+        ),
+        "lambda_x": ("?", "erratum: printed one row too high"),
+    },
+}
+
+_TABLE_4: dict[tuple[str, str], str] = {
+    ("ω0", "1"): "3.5160",
+    ("ω_n²", "1"): "12.362",
+    ("ω_n²", "Ω²"): "2.3901",
+    ("ω_n²", "Ω²μ"): "-254.89",
+    ("ω_n²", "Ω⁴μ"): "12.987",
+    ("g1", "1"): "10.110",
+    ("g1", "Ω²"): "2.3785",
+    ("g2", "1"): "1.1492",
+    ("λ_ω ω_n²", "1"): "-0.23963",
+    ("λ_ω ω_n²", "Ω²"): "-0.20528",
+    ("λ_ω ω_n²", "Ω²μ"): "-73.229",
+    ("λ_ω ω_n²", "Ω⁴μ"): "3.7312",
+    ("λ_x ω_n²", "1"): "0.57198",
+    ("λ_x ω_n²", "Ω²"): "0.097338",
+    ("λ_x ω_n²", "Ω²μ"): "-18.307",
+    ("λ_x ω_n²", "Ω⁴μ"): "0.93280",
+}
+
+_TABLE_5: dict[float, tuple[str, str, str]] = {
+    2.0: ("3.03488", "-0.0084683", "0.046531"),
+    4.0: ("3.34565", "0.010394", "0.046761"),
+    6.0: ("3.73054", "0.023546", "0.046661"),
+    8.0: ("4.12419", "0.030693", "0.046445"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableRow:
+    """One entry of a table: as printed, as derived, how far apart, and an erratum if there is one.
+
+    `difference` is "0" or "differs" where both are exact, and derived - printed where they are
+    decimals.
+    """
+
+    quantity: str
+    printed: str
+    derived: str
+    difference: str
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PaperTable:
+    """One of the paper's tables beside its derivation."""
+
+    number: int
+    title: str
+    rows: tuple[TableRow, ...]
+
+
+def paper_table(number: int) -> PaperTable:
+    """Return Table `number`, 1 to 5, as printed and as derived.
+
+    Raises
+    ------
+    ValueError
+        If the paper has no such table.
+    """
+    number = whole_number("table", number)
+    if number in _RATIONAL:
+        return _rational_table(number)
+    if number == 4:
+        return _table_4()
+    if number == 5:
+        return _table_5()
+    raise ValueError(f"table must be 1 to 5, got {number}: the paper has no other")
+
+
+def closed_form(
+    coefficients: EnergyCoefficients, beta: float = BETA_1
+) -> dict[tuple[str, str], float]:
+    """Return Eqs. 42-44, 64, 65 or Table 4: (quantity, monomial in Ω and μ) to coefficient.
+
+    For a shape that does not depend on Ω, with w̄ = `beta`²Ω. λ_ω and λ_x share the denominator
+    ω_n²; what is returned of them are the numerators.
+    """
+    c, s = coefficients, beta**4
+    omega_n_squared = {
+        "1": c.bending,
+        "Ω²": c.spin * s,
+        "Ω²μ": c.thinning * s,
+        "Ω⁴μ": c.stretching * s**2,
+    }
+    g1 = {"1": c.cubic_bending, "Ω²": c.cubic_spin * s}
+    lambda_omega = {k: c.g2 / 4.0 * w - 0.375 * g1.get(k, 0.0) for k, w in omega_n_squared.items()}
+    lambda_x = {k: c.g2 / 16.0 * w - g1.get(k, 0.0) / 32.0 for k, w in omega_n_squared.items()}
+    quantities = {
+        "ω0": {"1": c.bending**0.5},
+        "ω_n²": omega_n_squared,
+        "g1": g1,
+        "g2": {"1": c.g2},
+        "λ_ω ω_n²": lambda_omega,
+        "λ_x ω_n²": lambda_x,
+    }
+    return {(q, k): value for q, terms in quantities.items() for k, value in terms.items()}
+
+
+def half_unit(printed: str) -> float:
+    """Return half a unit of the last digit of a printed decimal, the most rounding can do."""
+    exponent = Decimal(printed).as_tuple().exponent
+    return 0.5 * 10.0 ** int(exponent)
+
+
+def _rational_table(number: int) -> PaperTable:
+    # sympy is loaded only where exact forms are asked for.
+    import sympy as sp  # type: ignore[import-untyped]  # noqa: PLC0415
+
+    from .exact_forms import OMEGA, X, exact_forms  # noqa: PLC0415
+
+    forms = exact_forms(static_deflection(number + 2), "inextensible")
+    derived = {
+        name: sp.sqrt(forms.omega_0_squared) if name == "omega_0" else getattr(forms, name)
+        for name in _RATIONAL[number]
+    }
+    rows = []
+    for name, (printed, note) in _RATIONAL[number].items():
+        difference = "not printed"
+        if "?" not in printed:
+            expression = sp.sympify(printed, locals={"Omega": OMEGA, "x": X})
+            difference = "0" if sp.simplify(expression - derived[name]) == 0 else "differs"
+        rows.append(
+            TableRow(
+                quantity=_SYMBOLS[name],
+                printed=_readable(printed),
+                derived=_readable(str(derived[name])),
+                difference=difference,
+                note=note,
+            )
+        )
+    return PaperTable(
+        number=number,
+        title=f"polynomial shape of degree {number + 2}; x = η/L, ω0 in units of √(EI/mL³)",
+        rows=tuple(rows),
+    )
+
+
+_SYMBOLS = {
+    "phi_v": "φ_v",
+    "phi_u": "φ_u L",
+    "omega_0": "ω0",
+    "omega_n_squared": "ω_n²",
+    "g1": "g1",
+    "g2": "g2",
+    "lambda_omega": "λ_ω",
+    "lambda_x": "λ_x",
+}
+
+
+def _table_4() -> PaperTable:
+    derived = closed_form(energy_coefficients(CantileverMode(), "sine"))
+    rows = [
+        _decimal_row(
+            f"{quantity}: {monomial}",
+            printed,
+            derived[quantity, monomial],
+            "the print used β = 1.8751",
+        )
+        for (quantity, monomial), printed in _TABLE_4.items()
+    ]
+    return PaperTable(
+        number=4,
+        title="cantilever mode with elongation (CE): coefficients of the monomials in Ω and μ",
+        rows=tuple(rows),
+    )
+
+
+def _table_5() -> PaperTable:
+    rows = []
+    for omega, printed in _TABLE_5.items():
+        model = reduced_model(Beam.reference(), omega, "FrE")
+        values = (model.omega_n, model.lambda_omega, model.lambda_x)
+        rows += [
+            _decimal_row(f"{name} at {omega:g} rad/s", text, value, _ROUNDED)
+            for name, text, value in zip(
+                ("ω_n [rad/s]", "λ_ω", "λ_x"), printed, values, strict=True
+            )
+        ]
+    return PaperTable(number=5, title="rotating mode with elongation (FrE)", rows=tuple(rows))
+
+
+def _decimal_row(quantity: str, printed: str, derived: float, note: str) -> TableRow:
+    """Two digits more than printed; the note applies beyond the rounding of the last digit."""
+    digits = -int(Decimal(printed).as_tuple().exponent) + 2
+    difference = derived - float(printed)
+    # One part in 1e9 of slack: the printed decimal itself is not a binary number.
+    off = abs(difference) > half_unit(printed) * (1.0 + 1e-9)
+    return TableRow(
+        quantity=quantity,
+        printed=printed,
+        derived=f"{derived:.{digits}f}",
+        difference=f"{difference:+.1e}",
+        note=note if off else "",
+    )
+
+
+def _readable(expression: str) -> str:
+    return expression.replace("**", "^").replace("*", " ").replace("Omega", "Ω")

@@ -1,0 +1,79 @@
+"""The variants of the reduced model: settings of the one Lagrangian's two switches.
+
+    model   shape                       axial model
+    CI      cantilever mode             inextensible, as printed (Sec. 3)
+    CE      cantilever mode             elongation by the sine (Sec. 4)
+    FrI     rotating mode               inextensible, as printed (Sec. 5)
+    FrE     rotating mode               elongation by the sine (Sec. 5)
+    P3-P5   static deflections          inextensible, as printed (Tables 1-3)
+    FrC     rotating mode               consistent foreshortening; not in the paper
+    FrM     rotating mode               FrC with the Coriolis coupling to all other bending modes
+
+Only FrM has the right λ_ω to leading order: -v'⁴/8 and the other modes both enter at that order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .energies import AXIAL_MODELS, Axial
+from .rotating_mode import rotating_mode
+from .shapes import CantileverMode, Shape, static_deflection
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variant:
+    """One setting of the Lagrangian's two switches, and whether the other modes take part.
+
+    Parameters
+    ----------
+    name : str
+        What the model calls itself.
+    shape : str
+        "cantilever", "rotating", or the degree of a static deflection: "3", "4", "5".
+    axial : str
+        One of `energies.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
+    coriolis : bool
+        Whether the other bending modes are eliminated to cubic order; rotating mode only.
+    """
+
+    name: str
+    shape: Literal["cantilever", "rotating", "3", "4", "5"]
+    axial: Axial
+    coriolis: bool = False
+
+    def __post_init__(self) -> None:
+        if self.axial not in AXIAL_MODELS:
+            raise ValueError(f"axial must be one of {', '.join(AXIAL_MODELS)}, got {self.axial!r}")
+        if self.shape not in {"cantilever", "rotating", "3", "4", "5"}:
+            raise ValueError(f"shape must be cantilever, rotating, 3, 4 or 5, got {self.shape!r}")
+        if self.coriolis and self.shape != "rotating":
+            raise ValueError(
+                f"the Coriolis coupling is eliminated about the rotating mode, got shape "
+                f'{self.shape!r}: take shape "rotating"'
+            )
+
+    def shape_at(self, w_bar: float) -> Shape:
+        """Return φ_v; only the rotating mode depends on the normalized speed `w_bar`."""
+        if self.shape == "rotating":
+            return rotating_mode(w_bar)
+        if self.shape == "cantilever":
+            return CantileverMode()
+        return static_deflection(int(self.shape))
+
+
+VARIANTS: dict[str, Variant] = {
+    variant.name: variant
+    for variant in (
+        Variant(name="CI", shape="cantilever", axial="inextensible"),
+        Variant(name="CE", shape="cantilever", axial="sine"),
+        Variant(name="FrI", shape="rotating", axial="inextensible"),
+        Variant(name="FrE", shape="rotating", axial="sine"),
+        Variant(name="P3", shape="3", axial="inextensible"),
+        Variant(name="P4", shape="4", axial="inextensible"),
+        Variant(name="P5", shape="5", axial="inextensible"),
+        Variant(name="FrC", shape="rotating", axial="consistent"),
+        Variant(name="FrM", shape="rotating", axial="consistent", coriolis=True),
+    )
+}

@@ -1,0 +1,95 @@
+"""Finished cases on disk: one file each, named by its content and the versions that matter."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import warnings
+from typing import Any
+
+import xarray as xr
+
+from analytic.input_checks import RotbeamWarning
+
+from .simulation import versions
+from .storage import load, save, whole_file, writable_folder
+
+_FORMAT = 1
+_MARK = "rotbeam-cache.json"
+
+
+class Cache:
+    """A folder of results, each the pure function of a description.
+
+    Parameters
+    ----------
+    folder : path
+        Made if needed.
+
+    Raises
+    ------
+    ValueError
+        If the folder was written by an incompatible version of this package.
+    OSError
+        If it cannot be written.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self._folder = writable_folder(folder)
+        # Python's and scipy's version do not enter the simulation.
+        self._versions = {k: v for k, v in versions().items() if k not in ("python", "scipy")}
+        mark = self._folder / _MARK
+        if mark.exists():
+            try:
+                found = json.loads(mark.read_text(encoding="utf-8"))["format"]
+            except (ValueError, KeyError, TypeError):
+                found = "unknown"
+            if found != _FORMAT:
+                raise ValueError(
+                    f"the cache folder {self._folder} has format {found}, this version writes "
+                    f"{_FORMAT}; choose another folder or remove that one"
+                )
+        else:
+            with whole_file(mark) as partial:
+                partial.write_text(json.dumps({"format": _FORMAT}), encoding="utf-8")
+
+    def get(self, description: dict[str, Any]) -> xr.Dataset | None:
+        """Return the result kept for a description, or None.
+
+        A file that cannot be read is named in a warning and set aside, not used or lost.
+        """
+        name = self._name(description)
+        path = self._folder / f"{name}.nc"
+        if not path.exists():
+            return None
+        try:
+            result = load(path)
+            if result.attrs.pop("case", None) != name:
+                raise ValueError(f"{path} does not hold the case it is named after")
+        except ValueError as error:
+            aside = path.with_suffix(".damaged")
+            path.replace(aside)
+            warnings.warn(
+                f"{error}; it is set aside as {aside.name} and computed again",
+                RotbeamWarning,
+                stacklevel=2,
+            )
+            return None
+        return result
+
+    def put(self, description: dict[str, Any], result: xr.Dataset) -> None:
+        """Keep a result; the file is written whole or not at all."""
+        name = self._name(description)
+        path = self._folder / f"{name}.nc"
+        try:
+            save(result.assign_attrs(case=name), path)
+        except OSError as error:
+            raise OSError(
+                f"cannot keep a finished case in {self._folder}: {error.strerror or error}; "
+                "those already there stay, make room and run again"
+            ) from error
+
+    def _name(self, description: dict[str, Any]) -> str:
+        content = json.dumps({"case": description, "versions": self._versions}, sort_keys=True)
+        return hashlib.sha256(content.encode()).hexdigest()[:32]

@@ -1,0 +1,53 @@
+"""`rotbeam backbone`: nonlinear frequencies of the reduced models."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from cyclopts import Parameter
+
+from analytic import VARIANTS, Beam, reduced_model
+
+from .output import Format, print_columns
+
+
+def backbone(
+    *,
+    omega: float,
+    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
+    variant: str = "FrE",
+    all_variants: Annotated[bool, Parameter(negative=())] = False,
+    form: Annotated[Format, Parameter(name="--format")] = "table",
+) -> None:
+    """Print the backbone of a reduced model: frequency against amplitude.
+
+    Parameters
+    ----------
+    omega
+        Rotation speed [rad/s].
+    amplitude
+        Amplitudes over the length, one or several.
+    variant
+        CI, CE, FrI, FrE, P3, P4, P5, FrC or FrM.
+    all_variants
+        Every variant, one below the other.
+    form
+        A table for the reader, or CSV with all digits.
+    """
+    beam = Beam.reference()
+    names = list(VARIANTS) if all_variants else [variant]
+    models = [reduced_model(beam, omega, name) for name in names]
+    perturbed = np.concatenate([model.frequency(amplitude) for model in models])
+    columns: dict[str, list[str] | list[float]] = {
+        "variant": [name for name in names for _ in amplitude],
+        "amplitude a/L": amplitude * len(models),
+        "Eq. 63 [rad/s]": perturbed.tolist(),
+        "Eq. 41 exactly [rad/s]": np.concatenate(
+            [model.exact_frequency(amplitude) for model in models]
+        ).tolist(),
+        "ω_NL/ω_n": (
+            perturbed / np.repeat([model.omega_n for model in models], len(amplitude))
+        ).tolist(),
+    }
+    print_columns(columns, form, title="\n".join(map(repr, models)))

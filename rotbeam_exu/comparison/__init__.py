@@ -1,0 +1,30 @@
+"""Simulation and theory on the same axes: the data of the paper's figures, and the error budget.
+
+Each function returns a Dataset; `rotbeam_exu.figures` draws it.
+"""
+
+from __future__ import annotations
+
+from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
+from .budget import finite_element_budget, model_budget
+from .orbits import figure_15
+from .runs import figure_3, figure_4
+from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
+
+__all__ = [
+    "figure_3",
+    "figure_4",
+    "figure_5",
+    "figure_8",
+    "figure_9",
+    "figure_10",
+    "figure_11",
+    "figure_12",
+    "figure_13",
+    "figure_14",
+    "figure_15",
+    "finite_element_budget",
+    "finite_element_points",
+    "fitted_softening",
+    "model_budget",
+]

@@ -1,0 +1,154 @@
+"""The error budget: where each model's frequency error comes from, as differences of results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
+
+from ..sweeps import sweep
+from .backbones import MODELS, PAPER_RAMP_TIMES, finite_element_points
+from .theory import PAPER_SPEEDS, beyond_range
+
+FloatArray = NDArray[np.float64]
+
+SOURCES = (
+    "linear frequency",
+    "perturbation",
+    "shape",
+    "elongation",
+    "foreshortening",
+    "Coriolis modes",
+    "extensibility and higher order",
+)
+"""Sources of a reduced model's error, in the order in which they are taken away."""
+
+
+def model_budget(
+    beam: Beam | None = None,
+    *,
+    omegas: Sequence[float] = PAPER_SPEEDS,
+    amplitudes: Sequence[float] = (0.05, 0.1, 0.15, 0.2),
+) -> xr.Dataset:
+    """Frequency error of CI, CE, FrI, FrE, FrC and FrM, source by source.
+
+    Each model is changed into the exact one step by step; a source is the difference of the two
+    frequencies before and after its step, so that the sources add up to the whole error:
+    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63 less
+    Eq. 41 solved exactly), shape (the cantilever's mode for the rotating one), elongation (the
+    sine for the static solution), foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC
+    less FrM), and what is left between FrM and the exact beam.
+
+    Returns
+    -------
+    Dataset
+        `error`, (ω_NL - ω_NL,exact)/ω_n,exact [-], over (model, source, omega, a), and `total`
+        over (model, omega, a).
+    """
+    beam = beam or Beam.reference()
+    a = list(amplitudes)
+    error = np.empty((len(MODELS), len(SOURCES), len(omegas), len(a)))
+    total = np.empty((len(MODELS), len(omegas), len(a)))
+    with beyond_range():
+        for j, omega in enumerate(omegas):
+            exact = periodic_orbits(beam, omega, a)
+            for i, name in enumerate(MODELS):
+                stages = [reduced_model(beam, omega, stage) for stage in _stages(VARIANTS[name])]
+                model = stages[0]
+                ratios = [model.frequency(a) / model.omega_n]
+                ratios += [stage.exact_frequency(a) / stage.omega_n for stage in stages]
+                ratios.append(exact.frequency / exact.omega_n)
+                steps = [before - after for before, after in pairwise(ratios)]
+                total[i, j] = (model.frequency(a) - exact.frequency) / exact.omega_n
+                error[i, :, j] = [total[i, j] - sum(steps), *steps]
+    attrs = {"units": "1", "long_name": "error of ω_NL over ω_n"}
+    return xr.Dataset(
+        {
+            "error": (("model", "source", "omega", "a"), error, attrs),
+            "total": (("model", "omega", "a"), total, attrs),
+        },
+        coords={
+            "model": ("model", list(MODELS), {"units": "1", "long_name": "model"}),
+            "source": ("source", list(SOURCES), {"units": "1", "long_name": "source of error"}),
+            "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
+            "a": ("a", a, {"units": "1", "long_name": "amplitude a = q/L"}),
+        },
+    )
+
+
+def _stages(variant: Variant) -> list[Variant]:
+    """Return the model, and what it becomes as one fault after another is taken away."""
+    rotating = replace(variant, shape="rotating")
+    static = replace(rotating, axial="static") if variant.axial == "sine" else rotating
+    consistent = replace(static, axial="consistent")
+    return [variant, rotating, static, consistent, VARIANTS["FrM"]]
+
+
+def finite_element_budget(
+    beam: Beam | None = None,
+    *,
+    omegas: Sequence[float] = PAPER_SPEEDS,
+    ramp_times: Sequence[float] = PAPER_RAMP_TIMES,
+    largest_amplitude: float = 0.6,
+    **options: Any,
+) -> xr.Dataset:
+    """Distance of the paper's mesh from the exact backbone, source by source.
+
+    The distance of a point is its ratio less the exact one at its own amplitude. Step: 16 elements
+    at 1 ms less the same with the step extrapolated to zero; mesh: that less 64 elements, step to
+    zero; rest: what those still differ; estimator: the bar of the frequency estimate.
+
+    Returns
+    -------
+    Dataset
+        `error` [-] over (source, omega, ramp_time) and `amplitude` [-] of the paper's mesh; NaN
+        where the amplitude is above `largest_amplitude`.
+    """
+    beam = beam or Beam.reference()
+    grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
+    paper = finite_element_points(beam, mesh="paper", **grid)
+    twice = sweep(beam, elements=16, step=2e-3, frame="inertial", **grid)
+    doubled = xr.Dataset(
+        {"amplitude": twice["amplitude"], "ratio": twice["frequency"] / twice["omega_n"]}
+    )
+    no_step = paper[["amplitude", "ratio"]] + (paper[["amplitude", "ratio"]] - doubled) / 3.0
+    converged = finite_element_points(beam, mesh="converged", **grid)
+    distances = [
+        _distance(beam, points, largest_amplitude) for points in (paper, no_step, converged)
+    ]
+    rows = {
+        "step": distances[0] - distances[1],
+        "mesh": distances[1] - distances[2],
+        "rest": distances[2],
+        "estimator": paper["ratio_error"].to_numpy(),
+    }
+    return xr.Dataset(
+        {
+            "error": (
+                ("source", "omega", "ramp_time"),
+                np.array(list(rows.values())),
+                {"units": "1", "long_name": "error of ω_NL over ω_n"},
+            ),
+            "amplitude": paper["amplitude"],
+        },
+        coords={"source": ("source", list(rows), {"units": "1", "long_name": "source of error"})},
+    )
+
+
+def _distance(beam: Beam, points: xr.Dataset, largest_amplitude: float) -> FloatArray:
+    """ω_NL/ω_n of points less the exact one at the same speed and amplitude, NaN if too large."""
+    amplitude, ratio = points["amplitude"].to_numpy(), points["ratio"].to_numpy()
+    distance = np.full(ratio.shape, np.nan)
+    for i, omega in enumerate(points["omega"].to_numpy()):
+        inside = amplitude[i] <= largest_amplitude
+        if inside.any():
+            exact = periodic_orbits(beam, float(omega), amplitude[i, inside])
+            distance[i, inside] = ratio[i, inside] - exact.frequency / exact.omega_n
+    return distance

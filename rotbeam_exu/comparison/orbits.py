@@ -1,0 +1,128 @@
+"""Data of Figure 15: one period of the finite element orbit beside the models'."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy import interpolate, optimize
+
+from analytic import Beam, SpinUp, periodic_orbits, reduced_model
+from analytic.reduced import ReducedModel
+
+from ..oscillation import steady_oscillation
+from ..simulation import simulate
+from .backbones import MODELS
+from .theory import beyond_range
+
+FloatArray = NDArray[np.float64]
+
+
+def figure_15(
+    beam: Beam | None = None, *, omega: float = 6.0, ramp_time: float = 3.0, **options: Any
+) -> xr.Dataset:
+    """Orbits over one period of the finite element solution, at its amplitude (Fig. 15).
+
+    Parameters
+    ----------
+    beam : Beam, optional
+        By default the paper's.
+    omega, ramp_time : float
+        The spin-up [rad/s], [s]. The print does not say which T it shows.
+    **options
+        As for `simulate`, for the finite element run; by default the main job's 16 elements.
+
+    Returns
+    -------
+    Dataset
+        `q_bar` = q/L and `q_dot_bar` = q̇/(ω0 L) [-] over (model, phase), the models, "exact" and
+        "finite element", each from its greatest deflection; `period` [s] over model. Sec. 6 calls
+        q̇/(ω0 L) by the name of the displacement; it is the velocity. A model whose frequency is
+        off does not close. Attributes state the amplitude, and each model has it as its peak.
+    """
+    beam = beam or Beam.reference()
+    run = simulate(beam, SpinUp(omega=omega, ramp_time=ramp_time), **options)
+    steady = steady_oscillation(run)
+    period = 2.0 * np.pi / steady.frequency
+    phase = np.linspace(0.0, 1.0, 201)
+    time = phase * period
+    per_length = 1.0 / (beam.omega_0 * beam.length)
+
+    q, q_dot = _from_the_peak(run, period, time)
+    orbits = {"finite element": (q / beam.length, q_dot * per_length)}
+    periods = {"finite element": period}
+    with beyond_range():
+        for name in MODELS:
+            model = reduced_model(beam, omega, name)
+            a0 = first_harmonic_of_peak(model, steady.amplitude)
+            frequency = model.frequency(a0)
+            velocity = -frequency * (
+                a0 * np.sin(frequency * time)
+                - 3.0 * model.lambda_x * a0**3 * np.sin(3.0 * frequency * time)
+            )
+            orbits[name] = (model.response(time, a0), velocity / beam.omega_0)
+            periods[name] = 2.0 * np.pi / frequency
+        exact = periodic_orbits(beam, omega, [steady.amplitude])
+    x, rate = _from_greatest(*exact.orbit(0, phase.size - 1))
+    orbits["exact"] = (x, rate * beam.frequency_scale / beam.omega_0)
+    periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
+    names = ["finite element", *MODELS, "exact"]
+    return xr.Dataset(
+        {
+            "q_bar": (
+                ("model", "phase"),
+                np.array([orbits[name][0] for name in names]),
+                {"units": "1", "long_name": "tip displacement q/L"},
+            ),
+            "q_dot_bar": (
+                ("model", "phase"),
+                np.array([orbits[name][1] for name in names]),
+                {"units": "1", "long_name": "tip velocity q̇/(ω₀L)"},
+            ),
+            "period": (
+                "model",
+                np.array([periods[name] for name in names]),
+                {"units": "s", "long_name": "period"},
+            ),
+        },
+        coords={
+            "model": ("model", names, {"units": "1", "long_name": "model"}),
+            "phase": ("phase", phase, {"units": "1", "long_name": "time over the FE period"}),
+        },
+        attrs={
+            "omega": omega,
+            "ramp_time": ramp_time,
+            "amplitude": steady.amplitude,
+            "elements": run.attrs["elements"],
+            "element": run.attrs["element"],
+        },
+    )
+
+
+def first_harmonic_of_peak(model: ReducedModel, peak: float) -> float:
+    """Return a0 for which the peak of Eq. 65, a0 (1 - λ_x a0²), is `peak` [-]."""
+    return float(
+        optimize.brentq(lambda a: a * (1.0 - model.lambda_x * a * a) - peak, 0.0, 1.2 * peak)
+    )
+
+
+def _from_the_peak(
+    run: xr.Dataset, period: float, time: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Q and q_dot of a run over one period from its first steady maximum, by cubic splines."""
+    steady = run.where(run["time"] >= run.attrs["ramp_time"], drop=True)
+    at = steady["time"].to_numpy()
+    displacement = interpolate.CubicSpline(at, steady["q"].to_numpy())
+    rate = interpolate.CubicSpline(at, steady["q_dot"].to_numpy())
+    turns = rate.roots(extrapolate=False)
+    peak = next(t for t in turns if displacement(t) > 0.0 and t + period <= at[-1])
+    return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
+
+
+def _from_greatest(x: FloatArray, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Turn a closed orbit, sampled over one period, so that it starts at its greatest x."""
+    shift = int(np.argmax(x[:-1]))
+    first, second = (np.append(np.roll(v[:-1], -shift), v[shift]) for v in (x, rate))
+    return first, second

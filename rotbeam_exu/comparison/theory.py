@@ -1,0 +1,189 @@
+"""Data of Figures 8 to 13: what the reduced models say by themselves."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from analytic import Beam, reduced_model
+from analytic.input_checks import RotbeamWarning
+from analytic.rotating_mode import converged_degree, rotating_frequency, rotating_mode
+from analytic.shapes import CantileverMode
+
+FloatArray = NDArray[np.float64]
+
+PAPER_SPEEDS = (2.0, 4.0, 6.0, 8.0)
+"""Angular velocities of Secs. 5 and 6 [rad/s]."""
+
+_A = {"units": "1", "long_name": "amplitude a = q/L"}
+_RATIO = {"units": "1", "long_name": "frequency ratio ω_NL/ω_n"}
+_OMEGA = {"units": "rad/s", "long_name": "angular velocity ω"}
+_SPEED_RATIO = {"units": "1", "long_name": "speed ratio Ω = ω/ω0"}
+_LAMBDA_OMEGA = {"units": "1", "long_name": "λ_ω"}
+_LAMBDA_X = {"units": "1", "long_name": "λ_x"}
+
+
+@contextmanager
+def beyond_range() -> Iterator[None]:
+    """Draw models beyond their range without a warning each: showing that is the purpose."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)
+        yield
+
+
+def figure_8(beam: Beam | None = None) -> xr.Dataset:
+    """Backbones of CI at Ω = 0, 1 and ∞, between which all others lie (Fig. 8).
+
+    Returns
+    -------
+    Dataset
+        `ratio` over (speed_ratio, amplitude); the last speed ratio, 1000, stands for ∞.
+    """
+    beam = beam or Beam.reference()
+    amplitude = np.linspace(0.0, 0.4, 81)
+    speed_ratios = [0.0, 1.0, 1000.0]
+    with beyond_range():
+        models = [reduced_model(beam, r * beam.omega_0, "CI") for r in speed_ratios]
+        ratio = [model.frequency(amplitude) / model.omega_n for model in models]
+    return xr.Dataset(
+        {"ratio": (("speed_ratio", "amplitude"), ratio, _RATIO)},
+        coords={
+            "speed_ratio": ("speed_ratio", speed_ratios, _SPEED_RATIO),
+            "amplitude": ("amplitude", amplitude, _A),
+        },
+        attrs={"model": "CI"},
+    )
+
+
+def figure_9(beam: Beam | None = None) -> xr.Dataset:
+    """λ_ω and λ_x of CI against Ω (Fig. 9)."""
+    beam = beam or Beam.reference()
+    speed_ratio = np.linspace(0.0, 10.0, 201)
+    return _coefficients(
+        "speed_ratio", speed_ratio, _SPEED_RATIO, {"CI": (beam, "CI")}, speed_ratio * beam.omega_0
+    )
+
+
+def figure_10(beam: Beam | None = None) -> xr.Dataset:
+    """λ_ω and λ_x of the cantilever's mode and of the three polynomials against ω (Fig. 10)."""
+    beam = beam or Beam.reference()
+    omega = np.linspace(0.0, 30.0, 151)
+    models = {
+        "cantilever mode": (beam, "CI"),
+        "degree 3": (beam, "P3"),
+        "degree 4": (beam, "P4"),
+        "degree 5": (beam, "P5"),
+    }
+    return _coefficients("omega", omega, _OMEGA, models, omega)
+
+
+def figure_11(
+    beam: Beam | None = None, slendernesses: Sequence[float] = (1e-2, 1e-3, 1e-4, 1.758374435e-6)
+) -> xr.Dataset:
+    """λ_ω and λ_x of CE against ω for several slendernesses μ (Fig. 11).
+
+    The print does not say which μ it shows. Mass and bending stiffness are the beam's own; only
+    the area, and with it EA, follows μ.
+    """
+    beam = beam or Beam.reference()
+    omega = np.linspace(0.0, 30.0, 151)
+    models = {}
+    for mu in slendernesses:
+        area = beam.second_moment / (mu * beam.length**2)
+        other = Beam(
+            length=beam.length,
+            area=area,
+            second_moment=beam.second_moment,
+            youngs_modulus=beam.youngs_modulus,
+            density=beam.mass_per_length / area,
+        )
+        models[f"μ = {mu:.4g}"] = (other, "CE")
+    return _coefficients("omega", omega, _OMEGA, models, omega)
+
+
+def figure_12(
+    beam: Beam | None = None,
+    omegas: Sequence[float] = PAPER_SPEEDS,
+    degrees: Sequence[int] = tuple(range(8, 61, 2)),
+) -> xr.Dataset:
+    """Frobenius' natural frequency against the degree of its polynomials (Fig. 12)."""
+    beam = beam or Beam.reference()
+    scale = beam.frequency_scale
+    estimate = np.full((len(omegas), len(degrees)), np.nan)
+    converged = np.empty(len(omegas))
+    for i, omega in enumerate(omegas):
+        w_bar = omega / scale
+        converged[i] = scale * rotating_frequency(w_bar, converged_degree(w_bar))
+        for j, degree in enumerate(degrees):
+            try:
+                estimate[i, j] = scale * rotating_frequency(w_bar, degree)
+            except ValueError:
+                continue  # so few terms that Eq. 86 has no root near the first frequency
+    return xr.Dataset(
+        {
+            "omega_n": (
+                ("omega", "degree"),
+                estimate,
+                {"units": "rad/s", "long_name": "natural frequency ω_n"},
+            ),
+            "converged": (
+                "omega",
+                converged,
+                {"units": "rad/s", "long_name": "converged natural frequency ω_n"},
+            ),
+        },
+        coords={
+            "omega": ("omega", list(omegas), _OMEGA),
+            "degree": ("degree", list(degrees), {"units": "1", "long_name": "polynomial degree"}),
+        },
+        attrs={"paper_degree": 36},
+    )
+
+
+def figure_13(beam: Beam | None = None, omegas: Sequence[float] = PAPER_SPEEDS) -> xr.Dataset:
+    """First mode shape at rest and in rotation (Fig. 13); speed 0 is the cantilever's."""
+    beam = beam or Beam.reference()
+    eta = np.linspace(0.0, 1.0, 201)
+    shapes = [CantileverMode().deflection(eta)]
+    shapes += [rotating_mode(omega / beam.frequency_scale).deflection(eta) for omega in omegas]
+    return xr.Dataset(
+        {"shape": (("omega", "eta"), shapes, {"units": "1", "long_name": "mode shape φ_v"})},
+        coords={
+            "omega": ("omega", [0.0, *omegas], _OMEGA),
+            "eta": ("eta", eta, {"units": "1", "long_name": "position η/L"}),
+        },
+    )
+
+
+def _coefficients(
+    name: str,
+    axis: FloatArray,
+    attrs: dict[str, str],
+    models: dict[str, tuple[Beam, str]],
+    omegas: FloatArray,
+) -> xr.Dataset:
+    """λ_ω and λ_x over (model, axis); NaN where a model has no oscillation."""
+    values = np.full((2, len(models), axis.size), np.nan)
+    with beyond_range():
+        for i, (beam, variant) in enumerate(models.values()):
+            for j, omega in enumerate(omegas):
+                try:
+                    model = reduced_model(beam, float(omega), variant)
+                except ValueError:
+                    continue
+                values[:, i, j] = model.lambda_omega, model.lambda_x
+    return xr.Dataset(
+        {
+            "lambda_omega": (("model", name), values[0], _LAMBDA_OMEGA),
+            "lambda_x": (("model", name), values[1], _LAMBDA_X),
+        },
+        coords={
+            "model": ("model", list(models), {"units": "1", "long_name": "model"}),
+            name: (name, axis, attrs),
+        },
+    )

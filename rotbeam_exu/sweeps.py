@@ -1,0 +1,334 @@
+"""Many spin-ups: a grid of cases, in parallel, resumable, on any executor."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, fields
+from functools import lru_cache
+from itertools import product
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from analytic import Beam, SpinUp
+from analytic.input_checks import whole_number
+
+from .cache import Cache
+from .linearization import natural_frequencies
+from .oscillation import steady_oscillation
+from .simulation import Frame, simulate
+from .verdict import SimulationError
+
+OnError = Literal["raise", "record"]
+
+_MEASURED = {
+    "amplitude": ("1", "amplitude a = q/L, half peak to peak"),
+    "first_harmonic": ("1", "first harmonic over L"),
+    "frequency": ("rad/s", "nonlinear frequency ω_NL"),
+    "frequency_error": ("rad/s", "error bar of ω_NL, estimator"),
+    "offset": ("1", "mean of q over L"),
+    "residual": ("1", "second bending mode, rms over L"),
+    "omega_n": ("rad/s", "natural frequency ω_n of the mesh"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One spin-up of a sweep: all that determines its result."""
+
+    beam: Beam
+    spin_up: SpinUp
+    element: str = "cable"
+    elements: int = 16
+    duration: float = 15.0
+    step: float = 1e-3
+    frame: Frame = "inertial"
+
+    def describe(self) -> dict[str, Any]:
+        """Return every input as plain values, for keys and records."""
+        return asdict(self)
+
+
+def solve(case: Case) -> xr.Dataset:
+    """Run one case and measure it: the unit of work, a pure function of the case.
+
+    Returns
+    -------
+    Dataset
+        q and q_dot over `time`; the measured numbers and the verdict as attributes. A run that
+        fails its checks has no variables, and the attribute `failure` says why.
+    """
+    try:
+        run = simulate(
+            case.beam,
+            case.spin_up,
+            element=case.element,
+            elements=case.elements,
+            duration=case.duration,
+            step=case.step,
+            frame=case.frame,
+        )
+        steady = steady_oscillation(run)
+        omega_n = _omega_n(case.beam, case.spin_up.omega, case.element, case.elements)
+    except (SimulationError, ValueError) as error:
+        return xr.Dataset(attrs={"verdict": "failed", "failure": str(error)})
+    result = run[["q", "q_dot"]]
+    measured = {
+        field.name: getattr(steady, field.name)
+        for field in fields(steady)
+        if field.name in _MEASURED
+    }
+    result.attrs = {**measured, "omega_n": omega_n, "verdict": run.attrs["verdict"], "failure": ""}
+    return result
+
+
+@lru_cache(maxsize=64)
+def _omega_n(beam: Beam, omega: float, element: str, elements: int) -> float:
+    return float(natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0])
+
+
+def sweep(
+    beam: Beam,
+    *,
+    omegas: Sequence[float],
+    ramp_times: Sequence[float],
+    element: str = "cable",
+    elements: int = 16,
+    duration: float = 15.0,
+    step: float = 1e-3,
+    frame: Frame = "inertial",
+    executor: Executor | None = None,
+    jobs: int | None = None,
+    cache: str | os.PathLike[str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    on_error: OnError = "raise",
+    shard: tuple[int, int] = (1, 1),
+    history: bool = False,
+) -> xr.Dataset:
+    """Spin a beam up over a grid of speeds and ramp times, and measure each steady oscillation.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    omegas, ramp_times : sequences of float
+        The grid: steady angular velocities [rad/s] and ramp times [s], without duplicates.
+    element, elements, duration, step, frame
+        As in `simulate`.
+    executor : concurrent.futures.Executor, optional
+        Where the cases run; by default as many spawned processes as `jobs`. A script that uses
+        the default needs the usual ``if __name__ == "__main__":``.
+    jobs : int, optional
+        Number of processes of the default executor, by default the cores; 1 runs in this process.
+    cache : path, optional
+        Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
+    progress : callable, optional
+        Called with the cases done and their number.
+    on_error : {"raise", "record"}
+        Whether a failed case ends the sweep, or stays in the result with its sentence.
+    shard : (int, int)
+        Part k of n, from 1: only every n-th case is run, for job arrays that share a cache.
+    history : bool
+        Whether to keep q over time.
+
+    Returns
+    -------
+    Dataset
+        Over `omega` and `ramp_time`: amplitude, first_harmonic, offset and residual [-],
+        frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, for a case
+        of another shard, "pending") and failure, the sentence; with `history` also q [m].
+
+    Raises
+    ------
+    ValueError
+        If the grid is empty or has duplicates, or an input is refused.
+    SimulationError
+        If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached.
+    """
+    cases = _grid(
+        [float(w) for w in omegas],
+        [float(t) for t in ramp_times],
+        lambda spin_up: Case(
+            beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
+            step=step, frame=frame,
+        ),
+    )  # fmt: skip
+    if on_error not in ("raise", "record"):
+        raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
+    part, parts = whole_number("shard", shard[0]), whole_number("shard", shard[1])
+    if part > parts:
+        raise ValueError(f"shard {part}/{parts}: the part must be between 1 and {parts}")
+    mine = list(cases)[part - 1 :: parts]
+    store = None if cache is None else Cache(cache)
+    results: dict[tuple[float, float], xr.Dataset] = {}
+    for done, (point, result) in enumerate(
+        _solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
+    ):
+        results[point] = result
+        if progress is not None:
+            progress(done, len(mine))
+        if result.attrs["failure"] and on_error == "raise":
+            raise SimulationError(
+                f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
+                f"{result.attrs['failure']}; on_error='record' keeps going"
+            )
+    return _collect(beam, cases, results, history)
+
+
+def failures(result: xr.Dataset) -> dict[str, int]:
+    """Group the failed cases of a sweep by cause: the sentence up to its first number."""
+    causes = Counter(
+        "".join(c if not c.isdigit() else "#" for c in sentence).split("#")[0].strip()
+        for sentence in result["failure"].to_numpy().ravel()
+        if sentence
+    )
+    return dict(causes.most_common())
+
+
+def _grid(
+    omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], Case]
+) -> dict[tuple[float, float], Case]:
+    for name, values in (("omegas", omegas), ("ramp_times", ramp_times)):
+        if not values:
+            raise ValueError(f"{name} is empty; give at least one value")
+        twice = [f"{value:g}" for value, count in Counter(values).items() if count > 1]
+        if twice:
+            raise ValueError(f"{name} holds {', '.join(twice)} more than once")
+    return {
+        (omega, ramp_time): make(SpinUp(omega=omega, ramp_time=ramp_time))
+        for omega, ramp_time in product(omegas, ramp_times)
+    }
+
+
+def _solved(
+    cases: dict[tuple[float, float], Case],
+    store: Cache | None,
+    executor: Executor | None,
+    jobs: int | None,
+) -> Iterator[tuple[tuple[float, float], xr.Dataset]]:
+    """Each case with its result: from the cache first, then as the executor finishes them."""
+    waiting = []
+    for point, case in cases.items():
+        known = store.get(case.describe()) if store else None
+        if known is None:
+            waiting.append(point)
+        else:
+            yield point, known
+    if not waiting:
+        return
+    if executor is None and jobs == 1:
+        for point in waiting:
+            yield point, _kept(store, cases[point], solve(cases[point]))
+        return
+    with _pool(executor, jobs, len(waiting)) as pool:
+        futures: dict[Future[xr.Dataset], tuple[float, float]] = {
+            pool.submit(solve, cases[point]): point for point in waiting
+        }
+        try:
+            for finished, future in enumerate(as_completed(futures)):
+                point = futures[future]
+                try:
+                    result = future.result()
+                except BrokenProcessPool as error:
+                    raise SimulationError(
+                        f"a worker process died with {len(waiting) - finished} of {len(waiting)} "
+                        "cases to do; run again to resume from the cache"
+                    ) from error
+                yield point, _kept(store, cases[point], result)
+        finally:
+            # Reached early on an error, on Ctrl-C, or when the caller stops listening.
+            for future in futures:
+                future.cancel()
+
+
+def _kept(store: Cache | None, case: Case, result: xr.Dataset) -> xr.Dataset:
+    if store:
+        store.put(case.describe(), result)
+    return result
+
+
+@contextmanager
+def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Executor]:
+    """Give the caller's executor, left open, or our own spawned processes, closed at the end."""
+    if executor is not None:
+        yield executor
+        return
+    workers = min(whole_number("jobs", jobs or os.cpu_count() or 1), most)
+    own = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        yield own
+    except BaseException:
+        # Do not wait for what nobody asks for any more.
+        for process in list(getattr(own, "_processes", None) or {}):
+            own._processes[process].terminate()
+        own.shutdown(wait=False, cancel_futures=True)
+        raise
+    own.shutdown()
+
+
+def _collect(
+    beam: Beam,
+    cases: dict[tuple[float, float], Case],
+    results: dict[tuple[float, float], xr.Dataset],
+    history: bool,
+) -> xr.Dataset:
+    omegas = list(dict.fromkeys(omega for omega, _ in cases))
+    ramp_times = list(dict.fromkeys(ramp_time for _, ramp_time in cases))
+    shape = (len(omegas), len(ramp_times))
+    dims = ("omega", "ramp_time")
+    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in _MEASURED}
+    verdict = np.full(shape, "pending", dtype=object)
+    failure = np.full(shape, "", dtype=object)
+    for i, j in np.ndindex(shape):
+        result = results.get((omegas[i], ramp_times[j]))
+        if result is None:
+            continue
+        verdict[i, j], failure[i, j] = result.attrs["verdict"], result.attrs["failure"]
+        if not result.attrs["failure"]:
+            for name, column in columns.items():
+                column[i, j] = result.attrs[name]
+    first = next(iter(cases.values())).describe()
+    data = xr.Dataset(
+        {
+            name: (dims, column, {"units": _MEASURED[name][0], "long_name": _MEASURED[name][1]})
+            for name, column in columns.items()
+        },
+        coords={
+            "omega": ("omega", omegas, {"units": "rad/s", "long_name": "angular velocity ω"}),
+            "ramp_time": ("ramp_time", ramp_times, {"units": "s", "long_name": "ramp time T"}),
+        },
+        attrs={
+            **{f"beam_{name}": value for name, value in asdict(beam).items()},
+            **{k: v for k, v in first.items() if k not in ("beam", "spin_up")},
+        },
+    )
+    data["verdict"] = (dims, verdict.astype(str), {"units": "1", "long_name": "verdict"})
+    data["failure"] = (dims, failure.astype(str), {"units": "1", "long_name": "why a case failed"})
+    if history:
+        data = data.merge(_histories(omegas, ramp_times, results))
+    return data
+
+
+def _histories(
+    omegas: list[float],
+    ramp_times: list[float],
+    results: dict[tuple[float, float], xr.Dataset],
+) -> xr.Dataset:
+    """Q over (omega, ramp_time, time), NaN where a case has none."""
+    finished = {point: r["q"] for point, r in results.items() if not r.attrs["failure"]}
+    if not finished:
+        return xr.Dataset()
+    some = next(iter(finished.values()))
+    missing = some * np.nan
+    rows = [
+        xr.concat([finished.get((w, t), missing) for t in ramp_times], dim="ramp_time")
+        for w in omegas
+    ]
+    return xr.concat(rows, dim="omega").assign_attrs(some.attrs).to_dataset(name="q")

@@ -1,0 +1,152 @@
+"""Our variants: consistent foreshortening (FrC), and the Coriolis-coupled modes (FrM)."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from analytic import Beam, Variant, reduced_model, softening_speed
+from analytic.basis import gauss_points, transverse_basis
+from analytic.beam import BETA_1
+from analytic.coriolis import (
+    coriolis_coupling,
+    coupling_vector,
+    rotating_eigenproblem,
+    rotating_frequencies,
+)
+from analytic.energies import energy_coefficients
+from analytic.rotating_mode import rotating_mode
+from analytic.shapes import CantileverMode
+
+BEAM = Beam.reference()
+STATIC = Variant(name="static", shape="rotating", axial="static")
+
+
+@pytest.mark.parametrize(
+    ("variant", "digits", "values"),
+    [
+        ("FrI", 7, (0.1127159, 0.3829904, 0.6529699, 0.8987163)),
+        ("FrE", 7, (-0.0084660, 0.0103964, 0.0235487, 0.0306940)),
+        (STATIC, 7, (-0.0143771, -0.0056942, 0.0006103, 0.0044149)),
+        ("FrC", 8, (-0.01437251, -0.00567923, 0.00063832, 0.00445903)),
+        ("FrM", 8, (-0.00897923, 0.00873523, 0.01966067, 0.02382273)),
+    ],
+    ids=["FrI", "FrE", "exact elongation", "FrC", "FrM"],
+)
+def test_lambda_omega_to_all_shown_digits(variant, digits, values):
+    for omega, value in zip((2.0, 4.0, 6.0, 8.0), values, strict=True):
+        assert round(reduced_model(BEAM, omega, variant).lambda_omega, digits) == value
+
+
+def test_consistent_foreshortening_of_the_cantilever_mode():
+    """g1 = 10.1102 + 2.86208 Ω², where Eq. 43 has 10.110 - 7.1034 Ω²."""
+    c = energy_coefficients(CantileverMode(), "consistent")
+    assert c.cubic_bending == pytest.approx(10.1102, abs=5e-5)
+    assert c.cubic_spin * BETA_1**4 == pytest.approx(2.86208, abs=5e-6)
+
+
+@pytest.mark.parametrize("w_bar", [2.0, 6.0, 12.0])
+def test_one_solve_is_the_sum_over_modes(w_bar):
+    """Mode by mode, with D from its definition by nested quadrature."""
+    x, weights = gauss_points(48)
+    mode = rotating_mode(w_bar)
+    K, M = rotating_eigenproblem(w_bar, 20)
+    # M is nearly singular, so the modes come from M c = K c / w̄_j², normalized to cᵀ K c = 1.
+    reciprocal, vectors = eigh(M, K)
+    reciprocal, vectors = reciprocal[::-1], vectors[:, ::-1]
+    inner = x[:, np.newaxis] * x
+    basis = transverse_basis(20, inner.ravel()).slope.reshape(48, 48, 20)
+    # A(φ) = -½ ∫₀ˣ φ₁' φ' dξ for every basis function.
+    a_basis = -0.5 * x[:, np.newaxis] * np.einsum("ijk,ij,j->ik", basis, mode.slope(inner), weights)
+    phi, phi_1 = transverse_basis(20, x).value, mode.deflection(x)
+    d = weights @ (a_basis * phi_1[:, np.newaxis] - mode.foreshortening(x)[:, np.newaxis] * phi)
+    D = vectors.T @ d
+    assert abs(D[0]) < 1e-10 * np.abs(D).max()
+    terms = 4 * w_bar**2 * D**2 / (weights @ phi_1**2) / (1 - 4 * mode.w_n**2 * reciprocal)
+    expected = coriolis_coupling(mode).g2 / 4
+    assert terms.sum() == pytest.approx(expected, rel=1e-10)
+    # Every mode but the first pushes toward softening, and the second does not carry it alone.
+    assert (terms[1:] >= 0).all()
+    assert terms[1] < 0.9999 * expected
+
+
+@pytest.mark.parametrize("w_bar", [1.0, 5.0, 12.0])
+def test_the_solve_converges_spectrally(w_bar):
+    mode = rotating_mode(w_bar)
+    reference = coriolis_coupling(mode, 24).g2
+    errors = [abs(coriolis_coupling(mode, n).g2 / reference - 1) for n in (4, 8, 12)]
+    assert errors[1] < 1e-2 * errors[0]
+    assert errors[2] < 1e-2 * errors[1] or errors[2] < 1e-13
+    assert coriolis_coupling(mode).g2 == pytest.approx(reference, rel=1e-11)
+
+
+def test_hardening_turns_to_softening():
+    turns = {
+        name: softening_speed(BEAM, name)
+        for name in ("CI", "CE", "FrI", "FrE", "P3", "P4", "P5", "FrC", "FrM")
+    }
+    assert turns["FrM"] == pytest.approx(1.021902, abs=5e-7)
+    assert turns["FrM"] * BEAM.omega_0 == pytest.approx(2.97295, abs=5e-6)
+    # Eq. 64's numerator, 3.3504 Ω² - 0.23963, to its digits; Tables 1 and 3 exactly, though their
+    # Ω refers to the shape's own ω0.
+    assert turns["CI"] == pytest.approx(np.sqrt(0.23963 / 3.3504), rel=2e-5)
+    assert turns["P3"] == pytest.approx(np.sqrt(34408 / 106855 * 140 / 11) / BETA_1**2, rel=1e-9)
+    assert turns["P5"] == pytest.approx(
+        np.sqrt(660934414291675 / 16545041526500300 * 32670 / 2641) / BETA_1**2, rel=1e-9
+    )
+    # Table 2 softens from rest, and the cantilever mode with elongation never does.
+    assert turns["P4"] is None
+    assert turns["CE"] is None
+    assert turns["FrE"] == pytest.approx(turns["FrM"], rel=0.04)
+    assert turns["FrC"] > 1.9
+
+
+def test_no_other_mode_of_the_cantilever_comes_near_2_omega_n():
+    ratios = [w[1] / (2 * w[0]) for w in map(rotating_frequencies, np.linspace(0.0, 30.0, 61))]
+    assert min(ratios) > 3.0
+
+
+def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
+    """From the energy itself: the force on p of w̄ ∫(X Ẏ - Y Ẋ) dx at p = 0 is 4w̄ D q q̇."""
+    x, weights = gauss_points(48)
+    inner = x[:, np.newaxis] * x
+    mode, w_bar, k = rotating_mode(5.0), 5.0, 2
+
+    def fields(points, q, p):
+        basis = transverse_basis(3, points.ravel())
+        return (
+            q * mode.deflection(points) + p * basis.value[:, k].reshape(points.shape),
+            q * mode.slope(points) + p * basis.slope[:, k].reshape(points.shape),
+        )
+
+    def energy(q, p, q_dot, p_dot):
+        v, _ = fields(x, q, p)
+        v_dot, _ = fields(x, q_dot, p_dot)
+        slope, slope_dot = fields(inner, q, p)[1], fields(inner, q_dot, p_dot)[1]
+        u = -0.5 * x * (slope**2 @ weights)
+        u_dot = -x * (slope * slope_dot @ weights)
+        return w_bar * weights @ ((x + u) * v_dot - v * u_dot)
+
+    # The energy is at most quadratic in each variable, so central differences are exact.
+    q, q_dot = 0.7, 0.4
+    in_p = (energy(q, 1, q_dot, 0) - energy(q, -1, q_dot, 0)) / 2
+
+    def momentum(q):
+        return (energy(q, 0, q_dot, 1) - energy(q, 0, q_dot, -1)) / 2
+
+    force = in_p - q_dot * (momentum(q + 1) - momentum(q - 1)) / 2
+    assert coupling_vector(mode, 3)[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
+
+
+def test_tip_of_frm_carries_the_other_modes():
+    """It vanishes at rest; in rotation the tip's share is that of p in (K + M d²/dτ²) p = f."""
+    assert reduced_model(BEAM, 0.0, "FrM").tip_coupling == 0.0
+    assert reduced_model(BEAM, 6.0, "FrC").tip_coupling == 0.0
+    model = reduced_model(BEAM, 6.0, "FrM")
+    w_bar = 6.0 / BEAM.frequency_scale
+    K, M = rotating_eigenproblem(w_bar, 14)
+    force = 4 * w_bar * coupling_vector(rotating_mode(w_bar), 14)
+    # Forced at 2ω_n, mode by mode.
+    reciprocal, vectors = eigh(M, K)
+    p = vectors @ (vectors.T @ force / (1 - 4 * model.w_n**2 * reciprocal))
+    tip = transverse_basis(14, np.array([1.0])).value[0]
+    assert model.tip_coupling == pytest.approx(tip @ p, rel=1e-8)

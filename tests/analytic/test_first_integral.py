@@ -1,0 +1,122 @@
+"""Eq. 41 without perturbation."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
+
+from analytic import VARIANTS, Beam, reduced_model
+from analytic.first_integral import exact_frequency, largest_amplitude, orbit
+from analytic.reduced import model_at
+
+BEAM = Beam.reference()
+
+
+def equation_41(w_n, g1, g2):
+    def rates(_, y):
+        x, v = y
+        return [v, -(w_n**2 * x + g1 * x**3 + g2 * x * v**2) / (1 + g2 * x**2)]
+
+    return rates
+
+
+@pytest.mark.parametrize("g1", [-3.0, 0.0, 5.0])
+@pytest.mark.parametrize("a", [0.01, 0.5, 0.9])
+def test_duffing_by_elliptic_integrals(g1, a):
+    w = 2.0
+    inertia_free = w**2 + g1 * a**2
+    expected = math.pi * math.sqrt(inertia_free) / (2 * ellipk(g1 * a**2 / (2 * inertia_free)))
+    assert float(exact_frequency(np.array(a), w, g1, 0.0)) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("g1", "g2", "a"), [(-20.0, 1.1, 0.7), (14.0, 1.1, 0.9), (-20.0, 0.0, 0.78), (3.0, -0.5, 0.9)]
+)
+def test_period_by_integration_in_time(g1, g2, a):
+    """DOP853 at 1e-12; the quarter period ends where x passes zero."""
+
+    def crossing(_, y):
+        return y[0]
+
+    crossing.terminal = True
+    w_n = 3.6
+    run = solve_ivp(
+        equation_41(w_n, g1, g2),
+        (0.0, 10.0),
+        [a, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+        events=crossing,
+    )
+    quarter = run.t_events[0][0]
+    assert float(exact_frequency(np.array(a), w_n, g1, g2)) == pytest.approx(
+        0.5 * math.pi / quarter, rel=1e-10
+    )
+
+
+@pytest.mark.parametrize("variant", list(VARIANTS))
+@pytest.mark.parametrize("speed_ratio", [0.0, 1.0, 2.0, 3.0])
+def test_perturbation_error_falls_with_the_fourth_power(variant, speed_ratio):
+    model = model_at(BEAM, speed_ratio * BEAM.omega_0, VARIANTS[variant])
+    a = np.array([0.02, 0.03, 0.045, 0.07])
+    error = np.abs(model.frequency(a) - model.exact_frequency(a))
+    assert 3.9 < np.polyfit(np.log(a), np.log(error), 1)[0] < 4.1
+
+
+def test_orbit_conserves_the_first_integral_and_closes():
+    model = reduced_model(BEAM, 4.0, "FrM")
+    x, v = model.orbit(0.2, n=101)
+    energy = 0.5 * (1 + model.g2 * x**2) * v**2 + 0.5 * model.w_n**2 * x**2 + 0.25 * model.g1 * x**4
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-14)
+    assert x[0] == x[-1] == x.max() == 0.2
+    assert v[0] == pytest.approx(v[-1], abs=1e-15)
+    # It starts inward, and lies on the trajectory of Eq. 41.
+    assert v[1] < 0
+    run = solve_ivp(
+        equation_41(model.w_n, model.g1, model.g2),
+        (0.0, 2 * math.pi * BEAM.frequency_scale / model.exact_frequency(0.2)),
+        [0.2, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+    )
+    np.testing.assert_allclose(run.y[:, -1], [0.2, 0.0], atol=1e-10)
+    inside = np.abs(run.y[0]) < 0.15
+    on_orbit = np.interp(
+        run.y[0][inside & (run.y[1] < 0)],
+        *(s[:51][::-1] for s in orbit(0.2, 101, model.w_n, model.g1, model.g2)),
+    )
+    # Linear interpolation between 50 points of an arc: (π/50)²/8 of the speed.
+    np.testing.assert_allclose(run.y[1][inside & (run.y[1] < 0)], on_orbit, rtol=1e-3)
+
+
+def test_frequency_of_vanishing_amplitude_is_natural():
+    model = reduced_model(BEAM, 4.0, "FrM")
+    assert model.exact_frequency(0.0) == pytest.approx(model.omega_n, rel=1e-15)
+    assert model.frequency(0.0) == model.omega_n
+
+
+def test_frequency_dies_at_the_separatrix():
+    w_n, g1, g2 = 3.0, -20.0, 1.0
+    edge = largest_amplitude(w_n, g1, g2)
+    assert edge == pytest.approx(3.0 / math.sqrt(20.0), rel=1e-6)
+    # Logarithmically: 1 - (a/edge)² of 1e-2, 1e-4 and 1e-6.
+    near = np.array([edge * math.sqrt(1 - gap) for gap in (1e-2, 1e-4, 0.0)])
+    periods = 1.0 / exact_frequency(near, w_n, g1, g2)
+    steps = np.diff(periods)
+    assert (steps > 0).all()
+    assert steps[1] == pytest.approx(steps[0], rel=0.05)
+
+
+def test_shapes_of_input_are_kept():
+    model = reduced_model(BEAM, 4.0)
+    assert isinstance(model.frequency(0.1), float)
+    assert isinstance(model.exact_frequency(0.1), float)
+    grid = np.full((2, 3), 0.1)
+    assert model.frequency(grid).shape == model.exact_frequency(grid).shape == (2, 3)
+    assert model.frequency([]).shape == model.exact_frequency([]).shape == (0,)
+    assert model.response(np.zeros((4, 1)), 0.1).shape == (4, 1)
+    np.testing.assert_array_equal(grid, 0.1)

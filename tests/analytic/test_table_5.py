@@ -1,0 +1,112 @@
+"""Sec. 5 and Table 5: the rotating mode by Frobenius' method, and FrE."""
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+from scipy.optimize import brentq
+
+from analytic import Beam, paper_table, reduced_model
+from analytic.coriolis import rotating_frequencies
+from analytic.rotating_mode import (
+    converged_degree,
+    frequency_equation,
+    rotating_frequency,
+    rotating_mode,
+)
+
+BEAM = Beam.reference()
+
+
+@pytest.mark.parametrize(
+    ("omega", "omega_n", "lambda_omega", "lambda_x"),
+    [
+        (2.0, 3.034894, -0.0084660, 0.0465312),
+        (4.0, 3.345667, 0.0103964, 0.0467617),
+        (6.0, 3.730549, 0.0235487, 0.0466610),
+        (8.0, 4.124206, 0.0306940, 0.0464458),
+    ],
+)
+def test_converged_values(omega, omega_n, lambda_omega, lambda_x):
+    model = reduced_model(BEAM, omega, "FrE")
+    assert model.omega_n == pytest.approx(omega_n, abs=1e-6)
+    assert model.lambda_omega == pytest.approx(lambda_omega, abs=1e-6)
+    assert model.lambda_x == pytest.approx(lambda_x, abs=1e-6)
+
+
+def test_print_within_the_rounding_of_its_constants():
+    """The print's β = 1.8751 is 2.2e-6 off, (1.8751)² 4.4e-6: times 4 rad/s, and one last digit."""
+    bound = {"ω_n": 1.75e-5, "λ_ω": 2.8e-6, "λ_x": 1e-6}
+    rows = paper_table(5).rows
+    assert len(rows) == 12
+    for row in rows:
+        assert abs(float(row.derived) - float(row.printed)) <= bound[row.quantity.split()[0]]
+
+
+@pytest.mark.parametrize(
+    ("w_bar", "w_n"), [(0, 3.516015269), (4, 3.897722524), (8, 4.657149596), (12, 5.427049278)]
+)
+def test_published_frequencies(w_bar, w_n):
+    """Wright et al. (1982) and successors, converged to ten digits."""
+    assert rotating_mode(float(w_bar)).w_n == pytest.approx(w_n, abs=1e-9)
+
+
+@pytest.mark.parametrize("w_bar", [0.0, 2.0, 10.0, 20.0, 30.0])
+def test_power_series_and_legendre_basis_agree(w_bar):
+    # Cancellation between the two series grows like exp(w̄/√2) ulps.
+    tolerance = 1e-12 + 4e-16 * np.exp(w_bar / np.sqrt(2))
+    assert rotating_mode(w_bar).w_n == pytest.approx(rotating_frequencies(w_bar)[0], rel=tolerance)
+
+
+@pytest.mark.parametrize("w_bar", [0.0, 3.0, 9.67])
+def test_mode_solves_the_differential_equation(w_bar):
+    mode = rotating_mode(w_bar)
+    v, x = Polynomial(mode.coefficients), Polynomial([0.0, 1.0])
+    tension = 0.5 * w_bar**2 * (1 - x**2)
+    residual = v.deriv(4) - (tension * v.deriv()).deriv() - (w_bar**2 + mode.w_n**2) * v
+    points = np.linspace(0.0, 1.0, 21)
+    # Fourth derivatives of a degree 60 series, against terms of order w̄² · 10.
+    assert np.abs(residual(points)).max() < 1e-8 * (10.0 + w_bar**4)
+    assert v(0.0) == v.deriv()(0.0) == 0.0
+    assert v(1.0) == pytest.approx(1.0, abs=1e-13)
+    assert v.deriv(2)(1.0) == pytest.approx(0.0, abs=1e-10)
+    assert v.deriv(3)(1.0) == pytest.approx(0.0, abs=1e-8)
+
+
+def test_degree_36_has_not_converged_at_8_rad_per_s():
+    scale = BEAM.frequency_scale
+    w_bar = 8.0 / scale
+    converged = rotating_mode(w_bar)
+    assert rotating_frequency(w_bar, 36) * scale == pytest.approx(4.124777, abs=5e-7)
+    assert converged.w_n * scale == pytest.approx(4.124564, abs=5e-7)
+    assert converged.degree > 50
+    again = rotating_frequency(w_bar, 2 * converged.degree)
+    assert converged.w_n == pytest.approx(again, rel=1e-12)
+
+
+def test_degree_grows_with_speed():
+    degrees = [converged_degree(w_bar) for w_bar in (0.0, 2.0, 5.0, 10.0, 20.0, 30.0)]
+    assert degrees == sorted(set(degrees))
+
+
+def test_equation_81_as_printed_is_wrong(monkeypatch):
+    """With the printed numerator the frequency at 2 rad/s is 5.140 rad/s instead of 3.035."""
+
+    def as_printed(r, w_bar, w_n, degree):
+        a = np.zeros(degree + 1)
+        a[r] = 1.0
+        for k in range(r + 2, degree + 1):
+            a[k] = 0.5 * w_bar**2 * a[k - 2] / (k * (k - 1))
+            if k >= r + 4:
+                numerator = w_bar**2 * (k - 3) * (k - 4) - w_n**2
+                a[k] -= 0.5 * numerator * a[k - 4] / (k * (k - 1) * (k - 2) * (k - 3))
+        return a
+
+    monkeypatch.setattr("analytic.rotating_mode.frobenius_series", as_printed)
+    w_bar = 2.0 / BEAM.frequency_scale
+    w_n = brentq(lambda w: frequency_equation(w_bar, w, 40), 5.0, 8.0)
+    assert w_n * BEAM.frequency_scale == pytest.approx(5.140, abs=5e-4)
+
+
+def test_speed_beyond_the_series():
+    with pytest.raises(ValueError, match=r"up to w_bar = .* = 30, got 31"):
+        rotating_mode(31.0)
