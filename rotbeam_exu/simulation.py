@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import platform
 import time as clock
+import warnings
 from collections.abc import Callable
 from dataclasses import asdict
 from importlib import metadata
@@ -17,13 +18,13 @@ from exudyn.itemInterface import SensorBody, SensorNode
 
 from analytic import Beam, SpinUp
 from analytic.beam import warn_if_rpm
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import RotbeamWarning, positive, whole_number
 
 from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix
-from .verdict import SimulationError, judge
+from .verdict import SimulationError, judge, remedy
 
 Frame = Literal["inertial", "rotating"]
 
@@ -95,6 +96,8 @@ def simulate(
     warn_if_rpm(beam, spin_up.omega)
     every = max(n for n in range(1, max(1, round(SAMPLE_INTERVAL / step)) + 1) if steps % n == 0)
 
+    critical_speed = model.critical_speed(beam, elements)
+    smaller = remedy(step, spin_up.omega, critical_speed)
     container = exudyn.SystemContainer()
     mbs = container.AddSystem()
     try:
@@ -110,13 +113,13 @@ def simulate(
         mbs.Assemble()
         settings, described = _settings(duration, steps, every, frame)
         started = clock.perf_counter()
-        _solve(mbs, settings, duration, progress)
+        failure = _solve(mbs, settings, duration, progress, smaller)
         wall_time = clock.perf_counter() - started
         time, coordinates, velocities, elastic = sensors.read()
-        if time.size != steps // every + 1:
-            raise SimulationError(
+        if failure is None and time.size != steps // every + 1:
+            failure = SimulationError(
                 f"the solver kept {time.size} samples up to t = {time[-1]:.6g} s instead of "
-                f"{steps // every + 1}: take a smaller step than {step:g} s"
+                f"{steps // every + 1}: {smaller}"
             )
     finally:
         # Systems are not collected by themselves: memory would grow from run to run.
@@ -131,6 +134,7 @@ def simulate(
         **asdict(spin_up),
         "element": model.name,
         "element_options": json.dumps(options_of(model)),
+        "critical_speed": critical_speed,
         "elements": elements,
         "duration": duration,
         "step": step,
@@ -139,7 +143,23 @@ def simulate(
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
-    run.attrs["verdict"] = judge(run)
+    try:
+        # What went wrong before the solver noticed says more than that it gave up.
+        run.attrs["verdict"] = judge(run)
+        if failure is not None:
+            raise failure
+    except SimulationError as error:
+        run.attrs["verdict"] = str(error)
+        error.run = run
+        raise
+    if spin_up.omega > critical_speed:
+        warnings.warn(
+            f"omega = {spin_up.omega:g} rad/s is above the critical speed, {critical_speed:.6g} "
+            f"rad/s, of {elements} {model.name!r} elements: their steady rotation is unstable, and "
+            "what keeps the oscillation bounded is not the beam; take more elements",
+            RotbeamWarning,
+            stacklevel=2,
+        )
     return run
 
 
@@ -208,8 +228,9 @@ def _solve(
     settings: exudyn.SimulationSettings,
     duration: float,
     progress: Callable[[float], None] | None,
-) -> None:
-    """Run the solver; its failures and Ctrl-C come out as what they are."""
+    smaller: str,
+) -> SimulationError | None:
+    """Run the solver; Ctrl-C comes out as what it is, a failure is returned with its remedy."""
     shown = 0.0
 
     def before_step(mbs: Any, t: float) -> bool:
@@ -226,12 +247,15 @@ def _solve(
     except BaseException as error:
         if "KeyboardInterrupt" in _chain_of(error):
             raise KeyboardInterrupt from None
-        raise SimulationError(
+        failure = SimulationError(
             f"the solver gave up at t = {mbs.systemData.GetTime():.6g} s of {duration:g} s: "
-            f"take a smaller step than {duration / settings.timeIntegration.numberOfSteps:g} s"
-        ) from error
+            f"{smaller}"
+        )
+        failure.__cause__ = error
+        return failure
     if progress is not None:
         progress(1.0)
+    return None
 
 
 def _chain_of(error: BaseException | None) -> str:

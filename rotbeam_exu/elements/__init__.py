@@ -10,8 +10,11 @@ from .ancf3 import Ancf3
 from .cable import Cable
 from .exact import Exact
 from .formulation import Chain, Formulation
+from .linear_frames import Linear, Substructures
 
-FORMULATIONS: dict[str, type[Any]] = {cls.name: cls for cls in (Cable, Exact, Ancf3)}
+FORMULATIONS: dict[str, type[Any]] = {
+    cls.name: cls for cls in (Cable, Exact, Ancf3, Linear, Substructures)
+}
 """The class of each formulation, a frozen dataclass whose fields are its options."""
 
 
@@ -52,6 +55,8 @@ __all__ = [
     "Chain",
     "Exact",
     "Formulation",
+    "Linear",
+    "Substructures",
     "formulation",
     "options_of",
 ]
