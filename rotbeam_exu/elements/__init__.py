@@ -32,7 +32,9 @@ def formulation(
         return element
     if element not in FORMULATIONS:
         names = ", ".join(repr(name) for name in FORMULATIONS)
-        raise ValueError(f"unknown element {element!r}; known are {names}")
+        raise ValueError(
+            f"unknown element {element!r}; known are {names}; other codes are in rotbeam_exu.peers"
+        )
     cls = FORMULATIONS[element]
     known = [field.name for field in dataclasses.fields(cls)]
     for name in options or {}:

@@ -68,7 +68,7 @@ class _LinearFrames:
         """
         row = self.row(beam, whole_number("elements", elements))
         lower = 0.5 * beam.omega_0
-        while (upper := 1.1 * lower) and row.lowest_eigenvalue(upper) > 0.0:
+        while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
         return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
 
