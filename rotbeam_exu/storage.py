@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 from collections.abc import Iterator
@@ -28,13 +29,32 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
     with whole_file(target) as partial:
         if target.suffix == ".nc":
-            run.to_netcdf(partial, engine="h5netcdf")
+            # In memory first: HDF5 does not survive a disk that fills while it writes.
+            buffer = _KeptBuffer()
+            run.to_netcdf(buffer, engine="h5netcdf")
+            partial.write_bytes(buffer.getbuffer())
         else:
             frame = run.to_dataframe().reset_index()
             units = {str(name): run[name].attrs.get("units", "") for name in frame.columns}
             frame = frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u})
             frame.to_csv(partial, index=False)
     return target
+
+
+def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
+    """Write a Dataset as CSV, one table for each set of dimensions, and return the paths.
+
+    A single table takes the name of `path`; of several, each adds the name of its first variable.
+    """
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, variable in data.data_vars.items():
+        groups.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
+    if len(groups) == 1:
+        return [save(data, path)]
+    return [
+        save(data[names], path.with_name(f"{path.stem}-{names[0]}.csv"))
+        for names in groups.values()
+    ]
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
@@ -56,6 +76,13 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
+
+
+class _KeptBuffer(io.BytesIO):
+    """Memory that some versions of xarray close too early."""
+
+    def close(self) -> None:
+        pass
 
 
 @contextmanager

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
@@ -261,7 +263,8 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
         yield executor
         return
     workers = min(whole_number("jobs", jobs or os.cpu_count() or 1), most)
-    own = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    spawn = multiprocessing.get_context("spawn")
+    own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
     try:
         yield own
     except BaseException:
@@ -271,6 +274,19 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
         own.shutdown(wait=False, cancel_futures=True)
         raise
     own.shutdown()
+
+
+def _obey_parent() -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it, should it be killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _collect(
