@@ -9,7 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import h5netcdf
 import xarray as xr
+from xarray.backends import H5NetCDFStore
 
 
 def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
@@ -30,13 +32,16 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     with whole_file(target) as partial:
         if target.suffix == ".nc":
             # In memory first: HDF5 does not survive a disk that fills while it writes.
-            buffer = _KeptBuffer()
-            run.to_netcdf(buffer, engine="h5netcdf")
+            buffer = io.BytesIO()
+            with h5netcdf.File(buffer, "w") as file:
+                run.dump_to_store(H5NetCDFStore(file))
             partial.write_bytes(buffer.getbuffer())
         else:
             frame = run.to_dataframe().reset_index()
             units = {str(name): run[name].attrs.get("units", "") for name in frame.columns}
-            frame = frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u})
+            frame = frame.rename(
+                columns={n: f"{n} [{u}]" for n, u in units.items() if u not in ("", "1")}
+            )
             frame.to_csv(partial, index=False)
     return target
 
@@ -76,13 +81,6 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
-
-
-class _KeptBuffer(io.BytesIO):
-    """Memory that some versions of xarray close too early."""
-
-    def close(self) -> None:
-        pass
 
 
 @contextmanager
