@@ -23,6 +23,7 @@ from analytic import Beam, SpinUp
 from analytic.input_checks import whole_number
 
 from .cache import Cache
+from .elements import formulation
 from .linearization import natural_frequencies
 from .oscillation import steady_oscillation
 from .simulation import Frame, simulate
@@ -162,6 +163,8 @@ def sweep(
             step=step, frame=frame,
         ),
     )  # fmt: skip
+    formulation(element)
+    whole_number("elements", elements)
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
     part, parts = whole_number("shard", shard[0]), whole_number("shard", shard[1])
@@ -262,7 +265,8 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
     if executor is not None:
         yield executor
         return
-    workers = min(whole_number("jobs", jobs or os.cpu_count() or 1), most)
+    cores = os.cpu_count() or 1
+    workers = min(whole_number("jobs", cores if jobs is None else jobs), most)
     spawn = multiprocessing.get_context("spawn")
     own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
     try:
