@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
@@ -21,6 +23,7 @@ from analytic import Beam, SpinUp
 from analytic.input_checks import whole_number
 
 from .cache import Cache
+from .elements import formulation
 from .linearization import natural_frequencies
 from .oscillation import steady_oscillation
 from .simulation import Frame, simulate
@@ -160,6 +163,8 @@ def sweep(
             step=step, frame=frame,
         ),
     )  # fmt: skip
+    formulation(element)
+    whole_number("elements", elements)
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
     part, parts = whole_number("shard", shard[0]), whole_number("shard", shard[1])
@@ -260,8 +265,10 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
     if executor is not None:
         yield executor
         return
-    workers = min(whole_number("jobs", jobs or os.cpu_count() or 1), most)
-    own = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    cores = os.cpu_count() or 1
+    workers = min(whole_number("jobs", cores if jobs is None else jobs), most)
+    spawn = multiprocessing.get_context("spawn")
+    own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
     try:
         yield own
     except BaseException:
@@ -271,6 +278,19 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
         own.shutdown(wait=False, cancel_futures=True)
         raise
     own.shutdown()
+
+
+def _obey_parent() -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it, should it be killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _collect(

@@ -67,12 +67,16 @@ class Measure:
 
 @dataclass(frozen=True, kw_only=True)
 class Verification:
-    """What `verify` found: the measures by name, and whether the code passes them all."""
+    """What `verify` found: the measures by name, and whether the code passes them all.
+
+    The remark is the judged run's own verdict, in its attributes, where that is not "passed".
+    """
 
     name: str
     elements: int
     step: float
     measures: dict[str, Measure]
+    remark: str = ""
 
     @property
     def passed(self) -> bool:
@@ -87,6 +91,7 @@ class Verification:
 
     def __str__(self) -> str:
         lines = [f"{self.name}, {self.elements} elements, step {self.step:g} s: {self.verdict}"]
+        lines += [f"  {self.remark}"] if self.remark else []
         for m in self.measures.values():
             limit = THRESHOLDS.get(m.name)
             text = f"{m.value:.3g}" if math.isfinite(m.value) else m.note
@@ -158,19 +163,22 @@ def verify(
         `linear_modes`. amplitude: of the steady oscillation, against that of `spin_up_response`.
         nonlinear frequency: against `periodic_orbits` at the run's own amplitude. history: largest
         error of q(t) over max|q|, against `spin_up_response`. Orders: from three runs each to a
-        second after the ramp, by how much halving the step, or the elements, changes q(t).
+        second after the ramp, by how much halving the step, or the elements, changes q(t); down
+        to the judged step on a quarter of the mesh, and around the judged mesh at four steps.
         cost: wall time of the judged run.
         A code that fails has its own sentence as the note.
     """
     beam = Beam.reference() if beam is None else beam
     spin_up = SpinUp(omega=6.0, ramp_time=3.0) if spin_up is None else spin_up
-    measures = [_linear_frequency(entry, beam)]
+    measures, remark = [_linear_frequency(entry, beam)], ""
     try:
         started = clock.perf_counter()
         run = entry.simulate(
             beam, spin_up, elements=entry.elements, duration=duration, step=entry.step
         )
         cost = clock.perf_counter() - started
+        own = str(run.attrs.get("verdict", "passed"))
+        remark = "" if own == "passed" else own
         measures += _against_exact(run, beam, spin_up)
         measures += _orders(entry, beam, spin_up)
         measures.append(Measure(name="cost", value=cost, passed=None))
@@ -187,6 +195,7 @@ def verify(
         elements=entry.elements,
         step=entry.step,
         measures={m.name: m for m in measures},
+        remark=remark,
     )
 
 
@@ -280,8 +289,9 @@ def _orders(entry: Entry, beam: Beam, spin_up: SpinUp) -> list[Measure]:
             beam, spin_up, elements=elements, duration=spin_up.ramp_time + 1.0, step=step
         )
 
-    steps = [history(4, step) for step in (4e-3, 2e-3, 1e-3)]
-    meshes = [history(elements, 4e-3) for elements in (8, 16, 32)]
+    mesh, step = entry.elements, entry.step
+    steps = [history(max(mesh // 4, 1), n * step) for n in (4, 2, 1)]
+    meshes = [history(elements, 4 * step) for elements in (max(mesh // 2, 1), mesh, 2 * mesh)]
     return [
         _judged("order in step", _order(steps)),
         _judged("order in mesh", _order(meshes)),

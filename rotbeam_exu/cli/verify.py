@@ -73,7 +73,7 @@ def _print_verdicts(console: Console, entries: tuple[Entry, ...]) -> None:
             "passed" if found.passed else "falls short",
         )
         sentences = dict.fromkeys(m.note for m in found.measures.values() if m.passed is False)
-        notes += [f"{found.name}: {note}" for note in sentences if note]
+        notes += [f"{found.name}: {note}" for note in (*sentences, found.remark) if note]
     table.add_row(
         "threshold", "", *(f"{THRESHOLDS[n]:g}" if n in THRESHOLDS else "" for n in headers), ""
     )

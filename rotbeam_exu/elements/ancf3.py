@@ -11,10 +11,10 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed
+from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed, section_angle
 from .section import POISSON_RATIO, checked_shear, rectangle, shear_modulus
 
 Law = Literal["uncoupled", "coupled"]
@@ -86,6 +86,14 @@ class Ancf3(NoCriticalSpeed):
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """r_y = (-sin θ, cos θ), Eq. 14: the section at the root neither turns nor stretches."""
         return np.eye(4)[2:], np.array([-math.sin(angle), math.cos(angle)])
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and r_y = (-sin φ, cos φ) of sections normal to the axis, and their rates."""
+        angle, rate = section_angle(state)
+        sine, cosine = np.sin(angle), np.cos(angle)
+        values = (x + state.u, state.v, -sine, cosine)
+        rates = (state.u_dot, state.v_dot, -rate * cosine, -rate * sine)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """|r_x| - 1 at the Gauss points of the axis."""

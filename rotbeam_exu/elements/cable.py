@@ -11,9 +11,9 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
-from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed
+from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed, positions_and_slopes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +52,10 @@ class Cable(NoCriticalSpeed):
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
         return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and slopes, and their rates."""
+        return positions_and_slopes(x, state)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""

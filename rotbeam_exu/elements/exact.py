@@ -9,9 +9,9 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
-from .formulation import Chain, FloatArray, NoCriticalSpeed
+from .formulation import Chain, FloatArray, NoCriticalSpeed, section_angle
 from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
 
 
@@ -70,6 +70,12 @@ class Exact(NoCriticalSpeed):
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """φ = θ: the root's angle is a coordinate."""
         return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and the angle of sections normal to the axis, and their rates."""
+        angle, rate = section_angle(state)
+        values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""

@@ -11,7 +11,7 @@ import exudyn
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
 FloatArray = NDArray[np.float64]
 
@@ -70,6 +70,9 @@ class Formulation(Protocol):
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
 
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
+
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
 
@@ -103,3 +106,17 @@ def turned_velocities(
 def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:
     """Return J e + a, the velocities of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
     return coordinates @ element.quarter_turn.T + element.angles
+
+
+def positions_and_slopes(x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+    """Return (x + u, v, 1 + u', v') at the nodes `x` [m], (nodes, 4), and their rates."""
+    values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
+    rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
+    return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+def section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
+    """Return the angle [rad] of a section normal to the axis, (nodes,), and its rate [rad/s]."""
+    along, across = 1.0 + state.u_slope, state.v_slope
+    rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
+    return np.arctan2(across, along), rate

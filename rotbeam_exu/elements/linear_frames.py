@@ -19,11 +19,11 @@ import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 from scipy import linalg, optimize
 
-from analytic import Beam
+from analytic import Beam, BeamState
 from analytic.input_checks import whole_number
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, FloatArray
+from .formulation import QUARTER_TURN, Chain, FloatArray, positions_and_slopes
 
 FloatingFrame = Literal["tangent", "pinned"]
 
@@ -52,6 +52,10 @@ class _LinearFrames:
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
         return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and slopes, and their rates."""
+        return positions_and_slopes(x, state)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """∂u_x/∂x in the frames, at their nodes: the strain of the model."""

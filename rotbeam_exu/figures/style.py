@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +73,8 @@ def label(variable: xr.DataArray) -> str:
     """Return an axis label, long name and unit, from a variable's attributes."""
     unit = variable.attrs.get("units", "")
     name = str(variable.attrs.get("long_name", variable.name))
+    # The names' underscores are subscripts.
+    name = re.sub(r"(\w)_(\w+)", r"$\1_{\2}$", name)
     return f"{name} [{unit}]" if unit and unit != "1" else name
 
 

@@ -22,10 +22,17 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         ax.fill_betweenx(a, ratio[0], ratio[-1], color="0.92", lw=0)
         for row, color, style in zip(ratio, CYCLE, ("-", "--", "-."), strict=False):
             ax.plot(row, a, color=color, ls=style)
-        for row, name, at in zip(ratio, names, (0.38, 0.30, 0.22), strict=True):
-            x = float(row.interp(amplitude=at))
+        for row, name, at, side in zip(
+            ratio, names, (0.34, 0.34, 0.3), ("left", "right", "right"), strict=True
+        ):
             ax.annotate(
-                name, (x, at), xytext=(4, 0), textcoords="offset points", va="center", fontsize=7
+                name,
+                (float(row.interp(amplitude=at)), at),
+                xytext=(5 if side == "left" else -5, 0),
+                textcoords="offset points",
+                ha=side,
+                va="center",
+                fontsize=7,
             )
         ax.set(xlabel=label(ratio), ylabel=label(a), xlim=(0.76, 1.06), ylim=(0.0, 0.4))
     return ax
