@@ -65,6 +65,10 @@ PEERS = ("kratos",)
 """Names of the other codes that come with an adapter."""
 
 
+class NotInstalledError(ModuleNotFoundError, ValueError):
+    """Another code was asked for that is not installed."""
+
+
 def peer(name: str) -> Entry:
     """Return the entry of another code, with a mesh and step that its order of accuracy needs.
 
@@ -72,13 +76,13 @@ def peer(name: str) -> Entry:
     ------
     ValueError
         If the name is not known.
-    ModuleNotFoundError
+    NotInstalledError
         If the code is not installed; the sentence says how to.
     """
     if name not in PEERS:
         raise ValueError(f"unknown code {name!r}; known are {', '.join(map(repr, PEERS))}")
     if not installed(name):
-        raise ModuleNotFoundError(
+        raise NotInstalledError(
             "KratosMultiphysics with its StructuralMechanicsApplication is not installed; "
             "pip install 'rotbeam-exu[peers]'"
         )

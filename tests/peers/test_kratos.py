@@ -5,7 +5,7 @@ import pytest
 
 from analytic import SpinUp, spin_up_response
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu.peers import installed, peer
+from rotbeam_exu.peers import NotInstalledError, installed, peer
 
 needs_kratos = pytest.mark.skipif(
     not installed("kratos"), reason="KratosMultiphysics is not installed (the extra `peers`)"
@@ -14,8 +14,19 @@ needs_kratos = pytest.mark.skipif(
 
 @pytest.mark.skipif(installed("kratos"), reason="KratosMultiphysics is installed")
 def test_it_says_how_to_install_it():
-    with pytest.raises(ModuleNotFoundError, match=r"not installed; pip install 'rotbeam-exu\[pe"):
+    with pytest.raises(NotInstalledError, match=r"not installed; pip install 'rotbeam-exu\[pe"):
         peer("kratos")
+
+
+def test_the_command_line_says_so_too(capsys, monkeypatch):
+    from rotbeam_exu import peers
+    from rotbeam_exu.cli import main
+
+    monkeypatch.setattr(peers, "installed", lambda name: False)
+    with pytest.raises(SystemExit) as stop:
+        main(["verify", "--element", "kratos"])
+    assert stop.value.code == 2
+    assert "pip install 'rotbeam-exu[peers]'" in capsys.readouterr().err
 
 
 @needs_kratos
