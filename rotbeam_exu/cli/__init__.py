@@ -20,7 +20,7 @@ app = cyclopts.App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for _command in ("run", "backbone", "compare_modes", "table", "doctor"):
+for _command in ("run", "backbone", "compare_modes", "table", "explore", "animate", "doctor"):
     app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))
 
 

@@ -5,7 +5,8 @@ The only place that knows matplotlib.
 
 from __future__ import annotations
 
+from .animation import animate, save_animation
 from .spin_up import spin_up
 from .style import save_figure
 
-__all__ = ["save_figure", "spin_up"]
+__all__ = ["animate", "save_animation", "save_figure", "spin_up"]
