@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from analytic import Beam, SpinUp, spin_up_response
+from analytic.input_checks import positive, whole_number
 
 from ..config import load_beam
 from ..storage import whole_file, writable_folder
@@ -42,8 +43,8 @@ def animate(
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     """
-    if rate < 1:
-        raise ValueError(f"rate must be at least 1 picture a second, got {rate}")
+    whole_number("rate", rate)
+    duration = positive("duration", duration, "s")
     beam = Beam.reference() if config is None else load_beam(config)
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
     target = out or Path(f"spin-up-omega-{omega:g}-ramp-{ramp_time:g}.gif")

@@ -1,0 +1,68 @@
+"""The whole Explorer in a browser: loads within a second, follows a slider at 30 pictures a second.
+
+The numbers asked for are absolute; they hold on two slow cores without a graphics card.
+"""
+
+import shutil
+import statistics
+import time
+
+import pytest
+
+from rotbeam_exu.explorer import explorer_page
+
+pytestmark = pytest.mark.benchmarks
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    if CHROMIUM is None:
+        pytest.skip("no chromium: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
+    start = time.perf_counter()
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    path.write_text(explorer_page(), encoding="utf-8")
+    assert time.perf_counter() - start < 120.0
+    with playwright.sync_playwright() as driver:
+        arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+        browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=arguments)
+        page = browser.new_page(viewport={"width": 1280, "height": 800})
+        page.goto(path.as_uri())
+        page.wait_for_selector("html[data-ready]")
+        yield page
+        browser.close()
+
+
+def test_it_loads_in_a_second(page):
+    loaded = []
+    for _ in range(5):
+        page.reload()
+        page.wait_for_selector("html[data-ready]")
+        loaded.append(
+            page.evaluate(
+                """new Promise(done => requestAnimationFrame(() => setTimeout(() =>
+                    done(performance.getEntriesByName("first-contentful-paint")[0]?.startTime
+                         ?? performance.now()))))"""
+            )
+        )
+    assert statistics.median(loaded) < 1000.0, f"first picture after {loaded} ms"
+
+
+@pytest.mark.parametrize("slider", ["omega", "amplitude"])
+def test_it_follows_a_slider(page, slider):
+    rate = page.evaluate(
+        """name => new Promise(done => {
+            const input = document.getElementById(name), from = performance.now();
+            let pictures = 0;
+            function step() {
+                input.value = pictures++ % (+input.max + 1);
+                input.dispatchEvent(new Event("input"));
+                const seconds = (performance.now() - from) / 1000;
+                if (seconds < 3) requestAnimationFrame(step); else done(pictures / seconds);
+            }
+            requestAnimationFrame(step);
+        })""",
+        slider,
+    )
+    assert rate > 30.0, f"{rate:.0f} pictures a second"
