@@ -15,9 +15,10 @@ import numpy as np
 import xarray as xr
 from exudyn.itemInterface import SensorBody, SensorNode
 
-from analytic import Beam, SpinUp
+from analytic import Beam, BeamState, SpinUp, SteadyRotation
 from analytic.beam import warn_if_rpm
 from analytic.input_checks import positive, whole_number
+from analytic.spin_up import Rotation
 
 from . import __version__, drive
 from .elements import Chain, Formulation, formulation
@@ -35,13 +36,14 @@ _OUTPUT = exudyn.OutputVariableType
 
 def simulate(
     beam: Beam,
-    spin_up: SpinUp,
+    spin_up: SpinUp | SteadyRotation,
     *,
     element: str = "cable",
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
     frame: Frame = "inertial",
+    initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Spin the beam up and let it oscillate (Secs. 2 and 6), undamped.
@@ -50,8 +52,8 @@ def simulate(
     ----------
     beam : Beam
         The beam.
-    spin_up : SpinUp
-        Prescribed rotation of the clamped end, Eq. 1.
+    spin_up : SpinUp or SteadyRotation
+        Prescribed rotation of the clamped end: Eq. 1, or constant from the start.
     element : str
         Beam formulation, a key of `rotbeam_exu.elements.FORMULATIONS`.
     elements : int
@@ -64,6 +66,10 @@ def simulate(
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule, whose
         step error is about 14 times smaller.
+    initial_state : callable, optional
+        Gives the state at material points x [m] at t = 0, as
+        ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does; otherwise the beam
+        is straight and at rest in the frame of the clamp.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -86,8 +92,9 @@ def simulate(
     """
     model = formulation(element)
     whole_number("elements", elements)
+    ramp_time = spin_up.ramp_time if isinstance(spin_up, SpinUp) else 0.0
     step = positive("step", step, "s")
-    duration = _checked_duration(duration, spin_up)
+    duration = _checked_duration(duration, ramp_time)
     steps = _whole_steps(duration, step)
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
@@ -106,6 +113,7 @@ def simulate(
             drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
             drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
         sensors = _Sensors(mbs, chain)
+        _start(mbs, chain, model, beam, spin_up, frame, initial_state)
         mbs.Assemble()
         settings, described = _settings(duration, steps, every, frame)
         started = clock.perf_counter()
@@ -125,7 +133,8 @@ def simulate(
     run = _dataset(model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step)
     run.attrs = {
         **{f"beam_{name}": value for name, value in asdict(beam).items()},
-        **asdict(spin_up),
+        "omega": spin_up.omega,
+        "ramp_time": ramp_time,
         "element": element,
         "elements": elements,
         "duration": duration,
@@ -139,18 +148,40 @@ def simulate(
     return run
 
 
+def _start(
+    mbs: exudyn.MainSystem,
+    chain: Chain,
+    model: Formulation,
+    beam: Beam,
+    rotation: Rotation,
+    frame: Frame,
+    initial_state: Callable[[FloatArray], BeamState] | None,
+) -> None:
+    """Set initial coordinates and velocities; the frame turns by θ'(0) from angle zero."""
+    reference = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes])
+    coordinates, velocities = reference, np.zeros_like(reference)
+    if initial_state is not None:
+        x = np.linspace(0.0, beam.length, len(chain.nodes))
+        coordinates, velocities = model.coordinates(x, initial_state(x))
+    if frame == "inertial":
+        velocities = velocities + rotation.rate(0.0) * coordinates @ model.quarter_turn.T
+    for node, moved, moving in zip(chain.nodes, coordinates - reference, velocities, strict=True):
+        mbs.SetNodeParameter(node, "initialCoordinates", moved)
+        mbs.SetNodeParameter(node, "initialVelocities", moving)
+
+
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on."""
     libraries = {name: metadata.version(name) for name in ("exudyn", "numpy", "scipy")}
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
 
 
-def _checked_duration(duration: float, spin_up: SpinUp) -> float:
+def _checked_duration(duration: float, ramp_time: float) -> float:
     duration = positive("duration", duration, "s")
-    if duration <= spin_up.ramp_time:
+    if duration <= ramp_time:
         raise ValueError(
             f"duration {duration:g} s ends before the steady rotation, which begins at "
-            f"ramp_time {spin_up.ramp_time:g} s; the paper runs 15 s"
+            f"ramp_time {ramp_time:g} s; the paper runs 15 s"
         )
     return duration
 
@@ -281,7 +312,7 @@ class _Sensors:
 def _dataset(
     model: Formulation,
     mass: Any,
-    spin_up: SpinUp,
+    spin_up: Rotation,
     frame: Frame,
     time: FloatArray,
     coordinates: FloatArray,

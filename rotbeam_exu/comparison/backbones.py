@@ -43,7 +43,7 @@ def finite_element_points(
         The grid [rad/s], [s].
     mesh : {"paper", "converged"}
         "paper": 16 elements, inertial frame, step 1 ms, as they come; the bar is the estimator's
-        alone. "converged": 64 elements in the rotating frame, steps of 2 and 4 ms extrapolated to
+        alone. "converged": 64 elements in the rotating frame, steps of 1 and 2 ms extrapolated to
         zero; the bar adds a tenth of the extrapolation and, for the mesh, the fifteenth of what
         64 elements change over 32 that a fourth-order error leaves.
     **options
@@ -83,14 +83,14 @@ def finite_element_points(
         points["amplitude_error"] = 0.0 * points["bar"]
     else:
         fine, coarse_step, coarse_mesh = (
+            measured(64, 1e-3, "rotating"),
             measured(64, 2e-3, "rotating"),
-            measured(64, 4e-3, "rotating"),
-            measured(32, 4e-3, "rotating"),
+            measured(32, 2e-3, "rotating"),
         )
         to_zero_step = (fine - coarse_step) / 3.0
-        mesh_left = np.abs(coarse_step - coarse_mesh) / 15.0
+        mesh_left = abs(coarse_step - coarse_mesh) / 15.0
         points = fine + to_zero_step
-        error = 0.1 * np.abs(to_zero_step) + mesh_left
+        error = 0.1 * abs(to_zero_step) + mesh_left
         points["ratio_error"] = error["ratio"] + fine["bar"]
         points["amplitude_error"] = error["amplitude"]
     points = points.drop_vars("bar")

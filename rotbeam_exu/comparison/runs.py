@@ -79,8 +79,11 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
         orbits.append(
             xr.Dataset(
                 {
-                    "q_bar": ("sample", steady["q"] / reference_displacement(beam, spin_up)),
-                    "q_dot_bar": ("sample", steady["q_dot"] / reference_velocity(beam, spin_up)),
+                    "q_bar": ("sample", steady["q"].data / reference_displacement(beam, spin_up)),
+                    "q_dot_bar": (
+                        "sample",
+                        steady["q_dot"].data / reference_velocity(beam, spin_up),
+                    ),
                 },
                 coords={"sample": np.arange(steady.sizes["time"])},
             )

@@ -9,7 +9,7 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
 from .formulation import Chain, FloatArray
 
@@ -50,6 +50,12 @@ class Cable:
             for pair in pairwise(nodes)
         )
         return Chain(nodes=nodes, bodies=bodies)
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions (x + u, v) and slopes (1 + u', v'), and their rates."""
+        values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
+        rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
 
     def turn(self, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
         """Turn positions and slopes alike."""

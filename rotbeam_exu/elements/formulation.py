@@ -9,7 +9,7 @@ import exudyn
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import Beam
+from analytic import Beam, BeamState
 
 FloatArray = NDArray[np.float64]
 
@@ -59,6 +59,9 @@ class Formulation(Protocol):
 
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
 
     def turn(self, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
         """Return `coordinates` (samples, nodes, n) of a beam turned by `angle` (samples,) [rad]."""

@@ -1,12 +1,33 @@
 """The figures: each takes data and `ax=`, returns Axes and shows nothing.
 
-The only place that knows matplotlib.
+The only place that knows matplotlib. The data comes from the function of the same name in
+`rotbeam_exu.comparison`.
 """
 
 from __future__ import annotations
 
 from .animation import animate, save_animation
+from .backbones import figure_5, figure_14
+from .orbits import figure_15
+from .runs import figure_3, figure_4
 from .spin_up import spin_up
 from .style import save_figure
+from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
-__all__ = ["animate", "save_animation", "save_figure", "spin_up"]
+__all__ = [
+    "animate",
+    "figure_3",
+    "figure_4",
+    "figure_5",
+    "figure_8",
+    "figure_9",
+    "figure_10",
+    "figure_11",
+    "figure_12",
+    "figure_13",
+    "figure_14",
+    "figure_15",
+    "save_animation",
+    "save_figure",
+    "spin_up",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,10 @@ from matplotlib.figure import Figure
 from ..storage import whole_file
 
 COLUMN = 3.5
-"""Width of a journal's column [in]; two columns are 7.2."""
+"""Width of a journal's column [in]."""
+
+COLUMNS = 7.2
+"""Width of two columns [in]."""
 
 # Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the truth.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
@@ -24,6 +28,19 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
     "#CC79A7",
     "#56B4E9",
 )
+
+CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
+
+MODEL_LINES: dict[str, dict[str, Any]] = {
+    "CI": {"color": RED, "ls": (0, (1, 1))},
+    "CE": {"color": PURPLE, "ls": (0, (3, 1))},
+    "FrI": {"color": ORANGE, "ls": (0, (5, 1, 1, 1))},
+    "FrE": {"color": GREEN, "ls": "--"},
+    "FrC": {"color": SKY, "ls": (0, (4, 1, 1, 1, 1, 1))},
+    "FrM": {"color": BLUE, "ls": "-"},
+    "exact": {"color": "black", "ls": "-", "lw": 0.7},
+}
+"""One line per model in every figure; black is the truth."""
 
 STYLE: Any = {
     "font.size": 8.0,
@@ -56,6 +73,8 @@ def label(variable: xr.DataArray) -> str:
     """Return an axis label, long name and unit, from a variable's attributes."""
     unit = variable.attrs.get("units", "")
     name = str(variable.attrs.get("long_name", variable.name))
+    # The names' underscores are subscripts.
+    name = re.sub(r"(\w)_(\w+)", r"$\1_{\2}$", name)
     return f"{name} [{unit}]" if unit and unit != "1" else name
 
 

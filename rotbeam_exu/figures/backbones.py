@@ -1,0 +1,89 @@
+"""Figures 5 and 14: frequency against amplitude."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from .style import COLUMN, COLUMNS, CYCLE, MODEL_LINES, STYLE, label, new_figure
+
+
+def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw the finite element points and their parabolas, amplitude upwards as in the paper."""
+    ax = ax or new_figure(COLUMN, 3.0)[1]
+    with mpl.rc_context(STYLE):
+        for omega, color, marker in zip(data["omega"], CYCLE, "osD^", strict=False):
+            here = data.sel(omega=omega)
+            inside = here["a"] <= 1.05 * float(here["amplitude"].max())
+            ax.plot(here["fit"][inside], here["a"][inside], color=color)
+            ax.errorbar(
+                here["ratio"],
+                here["amplitude"],
+                xerr=here["ratio_error"],
+                color=color,
+                marker=marker,
+                ms=3.5,
+                mfc="white",
+                ls="none",
+                label=f"ω = {float(omega):g} rad/s",
+            )
+        ax.axvline(1.0, color="0.7", lw=0.5)
+        ax.set(xlabel=label(data["ratio"]), ylabel=label(data["amplitude"]), ylim=(0.0, 0.88))
+        ax.legend(loc="lower left")
+    return ax
+
+
+def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw the backbones of all models, the exact one, and the finite element points, by speed."""
+    count = data.sizes["omega"]
+    axes: Any = (
+        np.ravel(new_figure(COLUMNS, 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1])
+        if ax is None
+        else ax
+    )
+    with mpl.rc_context(STYLE):
+        for panel, omega in zip(axes, data["omega"], strict=False):
+            here = data.sel(omega=omega)
+            for model in here["model"].to_numpy():
+                row = here["backbone"].sel(model=model)
+                panel.plot(
+                    np.append(1.0, row),
+                    np.append(0.0, here["a"]),
+                    label=str(model),
+                    **MODEL_LINES[str(model)],
+                )
+            for mesh, marker, face in (("paper", "s", "white"), ("converged", "o", "black")):
+                if mesh not in here["mesh"]:
+                    continue
+                points = here.sel(mesh=mesh)
+                panel.errorbar(
+                    points["ratio"],
+                    points["amplitude"],
+                    xerr=points["ratio_error"],
+                    ls="none",
+                    marker=marker,
+                    ms=4.5 if mesh == "paper" else 2.5,
+                    color="black",
+                    mfc=face,
+                    mew=0.6,
+                    label={"paper": "16 elements", "converged": "64 elements, h → 0"}[mesh],
+                    zorder=5,
+                )
+            panel.axvline(1.0, color="0.8", lw=0.5, zorder=0)
+            panel.set(
+                xlabel=label(data["ratio"]),
+                ylabel=label(data["amplitude"]),
+                xlim=(0.978, 1.006),
+                ylim=(0.0, 0.62),
+            )
+            panel.set_title(f"ω = {float(omega):g} rad/s", loc="left")
+        handles, names = axes[0].get_legend_handles_labels()
+        axes[0].figure.legend(
+            handles, names, loc="outside lower center", ncols=5, columnspacing=1.4
+        )
+    return tuple(axes)
