@@ -28,6 +28,7 @@ for _command in (
     "compare_modes",
     "figure",
     "table",
+    "verify",
     "explore",
     "animate",
     "doctor",
