@@ -11,7 +11,6 @@ exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and a is o
 
 from __future__ import annotations
 
-from operator import mul
 from typing import Any
 
 import exudyn
@@ -57,26 +56,33 @@ def prescribe_rotation(
     at_rest = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=ground))
     root = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
     size = element.quarter_turn.shape[0]
-    held = element.clamp(0.0)[1].size
-    at_time: list[Any] = [np.nan, None, None, None]  # asked for several times at each t
+    # Each constraint holds a direction: two coordinates at most, the same at every angle.
+    pairs = [tuple(np.resize(np.flatnonzero(row), 2).tolist()) for row in element.clamp(1.0)[0]]
+    held = len(pairs)
+    # Called seven times a step: nothing is done twice for one t, and numbers are plain.
+    time, gradient, rows = np.nan, np.zeros((held, size)), [(0.0, 0, 0.0, 0, 0.0)] * held
 
     def turn_to(t: float) -> None:
-        if t != at_time[0]:
-            gradient, target = element.clamp(rotation.angle(t))
-            # Plain numbers are several times faster here than arrays of one or two.
-            at_time[:] = [t, gradient, gradient.tolist(), target.tolist()]
+        nonlocal time, gradient, rows
+        time = t
+        gradient, target = element.clamp(rotation.angle(t))
+        rows = [
+            (row[i], i, row[j] if j != i else 0.0, j, d)
+            for (i, j), row, d in zip(pairs, gradient.tolist(), target.tolist(), strict=True)
+        ]
 
     def residual(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> list[float]:
-        turn_to(t)
-        return [sum(map(mul, row, q), -d) for row, d in zip(*at_time[2:], strict=True)]
+        if t != time:
+            turn_to(t)
+        return [a * q[i] + b * q[j] - d for a, i, b, j, d in rows]
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> FloatArray:
-        turn_to(t)
-        gradient: FloatArray = at_time[1]
+        if t != time:
+            turn_to(t)
         return gradient
 
     mbs.AddObject(
