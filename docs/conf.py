@@ -52,7 +52,7 @@ bibtex_default_style = "unsrt"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
-autodoc_default_options = {"members": True, "show-inheritance": False}
+autodoc_default_options = {"members": True}
 default_role = "literal"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
@@ -65,7 +65,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"\.py$",
     # The main job is the command line's, and takes its arguments.
     "ignore_pattern": r"rotating_beam\.py$",
-    "within_subsection_order": "FileNameSortKey",
+    "within_subsection_order": "gallery_order.GalleryOrder",
     "copyfile_regex": r"GALLERY_HEADER\.rst",
     "download_all_examples": False,
     "remove_config_comments": True,
@@ -87,7 +87,8 @@ html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],
     "show_toc_level": 2,
-    "header_links_before_dropdown": 8,
+    "header_links_before_dropdown": 6,
+    "navbar_persistent": ["search-button"],
     "footer_start": [],
     "footer_end": [],
     "secondary_sidebar_items": ["page-toc"],
@@ -98,13 +99,15 @@ html_theme_options = {
 
 def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Let docstrings write formulas: no markup begins with | or **, and `w_bar`² is no error."""
-    del app, what, name, obj, options
+    del app, name, obj, options
+    if what in ("attribute", "data", "property"):
+        lines.insert(0, "")  # or napoleon takes what is before a colon for a type
     doctest = False
-    for i, line in enumerate(list(lines)):
+    for i, line in enumerate(tuple(lines)):
         doctest = line.lstrip().startswith(">>>") or (doctest and bool(line.strip()))
         if not doctest:
-            line = re.sub(r"(?<!`)([|]|\*\*)", r"\\\1", line)
-            lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", line)
+            literal = re.sub(r"(?<!`)([|]|\*\*)", r"\\\1", line)
+            lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
 
 
 def skip(app: Any, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:

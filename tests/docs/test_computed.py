@@ -16,7 +16,10 @@ def blocks(monkeypatch):
 
 
 def test_fenced_blocks_are_found_with_their_line(blocks):
-    page = "text\n\n```python\na = 1\n```\n\n```{computed}\n:show:\nprint(a)\n```\n\n```text\nno\n```\n"
+    page = (
+        "text\n\n```python\na = 1\n```\n\n"
+        "```{computed}\n:show:\nprint(a)\n```\n\n```text\nno\n```\n"
+    )
     assert list(blocks.fenced(page)) == [
         ("python", "a = 1\n", 4),
         ("{computed}", "print(a)\n", 8),
