@@ -127,6 +127,24 @@ class Beam:
         """First natural frequency of the beam at rest, Eq. 40 (3.516 in full) [rad/s]."""
         return BETA_1**2 * self.frequency_scale
 
+    @property
+    def burst_speed(self) -> float:
+        """Speed at which the rotation stretches the beam without bound, (π/2) √(E/ρ)/L [rad/s].
+
+        The stretched state x + u = sin(kx)/(k cos(kL)), k = ω √(ρ/E), exists below it only.
+        """
+        return 0.5 * math.pi * math.sqrt(self.youngs_modulus / self.density) / self.length
+
+
+def require_steady_state(beam: Beam, omega: float) -> None:
+    """Refuse a rotation speed `omega` [rad/s] at which no stretched state exists."""
+    if omega >= beam.burst_speed:
+        raise ValueError(
+            f"omega = {omega:g} rad/s leaves no steady state: this beam is stretched without "
+            f"bound at {beam.burst_speed:.6g} rad/s; rotate slower or raise the axial stiffness "
+            f"(EA = {beam.axial_stiffness:g} N)"
+        )
+
 
 def warn_if_rpm(beam: Beam, omega: float) -> None:
     """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import linalg, sparse
 
 from analytic import Beam, SteadyRotation
-from analytic.beam import warn_if_rpm
+from analytic.beam import require_steady_state, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 
 from . import drive
@@ -99,6 +99,7 @@ def _steady_state(
     """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium."""
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
+    require_steady_state(beam, omega)
     model = formulation(element)
     mass = mass_matrix(model, beam, whole_number("elements", elements))
     container = exudyn.SystemContainer()

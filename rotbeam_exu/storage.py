@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import h5netcdf
 import xarray as xr
+from xarray.backends import H5NetCDFStore
 
 
 def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
@@ -28,13 +31,35 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
     with whole_file(target) as partial:
         if target.suffix == ".nc":
-            run.to_netcdf(partial, engine="h5netcdf")
+            # In memory first: HDF5 does not survive a disk that fills while it writes.
+            buffer = io.BytesIO()
+            with h5netcdf.File(buffer, "w") as file:
+                run.dump_to_store(H5NetCDFStore(file))
+            partial.write_bytes(buffer.getbuffer())
         else:
             frame = run.to_dataframe().reset_index()
             units = {str(name): run[name].attrs.get("units", "") for name in frame.columns}
-            frame = frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u})
+            frame = frame.rename(
+                columns={n: f"{n} [{u}]" for n, u in units.items() if u not in ("", "1")}
+            )
             frame.to_csv(partial, index=False)
     return target
+
+
+def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
+    """Write a Dataset as CSV, one table for each set of dimensions, and return the paths.
+
+    A single table takes the name of `path`; of several, each adds the name of its first variable.
+    """
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, variable in data.data_vars.items():
+        groups.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
+    if len(groups) == 1:
+        return [save(data, path)]
+    return [
+        save(data[names], path.with_name(f"{path.stem}-{names[0]}.csv"))
+        for names in groups.values()
+    ]
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:

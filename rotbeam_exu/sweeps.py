@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, fields
-from functools import lru_cache
+from dataclasses import asdict
 from itertools import product
 from typing import Any, Literal
 
@@ -21,77 +22,12 @@ from analytic import Beam, SpinUp
 from analytic.input_checks import whole_number
 
 from .cache import Cache
-from .linearization import natural_frequencies
-from .oscillation import steady_oscillation
-from .simulation import Frame, simulate
+from .cases import MEASURED, Case, solve
+from .elements import formulation
+from .simulation import Frame
 from .verdict import SimulationError
 
 OnError = Literal["raise", "record"]
-
-_MEASURED = {
-    "amplitude": ("1", "amplitude a = q/L, half peak to peak"),
-    "first_harmonic": ("1", "first harmonic over L"),
-    "frequency": ("rad/s", "nonlinear frequency ω_NL"),
-    "frequency_error": ("rad/s", "error bar of ω_NL, estimator"),
-    "offset": ("1", "mean of q over L"),
-    "residual": ("1", "second bending mode, rms over L"),
-    "omega_n": ("rad/s", "natural frequency ω_n of the mesh"),
-}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Case:
-    """One spin-up of a sweep: all that determines its result."""
-
-    beam: Beam
-    spin_up: SpinUp
-    element: str = "cable"
-    elements: int = 16
-    duration: float = 15.0
-    step: float = 1e-3
-    frame: Frame = "inertial"
-
-    def describe(self) -> dict[str, Any]:
-        """Return every input as plain values, for keys and records."""
-        return asdict(self)
-
-
-def solve(case: Case) -> xr.Dataset:
-    """Run one case and measure it: the unit of work, a pure function of the case.
-
-    Returns
-    -------
-    Dataset
-        q and q_dot over `time`; the measured numbers and the verdict as attributes. A run that
-        fails its checks has no variables, and the attribute `failure` says why.
-    """
-    try:
-        run = simulate(
-            case.beam,
-            case.spin_up,
-            element=case.element,
-            elements=case.elements,
-            duration=case.duration,
-            step=case.step,
-            frame=case.frame,
-        )
-        steady = steady_oscillation(run)
-        omega_n = _omega_n(case.beam, case.spin_up.omega, case.element, case.elements)
-    except (SimulationError, ValueError) as error:
-        return xr.Dataset(attrs={"verdict": "failed", "failure": str(error)})
-    result = run[["q", "q_dot"]]
-    measured = {
-        field.name: getattr(steady, field.name)
-        for field in fields(steady)
-        if field.name in _MEASURED
-    }
-    result.attrs = {**measured, "omega_n": omega_n, "verdict": run.attrs["verdict"], "failure": ""}
-    return result
-
-
-@lru_cache(maxsize=64)
-def _omega_n(beam: Beam, omega: float, element: str, elements: int) -> float:
-    return float(natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0])
 
 
 def sweep(
@@ -160,6 +96,8 @@ def sweep(
             step=step, frame=frame,
         ),
     )  # fmt: skip
+    formulation(element)
+    whole_number("elements", elements)
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
     part, parts = whole_number("shard", shard[0]), whole_number("shard", shard[1])
@@ -260,8 +198,10 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
     if executor is not None:
         yield executor
         return
-    workers = min(whole_number("jobs", jobs or os.cpu_count() or 1), most)
-    own = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    cores = os.cpu_count() or 1
+    workers = min(whole_number("jobs", cores if jobs is None else jobs), most)
+    spawn = multiprocessing.get_context("spawn")
+    own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
     try:
         yield own
     except BaseException:
@@ -271,6 +211,19 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
         own.shutdown(wait=False, cancel_futures=True)
         raise
     own.shutdown()
+
+
+def _obey_parent() -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it, should it be killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _collect(
@@ -283,7 +236,7 @@ def _collect(
     ramp_times = list(dict.fromkeys(ramp_time for _, ramp_time in cases))
     shape = (len(omegas), len(ramp_times))
     dims = ("omega", "ramp_time")
-    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in _MEASURED}
+    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in MEASURED}
     verdict = np.full(shape, "pending", dtype=object)
     failure = np.full(shape, "", dtype=object)
     for i, j in np.ndindex(shape):
@@ -297,7 +250,7 @@ def _collect(
     first = next(iter(cases.values())).describe()
     data = xr.Dataset(
         {
-            name: (dims, column, {"units": _MEASURED[name][0], "long_name": _MEASURED[name][1]})
+            name: (dims, column, {"units": MEASURED[name][0], "long_name": MEASURED[name][1]})
             for name, column in columns.items()
         },
         coords={

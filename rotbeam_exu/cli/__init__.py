@@ -20,7 +20,16 @@ app = cyclopts.App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for _command in ("run", "backbone", "compare_modes", "table", "doctor"):
+for _command in (
+    "run",
+    "sweep",
+    "backbone",
+    "compare",
+    "compare_modes",
+    "figure",
+    "table",
+    "doctor",
+):
     app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))
 
 
@@ -36,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         warnings.showwarning = one_line  # type: ignore[assignment]
         try:
             app(arguments, exit_on_error=False, print_error=False)
-        except (cyclopts.CycloptsError, ValueError, TypeError, OSError) as error:
+        except (cyclopts.CycloptsError, ValueError, TypeError, OSError, ImportError) as error:
             errors.print(f"[red]rotbeam:[/] {_sentence(error)}", markup=True)
             sys.exit(2)
         except RuntimeError as error:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 from cyclopts import Parameter
 
-from analytic import VARIANTS, Beam, reduced_model
+from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
 
+from ..config import load_beam
 from .output import Format, print_columns
 
 
@@ -18,6 +20,8 @@ def backbone(
     amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: str = "FrE",
     all_variants: Annotated[bool, Parameter(negative=())] = False,
+    exact: Annotated[bool, Parameter(negative=())] = False,
+    config: Path | None = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the backbone of a reduced model: frequency against amplitude.
@@ -32,13 +36,18 @@ def backbone(
         CI, CE, FrI, FrE, P3, P4, P5, FrC or FrM.
     all_variants
         Every variant, one below the other.
+    exact
+        Add the exact backbone, by harmonic balance on the exact beam.
+    config
+        TOML file with the beam; without it, the paper's beam.
     form
         A table for the reader, or CSV with all digits.
     """
-    beam = Beam.reference()
+    beam = Beam.reference() if config is None else load_beam(config)
     names = list(VARIANTS) if all_variants else [variant]
     models = [reduced_model(beam, omega, name) for name in names]
     perturbed = np.concatenate([model.frequency(amplitude) for model in models])
+    title = "\n".join(map(repr, models))
     columns: dict[str, list[str] | list[float]] = {
         "variant": [name for name in names for _ in amplitude],
         "amplitude a/L": amplitude * len(models),
@@ -50,4 +59,8 @@ def backbone(
             perturbed / np.repeat([model.omega_n for model in models], len(amplitude))
         ).tolist(),
     }
-    print_columns(columns, form, title="\n".join(map(repr, models)))
+    if exact:
+        truth = periodic_orbits(beam, omega, amplitude)
+        columns["exact beam [rad/s]"] = truth.frequency.tolist() * len(models)
+        title = f"{title}\n{truth}"
+    print_columns(columns, form, title=title)

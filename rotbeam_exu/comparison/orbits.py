@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy import interpolate, optimize
 
-from analytic import Beam, SpinUp, periodic_orbits, reduced_model
+from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.reduced import ReducedModel
 
 from ..oscillation import steady_oscillation
@@ -65,8 +65,8 @@ def figure_15(
             orbits[name] = (model.response(time, a0), velocity / beam.omega_0)
             periods[name] = 2.0 * np.pi / frequency
         exact = periodic_orbits(beam, omega, [steady.amplitude])
-    x, rate = _from_greatest(*exact.orbit(0, phase.size - 1))
-    orbits["exact"] = (x, rate * beam.frequency_scale / beam.omega_0)
+    x, x_rate = _from_exact_peak(exact, time)
+    orbits["exact"] = (x, x_rate / beam.omega_0)
     periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
     names = ["finite element", *MODELS, "exact"]
     return xr.Dataset(
@@ -121,8 +121,14 @@ def _from_the_peak(
     return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
 
 
-def _from_greatest(x: FloatArray, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Turn a closed orbit, sampled over one period, so that it starts at its greatest x."""
-    shift = int(np.argmax(x[:-1]))
-    first, second = (np.append(np.roll(v[:-1], -shift), v[shift]) for v in (x, rate))
+def _from_exact_peak(backbone: Backbone, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """X = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
+    x, rate = backbone.orbit(0, 400)
+    period = 2.0 * np.pi / backbone.frequency[0]
+    samples = np.linspace(0.0, period, x.size)
+    at = (backbone.peak_time[0] + time) % period
+    ends = [np.append(v[:-1], v[0]) for v in (x, rate * backbone.beam.frequency_scale)]
+    first, second = (
+        np.asarray(interpolate.CubicSpline(samples, v, bc_type="periodic")(at)) for v in ends
+    )
     return first, second

@@ -51,7 +51,12 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
             here = data.sel(omega=omega)
             for model in here["model"].to_numpy():
                 row = here["backbone"].sel(model=model)
-                panel.plot(row, here["a"], label=str(model), **MODEL_LINES[str(model)])
+                panel.plot(
+                    np.append(1.0, row),
+                    np.append(0.0, here["a"]),
+                    label=str(model),
+                    **MODEL_LINES[str(model)],
+                )
             for mesh, marker, face in (("paper", "s", "white"), ("converged", "o", "black")):
                 if mesh not in here["mesh"]:
                     continue
@@ -74,7 +79,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                 xlabel=label(data["ratio"]),
                 ylabel=label(data["amplitude"]),
                 xlim=(0.978, 1.006),
-                ylim=(0.0, 0.6),
+                ylim=(0.0, 0.62),
             )
             panel.set_title(f"ω = {float(omega):g} rad/s", loc="left")
         handles, names = axes[0].get_legend_handles_labels()

@@ -1,0 +1,78 @@
+"""`rotbeam compare`: the data of Figures 14 and 15 and where each error comes from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from .. import comparison
+from ..storage import save, save_tables, writable_folder
+from .output import print_columns
+from .sweep import counter
+
+
+def compare(
+    *,
+    amplitude: float = 0.1,
+    jobs: int | None = None,
+    cache: Path = Path("results/cache"),
+    out: Path = Path("results"),
+) -> None:
+    """Write the data of Figures 14 and 15 and the error budgets; print the budgets.
+
+    Parameters
+    ----------
+    amplitude
+        Amplitude over the length at which the models' budget is printed.
+    jobs
+        Processes at a time; by default the cores.
+    cache
+        Folder with one file per finished spin-up.
+    out
+        Folder for the results.
+    """
+    folder = writable_folder(out)
+    console = Console(highlight=False, soft_wrap=True)
+    models = comparison.model_budget(amplitudes=(amplitude,))
+    with counter(console, "spin-ups") as progress:
+        options: dict[str, Any] = {"jobs": jobs, "cache": cache, "progress": progress}
+        data = {
+            "figure_14": comparison.figure_14(**options),
+            "figure_15": comparison.figure_15(),
+            "budget_models": models,
+            "budget_finite_elements": comparison.finite_element_budget(**options),
+        }
+    written = []
+    for name, table in data.items():
+        written.append(save(table, folder / f"{name}.nc"))
+        written += save_tables(table, folder / f"{name}.csv")
+    for omega in models["omega"].to_numpy():
+        here = models.sel(omega=omega, a=amplitude)
+        sources = here["source"].to_numpy().tolist()
+        rows: dict[str, list[str]] = {"source": [*sources, "total"]}
+        for model in here["model"].to_numpy():
+            one = here.sel(model=model)
+            errors = [*one["error"].to_numpy(), one["total"].item()]
+            rows[str(model)] = [f"{error:+.1e}" for error in errors]
+        print_columns(
+            rows,
+            "table",
+            title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
+        )
+    elements = data["budget_finite_elements"]
+    frame = elements["error"].to_series().unstack("source").reset_index()
+    print_columns(
+        {
+            "ω [rad/s]": frame["omega"].tolist(),
+            "T [s]": frame["ramp_time"].tolist(),
+            **{
+                str(source): [f"{e:+.1e}" for e in frame[source]]
+                for source in elements["source"].to_numpy()
+            },
+        },
+        "table",
+        title="16 elements, 1 ms: distance from the exact ω_NL/ω_n at the same amplitude",
+    )
+    console.print("written " + ", ".join(str(path) for path in written))

@@ -1,0 +1,58 @@
+"""`rotbeam figure N`: data and picture of a figure of the paper."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+
+from .. import comparison, figures
+from ..figures.captions import CAPTIONS
+from ..storage import save, save_tables, whole_file, writable_folder
+from .sweep import counter
+
+
+def figure(
+    number: str,
+    *,
+    jobs: int | None = None,
+    cache: Path = Path("results/cache"),
+    out: Path = Path("results"),
+) -> None:
+    """Make a figure of the paper: netCDF, CSV, PNG, PDF and a caption.
+
+    Parameters
+    ----------
+    number
+        3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
+    jobs
+        Processes at a time; by default the cores.
+    cache
+        Folder with one file per finished spin-up.
+    out
+        Folder for the results.
+    """
+    wanted = list(CAPTIONS) if number == "all" else [int(number)] if number.isdecimal() else []
+    if not wanted or wanted[0] not in CAPTIONS:
+        raise ValueError(
+            f"there is no data behind figure {number!r}; known are "
+            f"{', '.join(map(str, CAPTIONS))} and all"
+        )
+    folder = writable_folder(out)
+    console = Console(highlight=False, soft_wrap=True)
+    for n in wanted:
+        make = getattr(comparison, f"figure_{n}")
+        with counter(console, f"figure {n}") as progress:
+            sweeps = "options" in inspect.signature(make).parameters and n != 15
+            data = make(**({"jobs": jobs, "cache": cache, "progress": progress} if sweeps else {}))
+        name = folder / f"figure_{n}"
+        written = [save(data, name.with_suffix(".nc"))]
+        written += save_tables(data, name.with_suffix(".csv"))
+        axes = getattr(figures, f"figure_{n}")(data)
+        written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
+        caption = name.with_suffix(".txt")
+        with whole_file(caption) as partial:
+            partial.write_text(f"Figure {n}. {CAPTIONS[n]}\n", encoding="utf-8")
+        console.print(f"figure {n}: " + ", ".join(str(path) for path in [*written, caption]))

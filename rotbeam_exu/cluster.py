@@ -1,0 +1,39 @@
+"""Sweeps on a Dask cluster."""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+from typing import Any
+
+_PATIENCE = "8s"
+
+
+def dask_executor(scheduler: str) -> tuple[Executor, Any]:
+    """Return an executor on a Dask cluster, and the client to close after use.
+
+    Parameters
+    ----------
+    scheduler : str
+        Address of the scheduler, as "tcp://host:8786".
+
+    Raises
+    ------
+    ImportError
+        If Dask is not installed.
+    OSError
+        If the scheduler does not answer within ten seconds.
+    """
+    try:
+        from distributed import Client  # noqa: PLC0415  (an extra)
+    except ImportError as error:
+        raise ImportError(
+            "Dask is not installed; install the extra: pip install 'rotbeam-exu[cluster]'"
+        ) from error
+    try:
+        client: Any = Client(scheduler, timeout=_PATIENCE)
+    except (OSError, ValueError) as error:
+        raise OSError(
+            f"the scheduler {scheduler} does not answer within {_PATIENCE}: check its address "
+            "and that it runs"
+        ) from error
+    return client.get_executor(), client

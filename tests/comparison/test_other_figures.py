@@ -1,0 +1,151 @@
+"""The data and the pictures of all figures."""
+
+import re
+
+import numpy as np
+import pytest
+
+from rotbeam_exu import comparison, figures
+from rotbeam_exu.cli import main
+from rotbeam_exu.figures.captions import CAPTIONS
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    import matplotlib.pyplot as plt
+
+    yield
+    plt.close("all")
+
+
+def test_figure_3_even_one_element_is_stable():
+    data = comparison.figure_3()
+    steady = np.abs(data["q"].where(data["time"] > 15.0)).max("time")
+    assert (steady < 0.05).all()
+    assert "[m]" in figures.figure_3(data).get_ylabel()
+    # Two and three elements agree on the lag to 1 %, one does to 5 %.
+    lag = data["q"].min("time")
+    assert lag.sel(elements=2).item() == pytest.approx(lag.sel(elements=3).item(), rel=0.01)
+    assert lag.sel(elements=1).item() == pytest.approx(lag.sel(elements=3).item(), rel=0.05)
+
+
+def test_figure_4_normalization_has_the_units_of_a_velocity(beam):
+    from analytic import SpinUp
+    from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
+
+    for scale in (1.0, 2.0):
+        from analytic import Beam
+
+        # Half the density at a quarter of E: the same beam in a time unit √2 longer.
+        slow = Beam(
+            length=beam.length,
+            area=beam.area,
+            second_moment=beam.second_moment,
+            youngs_modulus=beam.youngs_modulus / scale**2,
+            density=beam.density,
+        )
+        spin_up = SpinUp(omega=4.0 / scale, ramp_time=3.0 * scale)
+        if scale == 1.0:
+            q, v = reference_displacement(slow, spin_up), reference_velocity(slow, spin_up)
+        else:
+            # Lengths stay, velocities fall by the factor of time: the print's Eq. 18 does not.
+            assert reference_displacement(slow, spin_up) == pytest.approx(q)
+            assert reference_velocity(slow, spin_up) == pytest.approx(v / scale)
+
+
+def test_figure_4_orbits_close():
+    data = comparison.figure_4()
+    assert len(figures.figure_4(data)) == 2
+    orbit = data.isel(case=2)
+    assert float(np.abs(orbit["q_bar"]).max()) == pytest.approx(3.3, abs=0.1)
+    assert data["panel"].to_numpy().tolist() == list("aaabbb")
+
+
+def test_figure_8_is_bounded_by_its_limits():
+    ratio = comparison.figure_8()["ratio"]
+    assert (ratio[0] >= 1.0).all()
+    assert (ratio[2] <= ratio[1]).all()
+    # λ_ω → 3.3504/2.3901 as Ω → ∞, Eq. 64.
+    limit = 1.0 - 3.3504 / 2.3901 * 0.4**2
+    assert ratio[2, -1].item() == pytest.approx(limit, abs=1e-4)
+
+
+def test_figures_9_to_11_have_the_papers_values(beam):
+    nine = comparison.figure_9()
+    at_one = nine.sel(speed_ratio=1.0, model="CI")
+    assert at_one["lambda_omega"].item() == pytest.approx(
+        (3.3504 - 0.23963) / (2.3901 + 12.362), abs=2e-5
+    )
+    ten = comparison.figure_10()
+    # The paper: degree 5 is nearest to the mode at low speed, and degree 4 never hardens.
+    low = np.abs(ten["lambda_omega"] - ten["lambda_omega"].sel(model="cantilever mode")).sel(
+        omega=1.0, method="nearest"
+    )
+    assert low.isel(model=slice(1, None)).idxmin("model").item() == "degree 5"
+    assert (ten["lambda_omega"].sel(model="degree 4") > 0.0).all()
+    eleven = comparison.figure_11()
+    # The paper: an initial hardening, and less softening than without extensibility.
+    first = eleven["lambda_omega"].isel(omega=slice(0, 20))
+    assert (first.diff("omega") < 0.0).all()
+    assert (eleven["lambda_omega"].max("omega") < ten["lambda_omega"].max()).all()
+
+
+def test_figure_12_converges_later_at_higher_speed():
+    data = comparison.figure_12()
+    error = np.abs(data["omega_n"] - data["converged"])
+    enough = [int(data["degree"][np.argmax((row < 1e-6).to_numpy())]) for row in error]
+    assert enough == sorted(enough)
+    # At the paper's degree, 2.1e-4 rad/s off at 8 rad/s.
+    assert error.sel(omega=8.0, degree=36).item() == pytest.approx(2.1e-4, abs=1e-5)
+
+
+def test_figure_13_mode_straightens_with_speed():
+    shape = comparison.figure_13()["shape"]
+    assert np.allclose(shape.isel(eta=-1), 1.0)
+    assert (shape.sel(eta=0.5).diff("omega") > 0.0).all()
+
+
+@pytest.mark.parametrize("number", [8, 9, 10, 11, 12, 13])
+def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
+    main(["figure", str(number), "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
+    kinds = {path.suffix for path in tmp_path.iterdir() if path.is_file()}
+    assert {".nc", ".csv", ".png", ".pdf", ".txt"} <= kinds
+    assert CAPTIONS[number] in (tmp_path / f"figure_{number}.txt").read_text()
+
+
+@pytest.mark.parametrize("number", range(8, 14))
+def test_every_figure_draws_on_given_axes_with_units(number):
+    import matplotlib.pyplot as plt
+
+    data = getattr(comparison, f"figure_{number}")()
+    count = 2 if number in (9, 10, 11) else 1
+    _, axes = plt.subplots(ncols=count)
+    drawn = getattr(figures, f"figure_{number}")(data, ax=axes)
+    for panel in np.atleast_1d(np.array(drawn, dtype=object)):
+        assert panel.get_xlabel()
+        assert panel.get_ylabel()
+    assert plt.get_fignums() == [1]
+
+
+def test_captions_name_every_figure_with_data():
+    for number in CAPTIONS:
+        assert callable(getattr(comparison, f"figure_{number}"))
+        assert callable(getattr(figures, f"figure_{number}"))
+    assert sorted(CAPTIONS) == [3, 4, 5, *range(8, 16)]
+
+
+@pytest.mark.parametrize("number", ["7", "16", "x", "-3"])
+def test_unknown_figures_are_refused(number, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["figure", "--", number] if number.startswith("-") else ["figure", number])
+    assert stop.value.code == 2
+    assert re.search("known are 3, 4, 5, 8", capsys.readouterr().err)
+
+
+@pytest.mark.slow
+def test_all_figures_from_an_empty_cache(tmp_path, capsys):
+    main(["figure", "all", "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
+    for number in CAPTIONS:
+        for ending in (".nc", ".png", ".pdf", ".txt"):
+            assert (tmp_path / f"figure_{number}{ending}").stat().st_size > 0

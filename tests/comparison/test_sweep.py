@@ -1,0 +1,256 @@
+"""Sweeps: same numbers however they are run, nothing lost, failures on record."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu import (
+    SimulationError,
+    natural_frequencies,
+    simulate,
+    steady_oscillation,
+    sweep,
+    sweeps,
+)
+
+SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
+COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
+
+
+@pytest.fixture(scope="module")
+def serial(beam):
+    return sweep(beam, **SMALL, **COARSE, jobs=1, history=True)
+
+
+def test_a_sweep_is_its_runs(beam, serial):
+    from analytic import SpinUp
+
+    run = simulate(beam, SpinUp(omega=6.0, ramp_time=2.0), **COARSE)
+    steady = steady_oscillation(run)
+    here = serial.sel(omega=6.0, ramp_time=2.0)
+    assert here["frequency"].item() == steady.frequency
+    assert here["amplitude"].item() == steady.amplitude
+    assert here["omega_n"].item() == natural_frequencies(beam, 6.0, elements=2)[0]
+    assert np.array_equal(here["q"], run["q"])
+    assert here["verdict"].item() == "passed"
+
+
+def test_processes_give_the_same_bits(beam, serial):
+    xr.testing.assert_identical(sweep(beam, **SMALL, **COARSE, jobs=2, history=True), serial)
+
+
+def test_dask_gives_the_same_bits(beam, serial):
+    distributed = pytest.importorskip("distributed")
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        found = sweep(beam, **SMALL, **COARSE, executor=client.get_executor(), history=True)
+    xr.testing.assert_identical(found, serial)
+
+
+def test_a_scheduler_that_does_not_answer_is_a_sentence_within_ten_seconds():
+    pytest.importorskip("distributed")
+    from rotbeam_exu.cluster import dask_executor
+
+    started = time.monotonic()
+    with pytest.raises(OSError, match="scheduler tcp://127.0.0.1:9 does not answer"):
+        dask_executor("tcp://127.0.0.1:9")
+    assert time.monotonic() - started < 10.0
+
+
+def test_a_finished_sweep_is_read_not_run(beam, serial, tmp_path, monkeypatch):
+    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+    monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("ran a finished case"))
+    again = sweep(beam, **SMALL, **COARSE, cache=tmp_path, history=True)
+    xr.testing.assert_identical(again, serial)
+
+
+def test_another_case_is_not_mistaken_for_a_finished_one(beam, tmp_path, monkeypatch):
+    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+    ran = []
+    monkeypatch.setattr(sweeps, "solve", lambda case: ran.append(case) or failed())
+    sweep(beam, **SMALL, **{**COARSE, "elements": 3}, jobs=1, cache=tmp_path, on_error="record")
+    assert len(ran) == 4
+
+
+def failed():
+    return xr.Dataset(attrs={"verdict": "failed", "failure": "made up"})
+
+
+def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, tmp_path):
+    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+    victim = sorted(tmp_path.glob("*.nc"))[0]
+    victim.write_bytes(victim.read_bytes()[:1000])
+    with pytest.warns(RotbeamWarning, match=f"{victim.name}.*set aside as .*computed again"):
+        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, history=True)
+    xr.testing.assert_identical(again, serial)
+    assert victim.exists()
+    assert victim.with_suffix(".damaged").stat().st_size == 1000
+
+
+def test_a_cache_of_another_format_is_refused(beam, tmp_path):
+    (tmp_path / "rotbeam-cache.json").write_text('{"format": 99}')
+    with pytest.raises(ValueError, match="has format 99, this version writes 1; choose another"):
+        sweep(beam, **SMALL, **COARSE, cache=tmp_path)
+
+
+def test_a_failed_case_stays_on_record_with_its_sentence(beam):
+    # 9 s end 0.5 s after the longer ramp: less than two cycles.
+    grid = {"omegas": [6.0], "ramp_times": [3.0, 8.5]}
+    found = sweep(beam, **grid, **COARSE, jobs=1, on_error="record")
+    assert found["verdict"].to_numpy().tolist() == [["passed", "failed"]]
+    assert "run for" in found["failure"].to_numpy()[0, 1]
+    assert np.isnan(found["frequency"].to_numpy()[0, 1])
+    assert list(sweeps.failures(found).values()) == [1]
+    with pytest.raises(SimulationError, match=r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"):
+        sweep(beam, **grid, **COARSE, jobs=1)
+
+
+def test_shards_make_the_whole(beam, serial, tmp_path):
+    parts = [
+        sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, shard=(k, 3)) for k in (1, 2, 3)
+    ]
+    done = np.array([(part["verdict"] == "passed").to_numpy() for part in parts])
+    assert done.sum(axis=0).tolist() == [[1, 1], [1, 1]]
+    assert len(list(tmp_path.glob("*.nc"))) == 4
+    merged = xr.where(parts[0]["verdict"] == "passed", parts[0]["frequency"], np.nan)
+    for part in parts[1:]:
+        merged = merged.fillna(part["frequency"])
+    assert np.array_equal(merged, serial["frequency"])
+
+
+class DyingPool(Executor):
+    """Finishes its first task and loses its worker with the second."""
+
+    def __init__(self):
+        self.tasks = 0
+
+    def submit(self, function, /, *arguments, **options):
+        future = Future()
+        self.tasks += 1
+        if self.tasks == 1:
+            future.set_result(function(*arguments, **options))
+        else:
+            future.set_exception(BrokenProcessPool("a worker died"))
+        return future
+
+
+def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path):
+    with pytest.raises(SimulationError, match="a worker process died .* run again to resume"):
+        sweep(beam, **SMALL, **COARSE, cache=tmp_path, executor=DyingPool())
+    kept = {path: path.stat().st_mtime_ns for path in tmp_path.glob("*.nc")}
+    assert len(kept) <= 1
+    again = sweep(beam, **SMALL, **COARSE, cache=tmp_path, jobs=1, history=True)
+    xr.testing.assert_identical(again, serial)
+    assert all(path.stat().st_mtime_ns == time for path, time in kept.items())
+
+
+def test_any_executor_will_do(beam, serial):
+    with ThreadPoolExecutor(1) as pool:
+        found = sweep(beam, **SMALL, **COARSE, executor=pool, history=True)
+    xr.testing.assert_identical(found, serial)
+
+
+def living(group):
+    """Processes of a group that have not ended."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, its_group = status.read_text().rpartition(")")[2].split()[:3]
+        except OSError:
+            continue
+        if int(its_group) == group and state not in "ZX":
+            found.append(status.parent.name)
+    return found
+
+
+@pytest.mark.parametrize("signal_number", [signal.SIGKILL, signal.SIGINT])
+def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
+    arguments = [
+        sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "8",
+        "--ramp-time", "3", "2", "--elements", "8", "--step", "0.002", "--duration", "12",
+        "--cache", tmp_path / "cache", "--out", tmp_path / "out", "--jobs", "2",
+    ]  # fmt: skip
+    here = {"cwd": Path(__file__).parents[2], "start_new_session": True, "text": True}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    job = subprocess.Popen(arguments, **here, **pipes)
+    deadline = time.monotonic() + 60.0
+    while not (finished := list((tmp_path / "cache").glob("[0-9a-f]*.nc"))):
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    if signal_number == signal.SIGINT:
+        os.killpg(job.pid, signal_number)  # as a terminal does
+    else:
+        job.send_signal(signal_number)
+    _, error = job.communicate(timeout=20.0)
+    if signal_number == signal.SIGINT:
+        assert job.returncode == 130
+        assert "Traceback" not in error
+    deadline = time.monotonic() + 5.0
+    while living(job.pid):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    before = {path: path.stat().st_mtime_ns for path in finished}
+    again = subprocess.run(arguments, **here, capture_output=True, timeout=120, check=False)
+    assert again.returncode == 0, again.stderr
+    assert all(path.stat().st_mtime_ns == time for path, time in before.items())
+    assert len(list((tmp_path / "cache").glob("[0-9a-f]*.nc"))) == 6
+    assert "passed" in again.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"omegas": []}, "omegas is empty"),
+        ({"ramp_times": [3.0, 2.0, 3.0]}, "ramp_times holds 3 more than once"),
+        ({"omegas": [-1.0]}, "omega must not be negative"),
+        ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
+        ({"on_error": "ignore"}, "unknown on_error 'ignore'"),
+        ({"jobs": -1}, "jobs must be at least 1"),
+    ],
+)
+def test_bad_grids_are_refused(beam, options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        sweep(beam, **{**SMALL, **COARSE, **options})
+
+
+def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mounted = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=96k", "tmpfs", disk], capture_output=True, check=False
+    )
+    if mounted.returncode:
+        pytest.skip("mounting a small file system needs root")
+    try:
+        job = subprocess.run(
+            [sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "--ramp-time",
+             "3", "2", "--elements", "2", "--step", "0.005", "--duration", "9", "--jobs", "1",
+             "--cache", disk, "--out", tmp_path / "out"],
+            cwd=Path(__file__).parents[2], capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert job.returncode == 2
+        assert "No space left on device" in job.stderr
+        assert "make room and run again" in job.stderr
+        assert "Traceback" not in job.stderr
+        # Whole files only.
+        from rotbeam_exu import load
+
+        for path in disk.glob("[0-9a-f]*.nc"):
+            assert load(path).sizes["time"] > 0
+        assert not list(disk.glob(".*"))
+    finally:
+        subprocess.run(["umount", disk], check=True)
