@@ -43,7 +43,9 @@ def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
     root = axes.get_figure(root=True)
     root.savefig(folder / f"{name}.svg")
     root.clear()
-    print(f"```{{figure}} /_static/{folder.name}/{name}.svg\n:alt: {caption}\n\n{caption}\n```")  # noqa: T201
+    text = " ".join(caption.split())
+    source, brief = f"/_static/{folder.name}/{name}.svg", text.split(". ")[0]
+    print(f"```{{figure}} {source}\n:alt: {brief}\n\n{text}\n```")  # noqa: T201
 
 
 def names(pages: Path) -> dict[str, Any]:
