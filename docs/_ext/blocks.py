@@ -42,10 +42,11 @@ def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     root = axes.get_figure(root=True)
     root.savefig(folder / f"{name}.svg")
+    width = round(115 * root.get_figwidth())  # [px]: the drawings' letters as large as the text's
     root.clear()
     text = " ".join(caption.split())
     source, brief = f"/_static/{folder.name}/{name}.svg", text.split(". ")[0]
-    print(f"```{{figure}} {source}\n:alt: {brief}\n\n{text}\n```")  # noqa: T201
+    print(f"```{{figure}} {source}\n:alt: {brief}\n:width: {width}px\n\n{text}\n```")  # noqa: T201
 
 
 def names(pages: Path) -> dict[str, Any]:
