@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures golden test test-all bench lint docs check clean
+.PHONY: run figures golden test test-all bench bench-peers lint docs check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -21,11 +21,14 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks"
 
-test-all: $(VENV)/.dev  ## the default suite and what is marked slow
+test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks"
 
 bench: $(VENV)/.dev  ## speed and memory, each against a reference measured in the same run
 	$(BIN)/python -m pytest -m benchmarks --benchmark-enable
+
+bench-peers: $(VENV)/.peers  ## what each formulation and each other code costs at equal error
+	$(BIN)/rotbeam verify --cost
 
 lint: $(VENV)/.dev  ## linters and type checks
 	$(BIN)/ruff check .
@@ -52,6 +55,10 @@ $(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.venv
 $(VENV)/.docs: pyproject.toml constraints.txt | $(VENV)/.venv
 	$(PIP) install -c constraints.txt -e ".[docs]"
 	touch $@ $(VENV)/.run
+
+$(VENV)/.peers: $(VENV)/.dev
+	$(PIP) install -c constraints.txt -e ".[test,dev,peers]"
+	touch $@
 
 clean:
 	rm -rf docs/_build docs/gallery docs/_static/figures docs/sg_execution_times.rst

@@ -9,9 +9,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .linearization import natural_frequencies, steady_stretch
+    from .linearization import growth_rate, natural_frequencies, steady_stretch
     from .oscillation import SteadyOscillation, steady_oscillation
     from .simulation import simulate
+    from .stability import critical_speed
     from .storage import load, save
     from .sweeps import sweep
     from .verdict import SimulationError
@@ -21,6 +22,8 @@ __version__ = "0.1.0"
 _LAZY = {
     "SimulationError": "verdict",
     "SteadyOscillation": "oscillation",
+    "critical_speed": "stability",
+    "growth_rate": "linearization",
     "load": "storage",
     "natural_frequencies": "linearization",
     "save": "storage",
@@ -33,6 +36,8 @@ _LAZY = {
 __all__ = [
     "SimulationError",
     "SteadyOscillation",
+    "critical_speed",
+    "growth_rate",
     "load",
     "natural_frequencies",
     "save",

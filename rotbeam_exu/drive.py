@@ -3,13 +3,15 @@
 In the inertial frame the root's direction follows θ(t) of Eq. 1 by a rheonomic constraint. In the
 rotating frame the root stands still and the beam carries the inertial forces of the frame,
 
-    f = θ'² M e - θ'' M J e - 2 θ' M J e',
+    f = -θ'² M J² e - θ'' M (J e + a) - 2 θ' M J e',
 
-exact where, as in all elements here, mass matrix and elastic forces commute with a rotation.
+exact where, as in all elements here, mass matrix and elastic forces commute with a rotation
+exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and a is one for angles.
 """
 
 from __future__ import annotations
 
+from operator import mul
 from typing import Any
 
 import exudyn
@@ -30,13 +32,19 @@ from .elements import Chain, Formulation
 from .elements.formulation import FloatArray
 
 
-def fix_root(mbs: exudyn.MainSystem, chain: Chain, coordinates: tuple[int, ...]) -> None:
-    """Hold the given coordinates of the root at their reference values."""
+def fix_root(
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, direction: bool = False
+) -> None:
+    """Hold the root at its reference values, with `direction` its direction as well."""
+    coordinates = list(element.fixed_at_root)
+    if direction:
+        # At θ = 0 each constraint of the clamp holds one coordinate.
+        coordinates += list(np.flatnonzero(element.clamp(0.0)[0].any(axis=0)))
     ground = mbs.AddNode(NodePointGround())
     at_rest = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
     for coordinate in coordinates:
         moving = mbs.AddMarker(
-            MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=coordinate)
+            MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=int(coordinate))
         )
         mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=[at_rest, moving]))
 
@@ -48,33 +56,34 @@ def prescribe_rotation(
     ground = mbs.AddNode(NodePointGround())
     at_rest = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=ground))
     root = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
-    at_time: list[Any] = [np.nan, 0.0, 1.0, None]  # asked for several times at each t
+    size = element.quarter_turn.shape[0]
+    held = element.clamp(0.0)[1].size
+    at_time: list[Any] = [np.nan, None, None, None]  # asked for several times at each t
 
     def turn_to(t: float) -> None:
         if t != at_time[0]:
-            angle = rotation.angle(t)
-            sine, cosine = np.sin(angle), np.cos(angle)
-            at_time[:] = [t, sine, cosine, element.direction_gradient(sine, cosine)]
+            gradient, target = element.clamp(rotation.angle(t))
+            # Plain numbers are several times faster here than arrays of one or two.
+            at_time[:] = [t, gradient, gradient.tolist(), target.tolist()]
 
     def residual(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> list[float]:
         turn_to(t)
-        return [element.direction(q, at_time[1], at_time[2])]
+        return [sum(map(mul, row, q), -d) for row, d in zip(*at_time[2:], strict=True)]
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> FloatArray:
         turn_to(t)
-        gradient: FloatArray = at_time[3]
+        gradient: FloatArray = at_time[1]
         return gradient
 
-    size = element.quarter_turn.shape[0]
     mbs.AddObject(
         ObjectConnectorCoordinateVector(
             markerNumbers=[at_rest, root],
-            scalingMarker0=np.zeros((1, 3)),
-            scalingMarker1=np.zeros((1, size)),
+            scalingMarker0=np.zeros((held, 3)),
+            scalingMarker1=np.zeros((held, size)),
             constraintUserFunction=residual,
             jacobianUserFunction=jacobian,
         )
@@ -94,11 +103,11 @@ def add_inertial_forces(
     """
     turn = sparse.kron(sparse.eye_array(len(chain.nodes)), element.quarter_turn, format="csr")
     gyroscopic = (mass @ turn).tocsr()
-    # A projector to what turns: positions and slopes, not angles.
     centrifugal = (-(mass @ turn @ turn)).tocsr()
     reference = np.concatenate(
         [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
     )
+    angular = mass @ np.tile(element.angles, len(chain.nodes))
     stiff_triplets, gyro_triplets = _triplets(centrifugal), _triplets(gyroscopic)
 
     def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
@@ -107,6 +116,7 @@ def add_inertial_forces(
         return np.asarray(
             rate**2 * (centrifugal @ total)
             - gyroscopic @ (acceleration * total + 2.0 * rate * np.asarray(q_t))
+            - acceleration * angular
         )
 
     def jacobian(

@@ -6,6 +6,7 @@ from typing import Any
 
 import exudyn
 import numpy as np
+from numpy.typing import NDArray
 from scipy import linalg, sparse
 
 from analytic import Beam, SteadyRotation
@@ -33,7 +34,12 @@ def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_arr
 
 
 def natural_frequencies(
-    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16, count: int = 3
+    beam: Beam,
+    omega: float,
+    *,
+    element: str | Formulation = "cable",
+    elements: int = 16,
+    count: int = 3,
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
@@ -60,29 +66,64 @@ def natural_frequencies(
     ValueError
         If an input is refused, or the mesh has fewer than `count` modes.
     SimulationError
-        If the static equilibrium is not found.
+        If the static equilibrium is not found, or unstable: frequencies would not tell.
     """
     whole_number("count", count)
     _, system = _steady_state(beam, omega, element, elements)
-    mass, stiffness, gyroscopic = system
-    if count > mass.shape[0]:
+    name, modes = formulation(element).name, system[0].shape[0]
+    if count > modes:
         raise ValueError(
-            f"count = {count} is more than the {mass.shape[0]} modes of {elements} {element!r} "
+            f"count = {count} is more than the {modes} modes of {elements} {name!r} "
             "elements; take more elements"
         )
-    # λ² M + λ G + K = 0 for 1/λ: the lowest modes become the largest eigenvalues, which the
-    # axial modes, 10⁸ times stiffer, then do not round off.
+    inverse = _inverse_eigenvalues(*system)
+    growth = _growth(inverse)
+    if growth > 0.0:
+        raise SimulationError(
+            f"the steady state of {elements} {name!r} elements at omega = "
+            f"{omega:g} rad/s is unstable, it grows with {growth:.6g} 1/s: lower the speed or take "
+            "another element"
+        )
+    frequencies = 1.0 / np.sort(np.abs(inverse.imag))[::-1]
+    return np.asarray(frequencies[: 2 * count : 2])
+
+
+def growth_rate(
+    beam: Beam, omega: float, *, element: str | Formulation = "linear", elements: int = 16
+) -> float:
+    """Rate [1/s] at which a small disturbance of the steady rotation grows; zero where stable.
+
+    Zero for every element that describes large deformation; for the linear floating frame it is
+    √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
+    """
+    _, system = _steady_state(beam, omega, element, elements)
+    return _growth(_inverse_eigenvalues(*system))
+
+
+def _inverse_eigenvalues(
+    mass: FloatArray, stiffness: FloatArray, gyroscopic: FloatArray
+) -> NDArray[np.complex128]:
+    """Return 1/λ of λ² M + λ G + K = 0.
+
+    The lowest modes become the largest eigenvalues, which the axial modes, 10⁸ times stiffer,
+    then do not round off.
+    """
     size = mass.shape[0]
     companion = np.zeros((2 * size, 2 * size))
     companion[:size, :] = -linalg.solve(stiffness, np.hstack([gyroscopic, mass]))
     companion[size:, :size] = np.eye(size)
     inverse = linalg.eigvals(companion, overwrite_a=True, check_finite=False)
-    frequencies = 1.0 / np.sort(np.abs(inverse.imag))[::-1]
-    return np.asarray(frequencies[: 2 * count : 2])
+    return np.asarray(inverse, dtype=np.complex128)
+
+
+def _growth(inverse: NDArray[np.complex128]) -> float:
+    """Return the largest real part of λ beyond what round-off gives to undamped modes."""
+    growing = inverse[inverse.real > 1e-6 * np.abs(inverse).max()]
+    return float((1.0 / growing).real.max()) if growing.size else 0.0
 
 
 def steady_stretch(
-    beam: Beam, omega: float, *, element: str = "cable", elements: int = 16
+    beam: Beam, omega: float, *, element: str | Formulation = "cable", elements: int = 16
 ) -> float:
     """Tip displacement [m] along the beam in steady rotation without vibration.
 
@@ -94,7 +135,7 @@ def steady_stretch(
 
 
 def _steady_state(
-    beam: Beam, omega: float, element: str, elements: int
+    beam: Beam, omega: float, element: str | Formulation, elements: int
 ) -> tuple[float, tuple[FloatArray, FloatArray, FloatArray]]:
     """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium."""
     omega = rotation_speed(omega)
@@ -106,7 +147,7 @@ def _steady_state(
     mbs = container.AddSystem()
     try:
         chain = model.lay(mbs, beam, elements)
-        drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+        drive.fix_root(mbs, chain, model, direction=True)
         drive.add_inertial_forces(mbs, chain, model, mass, SteadyRotation(omega=omega))
         mbs.Assemble()
         settings = _static_settings(beam, elements)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import platform
 import time as clock
+import warnings
 from collections.abc import Callable
 from dataclasses import asdict
 from importlib import metadata
@@ -17,14 +18,14 @@ from exudyn.itemInterface import SensorBody, SensorNode
 
 from analytic import Beam, BeamState, SpinUp, SteadyRotation
 from analytic.beam import warn_if_rpm
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import RotbeamWarning, positive, whole_number
 from analytic.spin_up import Rotation
 
 from . import __version__, drive
-from .elements import Chain, Formulation, formulation
-from .elements.formulation import FloatArray
+from .elements import Chain, Formulation, formulation, options_of
+from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix
-from .verdict import SimulationError, judge
+from .verdict import SimulationError, judge, remedy
 
 Frame = Literal["inertial", "rotating"]
 
@@ -38,7 +39,7 @@ def simulate(
     beam: Beam,
     spin_up: SpinUp | SteadyRotation,
     *,
-    element: str = "cable",
+    element: str | Formulation = "cable",
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
@@ -54,8 +55,9 @@ def simulate(
         The beam.
     spin_up : SpinUp or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, or constant from the start.
-    element : str
-        Beam formulation, a key of `rotbeam_exu.elements.FORMULATIONS`.
+    element : str or Formulation
+        Beam formulation: a key of `rotbeam_exu.elements.FORMULATIONS`, or an instance with its
+        options, such as `Exact(nodes=3)`.
     elements : int
         Number of elements of equal length.
     duration : float
@@ -78,8 +80,8 @@ def simulate(
     Dataset
         Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x, tip_y [m] in the
         inertial frame, angle [rad], kinetic_energy, elastic_energy, jacobi_energy = E - θ' L_z
-        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest over the
-        nodes). The attributes hold every input, versions, settings, wall time and the verdict.
+        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest along
+        the beam). The attributes hold every input, versions, settings, wall time and the verdict.
 
     Raises
     ------
@@ -101,41 +103,47 @@ def simulate(
     warn_if_rpm(beam, spin_up.omega)
     every = max(n for n in range(1, max(1, round(SAMPLE_INTERVAL / step)) + 1) if steps % n == 0)
 
+    critical_speed = model.critical_speed(beam, elements)
+    smaller = remedy(step, spin_up.omega, critical_speed)
     container = exudyn.SystemContainer()
     mbs = container.AddSystem()
     try:
         chain = model.lay(mbs, beam, elements)
         mass = mass_matrix(model, beam, elements)
         if frame == "inertial":
-            drive.fix_root(mbs, chain, model.fixed_at_root)
+            drive.fix_root(mbs, chain, model)
             drive.prescribe_rotation(mbs, chain, model, spin_up)
         else:
-            drive.fix_root(mbs, chain, model.fixed_in_rotating_frame)
+            drive.fix_root(mbs, chain, model, direction=True)
             drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
         sensors = _Sensors(mbs, chain)
         _start(mbs, chain, model, beam, spin_up, frame, initial_state)
         mbs.Assemble()
         settings, described = _settings(duration, steps, every, frame)
         started = clock.perf_counter()
-        _solve(mbs, settings, duration, progress)
+        failure = _solve(mbs, settings, duration, progress, smaller)
         wall_time = clock.perf_counter() - started
         time, coordinates, velocities, elastic = sensors.read()
-        if time.size != steps // every + 1:
-            raise SimulationError(
+        if failure is None and time.size != steps // every + 1:
+            failure = SimulationError(
                 f"the solver kept {time.size} samples up to t = {time[-1]:.6g} s instead of "
-                f"{steps // every + 1}: take a smaller step than {step:g} s"
+                f"{steps // every + 1}: {smaller}"
             )
     finally:
         # Systems are not collected by themselves: memory would grow from run to run.
         mbs.Reset()
         container.Reset()
 
-    run = _dataset(model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step)
+    run = _dataset(
+        beam, model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step
+    )
     run.attrs = {
         **{f"beam_{name}": value for name, value in asdict(beam).items()},
         "omega": spin_up.omega,
         "ramp_time": ramp_time,
-        "element": element,
+        "element": model.name,
+        "element_options": json.dumps(options_of(model)),
+        "critical_speed": critical_speed,
         "elements": elements,
         "duration": duration,
         "step": step,
@@ -144,7 +152,23 @@ def simulate(
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
-    run.attrs["verdict"] = judge(run)
+    try:
+        # What went wrong before the solver noticed says more than that it gave up.
+        run.attrs["verdict"] = judge(run)
+        if failure is not None:
+            raise failure
+    except SimulationError as error:
+        run.attrs["verdict"] = str(error)
+        error.run = run
+        raise
+    if spin_up.omega > critical_speed:
+        warnings.warn(
+            f"omega = {spin_up.omega:g} rad/s is above the critical speed, {critical_speed:.6g} "
+            f"rad/s, of {elements} {model.name!r} elements: their steady rotation is unstable, and "
+            "what keeps the oscillation bounded is not the beam; take more elements",
+            RotbeamWarning,
+            stacklevel=2,
+        )
     return run
 
 
@@ -164,7 +188,7 @@ def _start(
         x = np.linspace(0.0, beam.length, len(chain.nodes))
         coordinates, velocities = model.coordinates(x, initial_state(x))
     if frame == "inertial":
-        velocities = velocities + rotation.rate(0.0) * coordinates @ model.quarter_turn.T
+        velocities = velocities + rotation.rate(0.0) * spun(model, coordinates)
     for node, moved, moving in zip(chain.nodes, coordinates - reference, velocities, strict=True):
         mbs.SetNodeParameter(node, "initialCoordinates", moved)
         mbs.SetNodeParameter(node, "initialVelocities", moving)
@@ -235,8 +259,9 @@ def _solve(
     settings: exudyn.SimulationSettings,
     duration: float,
     progress: Callable[[float], None] | None,
-) -> None:
-    """Run the solver; its failures and Ctrl-C come out as what they are."""
+    smaller: str,
+) -> SimulationError | None:
+    """Run the solver; Ctrl-C comes out as what it is, a failure is returned with its remedy."""
     shown = 0.0
 
     def before_step(mbs: Any, t: float) -> bool:
@@ -253,12 +278,15 @@ def _solve(
     except BaseException as error:
         if "KeyboardInterrupt" in _chain_of(error):
             raise KeyboardInterrupt from None
-        raise SimulationError(
+        failure = SimulationError(
             f"the solver gave up at t = {mbs.systemData.GetTime():.6g} s of {duration:g} s: "
-            f"take a smaller step than {duration / settings.timeIntegration.numberOfSteps:g} s"
-        ) from error
+            f"{smaller}"
+        )
+        failure.__cause__ = error
+        return failure
     if progress is not None:
         progress(1.0)
+    return None
 
 
 def _chain_of(error: BaseException | None) -> str:
@@ -274,7 +302,7 @@ class _Sensors:
     """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
 
     def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
-        self._mbs = mbs
+        self._mbs, self._chain = mbs, chain
         self._reference = np.array(
             [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
         )
@@ -305,11 +333,15 @@ class _Sensors:
         time = np.array(table(self._coordinates[0])[:, 0])
         coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
         velocities = np.stack([table(s)[:, 1:] for s in self._velocities], axis=1)
+        coordinates += self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
-        return time, coordinates + self._reference, velocities, elastic
+        if self._chain.elastic_energy is not None:
+            elastic = elastic + self._chain.elastic_energy(coordinates)
+        return time, coordinates, velocities, elastic
 
 
 def _dataset(
+    beam: Beam,
     model: Formulation,
     mass: Any,
     spin_up: Rotation,
@@ -325,18 +357,18 @@ def _dataset(
     # The integrator adds up its steps; the grid is what was asked for.
     time = step * np.rint(time / step)
     angle, rate = spin_up.angle(time), spin_up.rate(time)
-    turned = coordinates @ model.quarter_turn.T
     if frame == "inertial":
-        coordinates, absolute = model.turn(coordinates, -angle), model.turn(velocities, -angle)
-        turned = coordinates @ model.quarter_turn.T
+        coordinates = turned(model, coordinates, -angle)
+        absolute = turned_velocities(model, velocities, -angle)
     else:
-        absolute = velocities + rate[:, None, None] * turned
+        absolute = velocities + rate[:, None, None] * spun(model, coordinates)
     flat = absolute.reshape(time.size, -1)
     momentum = flat @ mass
     kinetic = 0.5 * np.sum(flat * momentum, axis=1)
-    angular_momentum = np.sum(turned.reshape(time.size, -1) * momentum, axis=1)
+    angular_momentum = np.sum(spun(model, coordinates).reshape(time.size, -1) * momentum, axis=1)
     x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
     root = coordinates[:, 0]
+    gradient, target = model.clamp(0.0)
     columns = {
         "q": (y, "m", "tip displacement q"),
         "q_dot": (absolute[:, -1, 1] - rate * x, "m/s", "tip velocity dq/dt"),
@@ -352,14 +384,14 @@ def _dataset(
         ),
         "clamp_residual": (np.hypot(root[:, 0], root[:, 1]), "m", "position error of the clamp"),
         "direction_residual": (
-            np.array([model.direction(r, 0.0, 1.0) for r in root]),
+            np.abs(root @ gradient.T - target).max(axis=1),
             "1",
             "direction error of the clamp",
         ),
         "axial_strain": (
-            np.abs(model.axial_strain(coordinates)).max(axis=1),
+            np.abs(model.axial_strain(beam, coordinates)).max(axis=1),
             "1",
-            "largest axial strain over the nodes",
+            "largest axial strain along the beam",
         ),
     }
     return xr.Dataset(

@@ -28,6 +28,7 @@ for _command in (
     "compare_modes",
     "figure",
     "table",
+    "verify",
     "doctor",
 ):
     app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))

@@ -10,6 +10,7 @@ from rich.progress import Progress
 from analytic import Beam, SpinUp
 
 from ..config import load_beam
+from ..elements import formulation
 from ..linearization import natural_frequencies
 from ..oscillation import steady_oscillation
 from ..simulation import Frame, simulate
@@ -25,6 +26,7 @@ def run(
     step: float = 1e-3,
     duration: float = 15.0,
     element: str = "cable",
+    option: list[str] | None = None,
     frame: Frame = "inertial",
     config: Path | None = None,
     out: Path = Path("results"),
@@ -45,6 +47,8 @@ def run(
         End of the run [s].
     element
         Beam formulation.
+    option
+        Option of the formulation as name=value; may be given again for another.
     frame
         Coordinates of the model.
     config
@@ -54,6 +58,7 @@ def run(
     """
     beam = Beam.reference() if config is None else load_beam(config)
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
+    model = formulation(element, dict(map(_name_and_value, option or [])))
     folder = writable_folder(out)
     console = Console(highlight=False, soft_wrap=True)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
@@ -61,16 +66,17 @@ def run(
         data = simulate(
             beam,
             spin_up,
-            element=element,
+            element=model,
             elements=elements,
             duration=duration,
             step=step,
             frame=frame,
             progress=lambda done: bar.update(task, completed=done),
         )
-    omega_n = natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0]
+    omega_n = natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0]
     steady = steady_oscillation(data)
-    name = f"{element}-{elements}-omega-{omega:g}-ramp-{ramp_time:g}"
+    label = "-".join([element, *(text.replace("=", "-") for text in option or [])])
+    name = f"{label}-{elements}-omega-{omega:g}-ramp-{ramp_time:g}"
     written = [save(data, folder / f"{name}.nc"), save(data, folder / f"{name}.csv")]
 
     from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
@@ -92,7 +98,8 @@ def run(
     line("spin-up", f"ω = {omega:g} rad/s in T = {ramp_time:g} s (Ω = {omega / beam.omega_0:.4f})")
     line(
         "discretization",
-        f"{elements} × {element}, {frame} frame, step {step:g} s, {duration:g} s",
+        f"{elements} × {', '.join([element, *(option or [])])}; {frame} frame, "
+        f"step {step:g} s, {duration:g} s",
     )
     line("natural frequency", f"ω_n = {omega_n:.6f} rad/s (mesh, steady rotation)")
     line(
@@ -110,3 +117,16 @@ def run(
     line("wall time", f"{data.attrs['wall_time']:.2f} s")
     line("verdict", data.attrs["verdict"])
     line("written", ", ".join(str(path) for path in written))
+
+
+def _name_and_value(text: str) -> tuple[str, object]:
+    """Split name=value; what reads as a number is one."""
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise ValueError(f"an option is given as name=value, got {text!r}")
+    for number in (int, float):
+        try:
+            return name, number(value)
+        except ValueError:
+            continue
+    return name, value

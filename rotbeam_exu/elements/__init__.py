@@ -2,18 +2,63 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from .ancf3 import Ancf3
 from .cable import Cable
+from .exact import Exact
 from .formulation import Chain, Formulation
+from .linear_frames import Linear, Substructures
 
-FORMULATIONS: dict[str, Formulation] = {"cable": Cable()}
+FORMULATIONS: dict[str, type[Any]] = {
+    cls.name: cls for cls in (Cable, Exact, Ancf3, Linear, Substructures)
+}
+"""The class of each formulation, a frozen dataclass whose fields are its options."""
 
 
-def formulation(element: str) -> Formulation:
-    """Return the formulation called `element`; an unknown name is refused with the known ones."""
+def formulation(
+    element: str | Formulation, options: Mapping[str, object] | None = None
+) -> Formulation:
+    """Return the formulation called `element`, with `options`; a Formulation is passed through.
+
+    Raises
+    ------
+    ValueError
+        If the name, or an option of it, is not known: the sentence says which are.
+    """
+    if not isinstance(element, str):
+        return element
     if element not in FORMULATIONS:
-        known = ", ".join(repr(name) for name in FORMULATIONS)
-        raise ValueError(f"unknown element {element!r}; known are {known}")
-    return FORMULATIONS[element]
+        names = ", ".join(repr(name) for name in FORMULATIONS)
+        raise ValueError(
+            f"unknown element {element!r}; known are {names}; other codes are in rotbeam_exu.peers"
+        )
+    cls = FORMULATIONS[element]
+    known = [field.name for field in dataclasses.fields(cls)]
+    for name in options or {}:
+        if name not in known:
+            has = f"its options are {', '.join(known)}" if known else "it has no options"
+            raise ValueError(f"element {element!r} has no option {name!r}; {has}")
+    model: Formulation = cls(**(options or {}))
+    return model
 
 
-__all__ = ["FORMULATIONS", "Chain", "Formulation", "formulation"]
+def options_of(element: Formulation) -> dict[str, Any]:
+    """Return the options of a formulation by name, such that `formulation` makes it again."""
+    return dataclasses.asdict(element)  # type: ignore[call-overload, no-any-return]
+
+
+__all__ = [
+    "FORMULATIONS",
+    "Ancf3",
+    "Cable",
+    "Chain",
+    "Exact",
+    "Formulation",
+    "Linear",
+    "Substructures",
+    "formulation",
+    "options_of",
+]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import ClassVar
 
 import exudyn
 import numpy as np
@@ -11,22 +13,18 @@ from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
 from analytic import Beam, BeamState
 
-from .formulation import Chain, FloatArray
+from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed, positions_and_slopes
 
 
-@dataclass(frozen=True)
-class Cable:
+@dataclass(frozen=True, kw_only=True)
+class Cable(NoCriticalSpeed):
     """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|²."""
 
-    summary: str = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
-    fixed_at_root: tuple[int, ...] = (0, 1)
-    # The root may stretch, so its slope is held in direction only.
-    fixed_in_rotating_frame: tuple[int, ...] = (0, 1, 3)
-
-    @property
-    def quarter_turn(self) -> FloatArray:
-        """Generator J: both vectors (x, y) and (x', y') become (-y, x)."""
-        return np.kron(np.eye(2), np.array([[0.0, -1.0], [1.0, 0.0]]))
+    name: ClassVar[str] = "cable"
+    summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
+    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
+    angles: ClassVar[FloatArray] = np.zeros(4)
+    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add `elements` cables of equal length along the x axis."""
@@ -51,28 +49,14 @@ class Cable:
         )
         return Chain(nodes=nodes, bodies=bodies)
 
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
+        return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
+
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions (x + u, v) and slopes (1 + u', v'), and their rates."""
-        values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
-        rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
+        """Positions and slopes, and their rates."""
+        return positions_and_slopes(x, state)
 
-    def turn(self, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
-        """Turn positions and slopes alike."""
-        vectors = coordinates.reshape(*coordinates.shape[:-1], 2, 2)
-        x, y = vectors[..., 0], vectors[..., 1]
-        sine, cosine = (f(angle)[:, None, None] for f in (np.sin, np.cos))
-        turned = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-        return turned.reshape(coordinates.shape)
-
-    def direction(self, root: FloatArray, sine: float, cosine: float) -> float:
-        """-sin θ x' + cos θ y', zero where the root's slope points along θ."""
-        return float(cosine * root[3] - sine * root[2])
-
-    def direction_gradient(self, sine: float, cosine: float) -> FloatArray:
-        """Return (0, 0, -sin θ, cos θ)."""
-        return np.array([[0.0, 0.0, -sine, cosine]])
-
-    def axial_strain(self, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""
         return np.asarray(np.hypot(coordinates[..., 2], coordinates[..., 3]) - 1.0)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import exudyn
 import numpy as np
@@ -12,6 +14,9 @@ from numpy.typing import NDArray
 from analytic import Beam, BeamState
 
 FloatArray = NDArray[np.float64]
+
+QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
+"""The generator of plane rotations: (x, y) becomes (-y, x)."""
 
 exudyn.config.printToConsole = False
 # Without a display, an open renderer ends the process.
@@ -27,50 +32,91 @@ class Chain:
     nodes : tuple of NodeIndex
         Nodes from the clamped root to the free tip.
     bodies : tuple of ObjectIndex
-        Objects that report the elastic energy as their potential energy.
+        Objects that report their elastic energy as their potential energy, where they do.
+    elastic_energy : callable, optional
+        The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
+        (samples, nodes, n), where Exudyn's objects do not report it.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
-    bodies: tuple[exudyn.ObjectIndex, ...]
+    bodies: tuple[exudyn.ObjectIndex, ...] = ()
+    elastic_energy: Callable[[FloatArray], FloatArray] | None = None
 
 
 class Formulation(Protocol):
     """A planar beam element: its chain, its clamp and what its coordinates mean.
 
-    The coordinates of a node are those that Exudyn integrates, reference values included, here
-    as arrays of shape (..., nodes, coordinates per node).
+    A formulation is a frozen dataclass whose fields are its options, so that name and options say
+    how to make it again. The coordinates of a node are those that Exudyn integrates, reference
+    values included, here as arrays of shape (..., nodes, n). A rotation by θ takes them, and
+    mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
+    a adds to angles.
     """
 
-    @property
-    def summary(self) -> str:
-        """One line that names the formulation."""
-
-    @property
-    def fixed_at_root(self) -> tuple[int, ...]:
-        """Root coordinates held at their reference values in the inertial frame."""
-
-    @property
-    def fixed_in_rotating_frame(self) -> tuple[int, ...]:
-        """Root coordinates held at their reference values in the rotating frame."""
-
-    @property
-    def quarter_turn(self) -> FloatArray:
-        """Generator J of a rotation of one node's coordinates, (coordinates, coordinates)."""
+    name: ClassVar[str]
+    """What the user calls it."""
+    summary: ClassVar[str]
+    """One line that names the formulation."""
+    quarter_turn: ClassVar[FloatArray]
+    """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
+    angles: ClassVar[FloatArray]
+    """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
+    fixed_at_root: ClassVar[tuple[int, ...]]
+    """Root coordinates held at their reference values, whatever the angle."""
 
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
 
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
+
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
 
-    def turn(self, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
-        """Return `coordinates` (samples, nodes, n) of a beam turned by `angle` (samples,) [rad]."""
+    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+        """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
 
-    def direction(self, root: FloatArray, sine: float, cosine: float) -> float:
-        """Residual [-] of the root's direction against the angle given by its sine and cosine."""
+    def critical_speed(self, beam: Beam, elements: int) -> float:
+        """Speed [rad/s] above which the model diverges, infinite where its strains are exact."""
 
-    def direction_gradient(self, sine: float, cosine: float) -> FloatArray:
-        """Return the derivative of `direction` with respect to the root's coordinates, (1, n)."""
 
-    def axial_strain(self, coordinates: FloatArray) -> FloatArray:
-        """Axial strain [-] at the nodes, (..., nodes)."""
+class NoCriticalSpeed:
+    """The answer of formulations that describe large deformation exactly."""
+
+    def critical_speed(self, beam: Beam, elements: int) -> float:
+        """Return infinity: the critical speed is an artifact of linear elastic frames (Sec. 1)."""
+        return math.inf
+
+
+def turned(element: Formulation, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
+    """Return exp(θJ) e + θ a of coordinates (samples, nodes, n), `angle` θ (samples,) [rad]."""
+    return turned_velocities(element, coordinates, angle) + angle[:, None, None] * element.angles
+
+
+def turned_velocities(
+    element: Formulation, velocities: FloatArray, angle: FloatArray
+) -> FloatArray:
+    """Return exp(θJ) v = v + sin θ J v + (1 - cos θ) J² v of vectors (samples, nodes, n)."""
+    once = velocities @ element.quarter_turn.T
+    twice = once @ element.quarter_turn.T
+    sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
+    return velocities + sine * once + versine * twice
+
+
+def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:
+    """Return J e + a, the velocities of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
+    return coordinates @ element.quarter_turn.T + element.angles
+
+
+def positions_and_slopes(x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+    """Return (x + u, v, 1 + u', v') at the nodes `x` [m], (nodes, 4), and their rates."""
+    values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
+    rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
+    return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+def section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
+    """Return the angle [rad] of a section normal to the axis, (nodes,), and its rate [rad/s]."""
+    along, across = 1.0 + state.u_slope, state.v_slope
+    rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
+    return np.arctan2(across, along), rate

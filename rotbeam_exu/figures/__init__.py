@@ -1,12 +1,14 @@
 """The figures: each takes data and `ax=`, returns Axes and shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
-`rotbeam_exu.comparison`.
+`rotbeam_exu.comparison`; `spin_up` takes a run, `critical_speed` what
+`rotbeam_exu.stability.critical_speeds` returns.
 """
 
 from __future__ import annotations
 
 from .backbones import figure_5, figure_14
+from .critical_speed import critical_speed
 from .orbits import figure_15
 from .runs import figure_3, figure_4
 from .spin_up import spin_up
@@ -14,6 +16,7 @@ from .style import save_figure
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
+    "critical_speed",
     "figure_3",
     "figure_4",
     "figure_5",

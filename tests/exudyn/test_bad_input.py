@@ -17,7 +17,7 @@ from rotbeam_exu import natural_frequencies, simulate
         ({"step": 7e-4}, "not a whole number of steps of 0.0007 s; try a step of 0.000699986 s"),
         ({"duration": -1.0}, "duration must be positive"),
         ({"duration": 2.0}, "duration 2 s ends before the steady rotation"),
-        ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable'"),
+        ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable', 'exact'"),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
     ],
 )

@@ -1,0 +1,125 @@
+"""Exudyn's geometrically exact beam: shear-deformable, two or three nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
+
+from analytic import Beam, BeamState
+
+from .formulation import Chain, FloatArray, NoCriticalSpeed, section_angle
+from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exact(NoCriticalSpeed):
+    """ObjectBeamGeometricallyExact2D: nodes carry r and the angle φ of the section.
+
+    With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
+    integrated at one Gauss point fewer than there are nodes, which keeps shear from locking. The
+    section has its rotary inertia ρI.
+
+    Parameters
+    ----------
+    nodes : int
+        Nodes of an element, 2 (linear) or 3 (quadratic).
+    poisson_ratio, shear_correction : float
+        ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)); the paper gives neither.
+    """
+
+    nodes: int = 2
+    poisson_ratio: float = POISSON_RATIO
+    shear_correction: float = SHEAR_CORRECTION
+
+    name: ClassVar[str] = "exact"
+    summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
+    quarter_turn: ClassVar[FloatArray] = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0] * 3])
+    angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
+    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
+
+    def __post_init__(self) -> None:
+        if self.nodes not in (2, 3):
+            raise ValueError(f"nodes must be 2 or 3, got {self.nodes!r}")
+        checked_shear(self.poisson_ratio, self.shear_correction)
+
+    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
+        """Add `elements` beams of equal length along the x axis."""
+        inner = self.nodes - 1
+        positions = np.linspace(0.0, beam.length, inner * elements + 1)
+        nodes = tuple(
+            mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0])) for x in positions
+        )
+        for i in range(0, inner * elements, inner):
+            mbs.AddObject(
+                ObjectBeamGeometricallyExact2D(
+                    nodeNumbers=list(nodes[i : i + self.nodes]),
+                    length=beam.length / elements,
+                    massPerLength=beam.mass_per_length,
+                    crossSectionInertia=beam.density * beam.second_moment,
+                    bendingStiffness=beam.bending_stiffness,
+                    axialStiffness=beam.axial_stiffness,
+                    shearStiffness=self._shear_stiffness(beam),
+                )
+            )
+        return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
+
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """φ = θ: the root's angle is a coordinate."""
+        return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and the angle of sections normal to the axis, and their rates."""
+        angle, rate = section_angle(state)
+        values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+        """r'·d - 1 at the Gauss points."""
+        return self._strains(beam, coordinates)[0]
+
+    def elastic_energy(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+        """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
+        axial, shear, curvature = self._strains(beam, coordinates)
+        density = (
+            beam.axial_stiffness * axial**2
+            + self._shear_stiffness(beam) * shear**2
+            + beam.bending_stiffness * curvature**2
+        )
+        # The points of an element, one or two, weigh the same.
+        return np.asarray(0.5 * beam.length * density.mean(axis=-1))
+
+    def _shear_stiffness(self, beam: Beam) -> float:
+        return shear_modulus(beam, self.poisson_ratio) * self.shear_correction * beam.area
+
+    def _strains(
+        self, beam: Beam, coordinates: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Axial, shear and bending strain at the Gauss points, each (..., points)."""
+        inner = self.nodes - 1
+        count = (coordinates.shape[-2] - 1) // inner
+        length = beam.length / count
+        per_element = coordinates[..., inner * np.arange(count)[:, None] + np.arange(inner + 1), :]
+        # Shape functions and their slopes to x at the Gauss points, (points, nodes).
+        points = np.polynomial.legendre.leggauss(inner)[0]
+        if inner == 1:
+            values = np.array([[0.5, 0.5]])
+            slopes = np.array([[-1.0, 1.0]]) / length
+        else:
+            values = np.stack(
+                [0.5 * points * (points - 1), 1 - points**2, 0.5 * points * (points + 1)], axis=1
+            )
+            slopes = np.stack([points - 0.5, -2 * points, points + 0.5], axis=1) * 2.0 / length
+        e, e_x = (np.einsum("pn,...jnc->...jpc", s, per_element) for s in (values, slopes))
+        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
+        strains = (
+            cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0,
+            cosine * e_x[..., 1] - sine * e_x[..., 0],
+            e_x[..., 2],
+        )
+        flat = (*coordinates.shape[:-2], -1)
+        axial, shear, curvature = (s.reshape(flat) for s in strains)
+        return axial, shear, curvature

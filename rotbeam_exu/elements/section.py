@@ -1,0 +1,35 @@
+"""The section of a shear-deformable beam, which the paper leaves open."""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+
+from analytic import Beam
+from analytic.input_checks import positive
+
+POISSON_RATIO = 0.3
+"""Default ν; the paper gives neither ν nor a shear modulus."""
+
+SHEAR_CORRECTION = 5.0 / 6.0
+"""Default k_s of a rectangle whose section stays plane; an element may have reason for another."""
+
+
+def shear_modulus(beam: Beam, poisson_ratio: float) -> float:
+    """G = E/(2 (1 + ν)) [Pa]."""
+    return beam.youngs_modulus / (2.0 * (1.0 + poisson_ratio))
+
+
+def rectangle(beam: Beam) -> tuple[float, float]:
+    """Height h in the plane of bending and width b [m] of the rectangle with the beam's A and I."""
+    height = math.sqrt(12.0 * beam.second_moment / beam.area)
+    return height, beam.area / height
+
+
+def checked_shear(poisson_ratio: float, shear_correction: float) -> None:
+    """Refuse a Poisson ratio outside (-1, 1/2) and a shear correction that is not positive."""
+    if isinstance(poisson_ratio, bool) or not isinstance(poisson_ratio, Real):
+        raise TypeError(f"poisson_ratio must be a number, got {poisson_ratio!r}")
+    if not -1.0 < poisson_ratio < 0.5:
+        raise ValueError(f"poisson_ratio must lie between -1 and 0.5, got {poisson_ratio!r}")
+    positive("shear_correction", shear_correction)

@@ -1,0 +1,150 @@
+"""The paper's own element."""
+
+import numpy as np
+import pytest
+from scipy import sparse
+
+from analytic import linear_modes
+from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu.elements import Ancf3, formulation
+from rotbeam_exu.elements.ancf3 import _Row
+from rotbeam_exu.linearization import mass_matrix
+
+
+def first_frequency(beam, omega, element, elements):
+    return natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0]
+
+
+@pytest.mark.parametrize(
+    ("omega", "frequency"),
+    [(0.0, 2.909195), (2.0, 3.034856), (4.0, 3.345612), (6.0, 3.730423), (8.0, 4.123943)],
+)
+def test_linear_frequencies(beam, omega, frequency):
+    found = natural_frequencies(beam, omega, element="ancf3", count=1)[0]
+    assert found == pytest.approx(frequency, abs=6e-7)  # the print's rounding
+
+
+def test_sixteen_elements_have_the_papers_coordinates(beam):
+    assert mass_matrix(Ancf3(), beam, 16).shape == (132, 132)
+    # Four constraints: 128 degrees of freedom.
+    assert natural_frequencies(beam, 0.0, element="ancf3", count=128).size == 128
+    with pytest.raises(ValueError, match="more than the 128 modes"):
+        natural_frequencies(beam, 0.0, element="ancf3", count=129)
+
+
+def test_three_elements(beam, spin_up):
+    """The mesh of the paper's Figs. 3 and 4."""
+    run = simulate(beam, spin_up, element="ancf3", elements=3)
+    assert steady_oscillation(run).frequency == pytest.approx(3.751, abs=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("law", "frequency"), [("uncoupled", 3.7231), ("coupled", 3.848)])
+def test_nonlinear_frequency(beam, spin_up, law, frequency):
+    run = simulate(beam, spin_up, element=Ancf3(law=law))
+    # The rounding of the number: its last digit.
+    places = len(str(frequency).partition(".")[2])
+    assert steady_oscillation(run).frequency == pytest.approx(frequency, abs=0.5 * 10.0**-places)
+
+
+def test_coupled_law_locks_in_thickness(beam):
+    """Bending sees E/(1 - ν²) because r_y, one vector, cannot let ε_yy vary over the section.
+
+    No mesh cures it: the frequency at rest is too high by 1/√(1 - ν²).
+    """
+    exact = linear_modes(beam, 0.0, 1, rotary_inertia=True).frequencies[0]
+    for nu in (0.0, 0.2, 0.3):
+        locked, free = (
+            natural_frequencies(
+                beam, 0.0, element=Ancf3(law=law, poisson_ratio=nu), elements=32, count=1
+            )[0]
+            for law in ("coupled", "uncoupled")
+        )
+        # Shear compliance is 1e-5 of the frequency here.
+        assert free / exact == pytest.approx(1.0, abs=3e-5)
+        assert locked / exact == pytest.approx(1.0 / np.sqrt(1.0 - nu**2), abs=3e-5)
+
+
+def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(beam, fitted_order):
+    """At rest, the gap is shear compliance, 1/k_s; the limit comes from the continuum."""
+    limit = linear_modes(beam, 0.0, 1, rotary_inertia=True).frequencies[0]
+    stiffness = np.array([0.01, 0.1, 1.0])
+    gaps = [
+        1.0 - first_frequency(beam, 0.0, Ancf3(shear_correction=k), 64) / limit for k in stiffness
+    ]
+    assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.01)
+
+
+def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):
+    """In rotation, Green-Lagrange strain makes bending stiffer by 3ε, ε the centrifugal strain.
+
+    (1 + ε)² from b = r_x·r_xy and ε from 2ac; by Rayleigh's quotient the frequency gains
+    (3/2) ∫ ε EI v''² dx / (ω_n² ∫ ρA v² dx), 4.7e-5 at 6 rad/s.
+    """
+    omega = 6.0
+    modes = linear_modes(beam, omega, 1, rotary_inertia=True)
+    x = np.linspace(0.0, beam.length, 2001)
+    v = modes.shapes(x)[:, 0]
+    curvature = np.gradient(np.gradient(v, x, edge_order=2), x, edge_order=2)
+    strain = beam.density * omega**2 * (beam.length**2 - x**2) / (2.0 * beam.youngs_modulus)
+    gain = (
+        1.5
+        * np.trapezoid(strain * beam.bending_stiffness * curvature**2, x)
+        / (modes.frequencies[0] ** 2 * np.trapezoid(beam.mass_per_length * v**2, x))
+    )
+    stiff = first_frequency(beam, omega, Ancf3(shear_correction=100.0), 32)
+    cable = first_frequency(beam, omega, "cable", 64)
+    rotary = modes.frequencies[0] / linear_modes(beam, omega, 1).frequencies[0]
+    # Beyond the first order in ε there is the mesh, 5e-7.
+    assert stiff / cable - rotary == pytest.approx(gain, abs=2e-6)
+
+
+@pytest.mark.parametrize("law", ["uncoupled", "coupled"])
+def test_tangent_and_force_are_derivatives(beam, law):
+    row, rng = _Row(Ancf3(law=law, poisson_ratio=0.2), beam, 3), np.random.default_rng(1)
+    nodes = np.zeros((7, 4))
+    nodes[:, 0], nodes[:, 3] = np.linspace(0.0, 8.0, 7), 1.0
+    e = (nodes + 0.05 * rng.standard_normal(nodes.shape)).ravel()
+    step, size = 1e-6, e.size
+    steps = step * np.eye(size)
+    ends = [np.stack([e + d for d in s * steps]) for s in (1.0, -1.0)]
+    slope = np.subtract(*(row.energy(x.reshape(size, 7, 4)) for x in ends)) / (2 * step)
+    force = row.force(e)
+    # Central differences: 1e-12 of truncation, 1e-10 of round-off.
+    assert np.abs(slope - force).max() < 1e-8 * np.abs(force).max()
+    rows, columns, values = row.tangent(e).T
+    tangent = sparse.coo_array(
+        (values, (rows.astype(int), columns.astype(int))), shape=(size, size)
+    ).toarray()
+    slopes = np.stack([row.force(a) - row.force(b) for a, b in zip(*ends, strict=True)]) / (
+        2 * step
+    )
+    assert np.abs(slopes - tangent).max() < 1e-8 * np.abs(tangent).max()
+    assert np.abs(tangent - tangent.T).max() < 1e-14 * np.abs(tangent).max()
+
+
+def test_mesh_order_is_four(beam, fitted_order):
+    """With soft shear, for which round-off stays below the error of 32 elements."""
+    soft = Ancf3(shear_correction=0.1)
+    meshes = [8, 16, 32]
+    exact = first_frequency(beam, 6.0, soft, 64)
+    errors = [first_frequency(beam, 6.0, soft, n) / exact - 1.0 for n in meshes]
+    assert -fitted_order(meshes, errors) == pytest.approx(4.0, abs=0.2)
+
+
+def test_mass_is_that_of_the_beam(beam):
+    """Translation, and the rotation of the whole with the sections' own inertia."""
+    mass = mass_matrix(Ancf3(), beam, 4)
+    along, about = np.zeros((9, 4)), np.zeros((9, 4))
+    along[:, 0] = 1.0
+    about[:, 1], about[:, 2] = np.linspace(0.0, beam.length, 9), -1.0
+    assert along.ravel() @ mass @ along.ravel() == pytest.approx(beam.mass, rel=1e-14)
+    inertia = beam.mass * beam.length**2 / 3 + beam.density * beam.second_moment * beam.length
+    assert about.ravel() @ mass @ about.ravel() == pytest.approx(inertia, rel=1e-14)
+
+
+def test_refuses():
+    with pytest.raises(ValueError, match="unknown law 'linear'; known are 'uncoupled' and 'coup"):
+        Ancf3(law="linear")
+    with pytest.raises(ValueError, match="element 'ancf3' has no option 'nodes'; its options are"):
+        formulation("ancf3", {"nodes": 3})

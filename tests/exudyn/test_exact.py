@@ -1,0 +1,128 @@
+"""Exudyn's geometrically exact beam, two and three nodes."""
+
+import json
+
+import numpy as np
+import pytest
+
+from analytic import Beam, SpinUp, linear_modes
+from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu.elements import Exact, formulation
+from rotbeam_exu.verdict import energy_drift
+
+THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
+
+
+@pytest.mark.parametrize(("nodes", "frequency"), [(2, 3.72223), (3, 3.72233)])
+def test_nonlinear_frequency(beam, spin_up, nodes, frequency):
+    """Sixteen elements at ω = 6, T = 3, h = 1e-3: shear and mesh shift it by digits known."""
+    run = simulate(beam, spin_up, element=Exact(nodes=nodes))
+    # The print's rounding; a step of 1e-3 is part of the number.
+    assert steady_oscillation(run).frequency == pytest.approx(frequency, abs=6e-6)
+    assert energy_drift(run)[0] < 1e-5
+    assert np.abs(run["direction_residual"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("nodes", [2, 3])
+def test_elastic_energy_is_the_potential_of_the_forces(beam, elastic_force, nodes):
+    """The energy is ours, the forces are Exudyn's."""
+    model, rng = Exact(nodes=nodes), np.random.default_rng(3)
+    _, reference = elastic_force(model, beam, 2)
+    deformed = reference + 0.01 * rng.standard_normal(reference.shape)
+    force, _ = elastic_force(model, beam, 2, deformed)
+    step, slope = 1e-6, np.empty(force.size)
+    for i in range(force.size):
+        change = np.zeros(force.size)
+        change[i] = step
+        ends = np.stack([deformed + s * change.reshape(deformed.shape) for s in (1, -1)])
+        slope[i] = np.subtract(*model.elastic_energy(beam, ends)) / (2 * step)
+    # Central differences leave (1e-6)² and round-off 1e-16/1e-6.
+    assert np.abs(np.abs(slope) - np.abs(force)).max() < 1e-8 * np.abs(force).max()
+
+
+@pytest.mark.parametrize(("nodes", "order"), [(2, 2.0), (3, 4.0)])
+def test_mesh_order(nodes, order, fitted_order):
+    """Reduced integration: linear elements converge with h², quadratic ones with h⁴."""
+    meshes = [4, 8, 16, 32]
+    exact = natural_frequencies(THICK, 5.0, element=Exact(nodes=3), elements=128, count=1)[0]
+    errors = [
+        abs(natural_frequencies(THICK, 5.0, element=Exact(nodes=nodes), elements=n)[0] / exact - 1)
+        for n in meshes
+    ]
+    assert -fitted_order(meshes, errors) == pytest.approx(order, abs=0.1)
+
+
+def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(fitted_order):
+    """The gap is shear compliance, 1/k_s; the limit comes from another theory and another code."""
+    limit = linear_modes(THICK, 5.0, 1, rotary_inertia=True).frequencies[0]
+    stiffness = np.array([1.0, 10.0, 100.0])
+    gaps = [
+        1.0
+        - natural_frequencies(
+            THICK, 5.0, element=Exact(nodes=3, shear_correction=k), elements=64, count=1
+        )[0]
+        / limit
+        for k in stiffness
+    ]
+    assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.02)
+
+
+def test_stiff_shear_leaves_the_cable(beam):
+    cable = natural_frequencies(beam, 6.0, elements=64)[0]
+    soft, stiff = (
+        natural_frequencies(beam, 6.0, element=Exact(nodes=3, shear_correction=k), elements=32)[0]
+        for k in (5 / 6, 1e2)
+    )
+    # What is left is rotary inertia, of the order of μ = 1.8e-6.
+    assert abs(stiff / cable - 1.0) < 1e-5 < abs(soft / cable - 1.0)
+
+
+def test_both_frames_agree(beam):
+    gaps = []
+    for step in (4e-3, 2e-3):
+        inertial, rotating = (
+            simulate(
+                beam, SpinUp(omega=6.0, ramp_time=3.0), element="exact", elements=4, duration=4.0,
+                step=step, frame=frame,
+            )["q"]
+            for frame in ("inertial", "rotating")
+        )  # fmt: skip
+        gaps.append(np.abs(inertial - rotating).max().item())
+    # Two drives, two integrators, one second-order step error.
+    assert gaps[1] < 0.27 * gaps[0]
+
+
+def test_euler_acceleration_turns_the_sections():
+    """With rotary inertia θ'' loads the sections too: the frames agree only with that moment."""
+    stubby = Beam(length=1.0, area=0.2, second_moment=0.2**3 / 60, youngs_modulus=1e6, density=1e3)
+    spin_up = SpinUp(omega=3.0, ramp_time=0.5)
+    inertial, rotating = (
+        simulate(
+            stubby, spin_up, element="exact", elements=4, duration=1.0, step=2.5e-4, frame=frame
+        )["q"]
+        for frame in ("inertial", "rotating")
+    )
+    assert np.abs(inertial - rotating).max() < 1e-3 * np.abs(rotating).max()
+
+
+def test_a_run_says_how_to_make_its_element_again(beam):
+    model = Exact(nodes=3, poisson_ratio=0.25)
+    run = simulate(
+        beam, SpinUp(omega=1.0, ramp_time=0.5), element=model, elements=2, duration=1.0, step=1e-2
+    )
+    options = json.loads(run.attrs["element_options"])
+    assert formulation(run.attrs["element"], options) == model
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"nodes": 4}, "nodes must be 2 or 3, got 4"),
+        ({"poisson_ratio": 0.5}, r"poisson_ratio must lie between -1 and 0\.5, got 0\.5"),
+        ({"shear_correction": 0.0}, "shear_correction must be positive"),
+        ({"law": "coupled"}, "element 'exact' has no option 'law'; its options are nodes, poisson"),
+    ],
+)
+def test_refuses(options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        formulation("exact", options)

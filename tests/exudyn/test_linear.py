@@ -1,0 +1,91 @@
+"""One linear floating frame: right below ω0, divergent above it."""
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp
+from rotbeam_exu import SimulationError, growth_rate, natural_frequencies, simulate
+from rotbeam_exu import steady_oscillation as steady
+from rotbeam_exu.elements import Linear, formulation
+from rotbeam_exu.linearization import mass_matrix
+
+
+def test_at_rest_it_is_the_cable(beam):
+    linear, cable = (natural_frequencies(beam, 0.0, element=name) for name in ("linear", "cable"))
+    assert linear == pytest.approx(cable, rel=2e-7)  # round-off of the axial stiffness
+
+
+@pytest.mark.parametrize("omega", [2.95, 4.0, 6.0, 8.0])
+def test_growth_rate(beam, omega):
+    """√(ω² - ω0²), Eq. 45 without stiffening; axial coupling lowers it by the order of μω²."""
+    expected = np.sqrt(omega**2 - beam.omega_0**2)
+    assert growth_rate(beam, omega) == pytest.approx(expected, rel=1e-3)
+    assert growth_rate(beam, omega) < expected
+    assert growth_rate(beam, omega, element="cable") == 0.0
+
+
+def test_frequency_softens_to_zero_below_the_critical_speed(beam):
+    for omega in (1.0, 2.0, 2.9):
+        expected = np.sqrt(beam.omega_0**2 - omega**2)
+        found = natural_frequencies(beam, omega, element="linear")[0]
+        assert found == pytest.approx(expected, rel=2e-5)
+        assert growth_rate(beam, omega) == 0.0
+    # Of the mesh of 16 cubic elements, 2e-7 above the beam's.
+    assert Linear().critical_speed(beam, 16) == pytest.approx(beam.omega_0, rel=3e-7)
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_bounded_below(beam, frame):
+    run = simulate(
+        beam, SpinUp(omega=2.0, ramp_time=6.0), element="linear", elements=4, step=4e-3, frame=frame
+    )
+    half = 0.5 * run["time"][-1]
+    late, early = (abs(run["q"].where(part)).max() for part in (run.time > half, run.time <= half))
+    assert late <= early
+    # Linear bending: no dependence on the amplitude, but for the inertia of axial motion.
+    expected = natural_frequencies(beam, 2.0, element="linear", elements=4)[0]
+    assert steady(run).frequency == pytest.approx(expected, rel=5e-5)
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_divergent_above(beam, spin_up, frame):
+    sentence = (
+        r"distance from the clamp .* at t = 1\.0\d+ s, above 1.05: linear elastic frames diverge "
+        r"above their critical speed, 2\.909\d* rad/s here, and omega is 6 rad/s"
+    )
+    with pytest.raises(SimulationError, match=sentence) as failed:
+        simulate(
+            beam, spin_up, element="linear", elements=4, duration=4.0, step=2e-3, frame=frame
+        )  # fmt: skip
+    assert failed.value.run is not None
+    assert failed.value.run.attrs["verdict"] == str(failed.value)
+
+
+def test_a_run_grows_at_that_rate(beam, spin_up):
+    with pytest.raises(SimulationError) as failed:
+        simulate(
+            beam, spin_up, element="linear", elements=4, duration=8.0, step=2e-3, frame="rotating"
+        )
+    late = failed.value.run["q"].sel(time=slice(6.0, 8.0))
+    slope = np.polyfit(late["time"], np.log(np.abs(late)), 1)[0]
+    assert slope == pytest.approx(np.sqrt(36.0 - beam.omega_0**2), rel=1e-3)
+    # The trapezoidal rule adds (σh)²/12 = 9e-6 to the rate of the mesh itself.
+    assert slope == pytest.approx(growth_rate(beam, 6.0, elements=4), rel=2e-5)
+
+
+def test_frequencies_of_an_unstable_state_are_refused(beam):
+    with pytest.raises(SimulationError, match=r"unstable, it grows with 5\.247\d* 1/s"):
+        natural_frequencies(beam, 6.0, element="linear")
+
+
+def test_cells_have_the_mass_of_the_cable(beam):
+    """Both interpolate r cubically between the same coordinates."""
+    linear, cable = (mass_matrix(formulation(n), beam, 3).toarray() for n in ("linear", "cable"))
+    assert np.abs(linear - cable).max() < 1e-14 * np.abs(cable).max()
+
+
+def test_refuses(beam, spin_up):
+    with pytest.raises(ValueError, match="element 'linear' has no option 'cells'; it has no opti"):
+        formulation("linear", {"cells": 2})
+    with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
+        simulate(beam, spin_up, element="linear", elements=0)

@@ -1,0 +1,125 @@
+"""Linear floating frames in a row."""
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from analytic import SpinUp, linear_modes
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu import SimulationError, critical_speed, growth_rate, natural_frequencies, simulate
+from rotbeam_exu.elements import Substructures, formulation
+from rotbeam_exu.elements.linear_frames import FrameRow
+from rotbeam_exu.stability import critical_speeds
+
+
+@pytest.mark.parametrize("frame", ["tangent", "pinned"])
+def test_critical_speed_grows_with_the_number(beam, frame):
+    speeds = [critical_speed(beam, n, frame) for n in (1, 2, 3, 4, 6, 8)]
+    assert np.all(np.diff(speeds) > 0.0)
+
+
+def test_the_critical_speed_depends_on_the_frame(beam):
+    """Pinned frames see half the rotation from chord to tangent, and hold out longer."""
+    for n in (1, 2, 4):
+        assert critical_speed(beam, n, "pinned") > 2.0 * critical_speed(beam, n, "tangent")
+
+
+def test_one_tangent_frame_is_the_linear_beam(beam):
+    # Eight cubic cells are within 4e-6 of the beam.
+    assert critical_speed(beam, 1, cells=8) == pytest.approx(beam.omega_0, rel=5e-6)
+
+
+@pytest.mark.parametrize(
+    ("n", "frame"), [(1, "tangent"), (2, "tangent"), (4, "tangent"), (1, "pinned"), (2, "pinned")]
+)
+def test_it_is_where_growth_sets_in(beam, frame, n):
+    """All eigenvalues about the steady state, with Coriolis terms, through Exudyn."""
+    model, speed = Substructures(frame=frame), critical_speed(beam, n, frame)
+    assert growth_rate(beam, 0.999 * speed, element=model, elements=n) == 0.0
+    above = growth_rate(beam, 1.0002 * speed, element=model, elements=n)
+    # Divergence sets in like a square root.
+    assert growth_rate(beam, 1.0008 * speed, element=model, elements=n) == pytest.approx(
+        2.0 * above, rel=0.02
+    )
+
+
+@pytest.mark.parametrize("frame", ["tangent", "pinned"])
+def test_many_frames_are_the_beam(beam, frame, fitted_order):
+    """They converge to the exact frequency from linear pieces: that is the point of them."""
+    exact, counts = linear_modes(beam, 4.0, 1).frequencies[0], [8, 16, 32]
+    errors = [
+        abs(
+            natural_frequencies(
+                beam, 4.0, element=Substructures(frame=frame, cells=1), elements=n, count=1
+            )[0]
+            / exact
+            - 1.0
+        )
+        for n in counts
+    ]
+    assert -fitted_order(counts, errors) == pytest.approx(2.0, abs=0.15)
+
+
+@pytest.mark.parametrize("frame", ["tangent", "pinned"])
+def test_tangent_and_force_are_derivatives(beam, frame):
+    row, rng = FrameRow(beam, 3, 2, frame), np.random.default_rng(1)
+    e = row.reference + 0.05 * rng.standard_normal(row.reference.size)
+    step, size = 1e-6, e.size
+    ends = [e + s * step * np.eye(size) for s in (1.0, -1.0)]
+    slope = np.subtract(*(row.energy(x.reshape(size, -1, 4)) for x in ends)) / (2 * step)
+    force, tangent = row.force(e), row.tangent(e)
+    assert np.abs(slope - force).max() < 1e-8 * np.abs(force).max()
+    dense = np.zeros((size, size))
+    np.add.at(dense, (tangent[:, 0].astype(int), tangent[:, 1].astype(int)), tangent[:, 2])
+    slopes = np.stack([row.force(a) - row.force(b) for a, b in zip(*ends, strict=True)])
+    assert np.abs(slopes / (2 * step) - dense).max() < 1e-8 * np.abs(dense).max()
+
+
+def test_stable_below_and_unstable_above(beam):
+    """After a gentle spin-up to 6 rad/s a stable beam hardly moves; two tangent frames buckle."""
+
+    def steady(n, frame):
+        run = simulate(
+            beam, SpinUp(omega=6.0, ramp_time=10.0), element=Substructures(frame=frame, cells=1),
+            elements=n, duration=16.0, step=4e-3,
+        )  # fmt: skip
+        return np.abs(run["q"].sel(time=slice(12.0, 16.0))).max().item()
+
+    with pytest.warns(RotbeamWarning, match=r"above the critical speed, 4\.45\d+ rad/s, of 2 'sub"):
+        buckled = steady(2, "tangent")
+    stable = [steady(3, "tangent"), steady(2, "pinned")]
+    assert buckled > 2.0 * max(stable), (buckled, stable)
+
+
+def test_one_tangent_frame_diverges(beam, spin_up):
+    with pytest.raises(SimulationError, match=r"above their critical speed, 2\.91\d+ rad/s here"):
+        simulate(beam, spin_up, element="substructures", elements=1, duration=8.0, step=2e-3)
+
+
+def test_figure(beam):
+    from rotbeam_exu import figures
+
+    mpl.use("agg")
+    data = critical_speeds(beam, [1, 2, 4])
+    axes = figures.critical_speed(data)
+    assert axes.get_ylabel() == "critical speed [rad/s]"
+    drawn = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+    assert drawn["pinned frames"] == pytest.approx(data["critical_speed"].sel(frame="pinned"))
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"substructures": 0}, "substructures must be at least 1, got 0"),
+        ({"substructures": 2, "frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
+        ({"substructures": 2, "cells": 0}, "cells must be at least 1, got 0"),
+    ],
+)
+def test_refuses(beam, options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        critical_speed(beam, **options)
+
+
+def test_refuses_options_that_it_does_not_have():
+    with pytest.raises(ValueError, match="has no option 'nodes'; its options are frame, cells"):
+        formulation("substructures", {"nodes": 2})

@@ -1,0 +1,103 @@
+"""The verdict table: it passes what is right, names what is wrong, and takes anyone's code."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic import spin_up_response
+from rotbeam_exu.cli import main
+from rotbeam_exu.elements import Exact
+from rotbeam_exu.peers import Entry, peer
+from rotbeam_exu.verification import THRESHOLDS, cost_at_error, formulation_entry, verify
+
+
+def truth(beam, spin_up, duration):
+    time = np.linspace(0.0, duration, round(duration / 0.01) + 1)
+    return time, spin_up_response(beam, spin_up, time, tolerance=1e-6)
+
+
+def second_order(scale=1.0, drift=0.0):
+    """A code of second order in step and mesh, made from the exact answer."""
+
+    def code(beam, spin_up, *, elements, duration, step):
+        time, exact = truth(beam, spin_up, duration)
+        error = scale * (step**2 + 1e-2 / elements**2)
+        q = exact.q * (1.0 + error) + drift * time
+        return xr.Dataset({"q": ("time", q), "q_dot": ("time", exact.q_dot)}, {"time": time})
+
+    return code
+
+
+def test_a_right_code_passes():
+    found = verify(Entry(name="mine", simulate=second_order(), elements=32))
+    assert found.passed
+    assert found.verdict == "passed"
+    assert found.measures["order in step"].value == pytest.approx(2.0, abs=1e-3)
+    assert found.measures["order in mesh"].value == pytest.approx(2.0, abs=1e-3)
+    # The error that was put in, of amplitude and history alike.
+    assert found.measures["amplitude"].value == pytest.approx(1e-6 + 1e-2 / 32**2, rel=1e-3)
+    assert found.measures["history"].value == pytest.approx(1e-6 + 1e-2 / 32**2, rel=1e-2)
+    # The exact answer lies on the exact backbone, a second mode in it notwithstanding.
+    assert found.measures["nonlinear frequency"].value < 1e-5
+    assert found.measures["linear frequency"].note == "not offered"
+    assert "nonlinear frequency" in str(found)
+
+
+def test_a_drifting_code_falls_short():
+    found = verify(Entry(name="drifting", simulate=second_order(drift=0.02)))
+    assert not found.passed
+    assert found.measures["history"].passed is False
+    assert "falls short: " in found.verdict
+    assert "history" in found.verdict
+
+
+def test_a_code_that_fails_says_why():
+    def broken(beam, spin_up, *, elements, duration, step):
+        raise RuntimeError("no license")
+
+    found = verify(Entry(name="broken", simulate=broken))
+    assert not found.passed
+    assert {m.note for m in found.measures.values() if m.passed is False} == {"no license"}
+    assert set(THRESHOLDS) < set(found.measures)
+
+
+def test_a_formulation_passes():
+    found = verify(formulation_entry(Exact(nodes=3)))
+    assert found.name == "exact nodes=3"
+    assert found.passed, str(found)
+
+
+@pytest.mark.slow
+def test_the_locking_law_falls_short():
+    from rotbeam_exu.elements import Ancf3
+
+    found = verify(formulation_entry(Ancf3(law="coupled")))
+    for name in ("linear frequency", "nonlinear frequency", "history"):
+        assert found.measures[name].passed is False
+
+
+def test_cost_is_read_off_a_ladder():
+    """An error of second order in a ladder that halves the mesh falls by four a rung."""
+    seconds, ladder = cost_at_error(Entry(name="mine", simulate=second_order()), 2e-4)
+    assert ladder[:-1, 0] / ladder[1:, 0] == pytest.approx(4.0, rel=1e-2)
+    assert ladder[:, 1].min() <= seconds <= ladder[:, 1].max()
+    assert np.isnan(cost_at_error(Entry(name="mine", simulate=second_order()), 1e-9)[0])
+
+
+def test_command_line(capsys):
+    main(["verify", "--element", "linear"])
+    out = capsys.readouterr().out
+    assert "falls short" in out
+    assert "linear: the tip's distance from the clamp" in out
+
+
+def test_command_line_refuses_what_it_does_not_know(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["verify", "--element", "shell"])
+    assert stop.value.code == 2
+    assert "unknown element 'shell'; known are 'cable'," in capsys.readouterr().err
+
+
+def test_unknown_peer():
+    with pytest.raises(ValueError, match="unknown code 'ansys'; known are 'kratos'"):
+        peer("ansys")

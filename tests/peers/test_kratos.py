@@ -1,0 +1,68 @@
+"""KratosMultiphysics, where it is installed."""
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp, spin_up_response
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu.peers import NotInstalledError, installed, peer
+
+needs_kratos = pytest.mark.skipif(
+    not installed("kratos"), reason="KratosMultiphysics is not installed (the extra `peers`)"
+)
+
+
+@pytest.mark.skipif(installed("kratos"), reason="KratosMultiphysics is installed")
+def test_it_says_how_to_install_it():
+    with pytest.raises(NotInstalledError, match=r"not installed; pip install 'rotbeam-exu\[pe"):
+        peer("kratos")
+
+
+def test_the_command_line_says_so_too(capsys, monkeypatch):
+    from rotbeam_exu import peers
+    from rotbeam_exu.cli import main
+
+    monkeypatch.setattr(peers, "installed", lambda name: False)
+    with pytest.raises(SystemExit) as stop:
+        main(["verify", "--element", "kratos"])
+    assert stop.value.code == 2
+    assert "pip install 'rotbeam-exu[peers]'" in capsys.readouterr().err
+
+
+@needs_kratos
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_it_agrees_with_the_exact_beam(beam, spin_up):
+    run = peer("kratos").simulate(beam, spin_up, elements=32, duration=15.0, step=5e-4)
+    exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+    assert np.abs(run["q"] - exact.q).max() < 1e-3 * np.abs(exact.q).max()
+    assert np.abs(run["q_dot"] - exact.q_dot).max() < 3e-3 * np.abs(exact.q_dot).max()
+
+
+@needs_kratos
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_it_converges_with_second_order(beam, fitted_order):
+    spin_up, errors = SpinUp(omega=6.0, ramp_time=1.0), []
+    for elements, step in ((4, 4e-3), (8, 2e-3), (16, 1e-3)):
+        run = peer("kratos").simulate(beam, spin_up, elements=elements, duration=2.0, step=step)
+        exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+        errors.append(np.abs(run["q"] - exact.q).max().item())
+    assert fitted_order([4, 2, 1], errors) == pytest.approx(2.0, abs=0.25)
+
+
+@needs_kratos
+def test_steps_that_did_not_converge_are_counted(beam, spin_up):
+    with pytest.warns(RotbeamWarning, match=r"\d+ of 500 steps did not converge to 1e-08; Kratos"):
+        run = peer("kratos").simulate(beam, spin_up, elements=4, duration=1.0, step=2e-3)
+    assert 0 < run.attrs["unconverged_steps"] <= 500
+    assert "of 500 steps did not converge" in run.attrs["verdict"]
+
+
+@needs_kratos
+def test_bad_input(beam, spin_up):
+    from rotbeam_exu.peers import kratos
+
+    with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
+        kratos.simulate(beam, spin_up, elements=0)
+    with pytest.raises(ValueError, match="step must be positive"):
+        kratos.simulate(beam, spin_up, step=-1e-3)
