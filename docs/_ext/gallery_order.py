@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-FIRST = ("spin_up", "backbone", "phase_space", "model_errors", "mesh_convergence")
+FIRST = (
+    "spin_up", "backbone", "phase_space", "model_errors", "mesh_convergence", "thickness_locking",
+    "linear_frame", "substructures",
+)  # fmt: skip
 
 
 class GalleryOrder:

@@ -79,6 +79,25 @@ def test_model_errors(run):
     assert abs(found["total"]["CI"]) > 50 * abs(found["total"]["FrM"])
 
 
+def test_linear_frame(run, beam):
+    # One floating frame feels ω² as a negative stiffness; axial motion takes 4e-5 off.
+    expected = np.sqrt(16.0 - beam.omega_0**2)
+    assert run("linear_frame")["rate"] == pytest.approx(expected, rel=1e-4)
+
+
+def test_substructures(run, beam):
+    two = run("substructures")["two"]
+    assert beam.omega_0 < two["tangent"] < two["pinned"]
+    assert two["tangent"] == pytest.approx(4.4510, abs=1e-4)
+
+
+def test_thickness_locking(run):
+    off = run("thickness_locking")["off"]
+    # Bending as if E were E/(1 - ν²), ν = 0.3: the square root of 1/0.91, less what rotation adds.
+    assert 0.03 < off["coupled"] < 0.91**-0.5 - 1.0
+    assert abs(off["uncoupled"]) < 1e-5
+
+
 def test_scripts_are_short_and_all_tested():
     scripts = {path.stem: path.read_text(encoding="utf-8") for path in MODELS.glob("*.py")}
     long = [name for name, text in scripts.items() if len(text.splitlines()) >= 40]
