@@ -83,6 +83,9 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
+html_sidebars = dict.fromkeys(
+    ("index", "explorer", "validation", "conventions", "gotchas", "bibliography"), ()
+)
 html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],
@@ -101,7 +104,7 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
     """Let docstrings write formulas: no markup begins with | or **, and `w_bar`² is no error."""
     del app, name, obj, options
     if what in ("attribute", "data", "property"):
-        lines.insert(0, "")  # or napoleon takes what is before a colon for a type
+        lines.insert(0, "\\ ")  # or napoleon takes what is before a colon for a type
     doctest = False
     for i, line in enumerate(tuple(lines)):
         doctest = line.lstrip().startswith(">>>") or (doctest and bool(line.strip()))
