@@ -134,6 +134,18 @@ class Backbone:
             v_slope_dot=slope_rate.imag,
         )
 
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
+
+        Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
+        deflected beam, as one draws it.
+        """
+        orbit, length = self._orbits[i], self.beam.length
+        at = np.atleast_1d(np.asarray(x, dtype=np.float64)) / length
+        q, _, _ = orbit.coordinates(np.atleast_1d(np.asarray(phase, dtype=np.float64)))
+        z = length * orbit.model.integrated(orbit.model.slope(q), at)
+        return z.real, z.imag
+
     @cached_property
     def multipliers(self) -> ComplexArray:
         """Floquet multipliers (orbits, 8) of largest modulus; computed when first asked for."""

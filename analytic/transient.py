@@ -42,6 +42,8 @@ class SpinUpResponse:
         Its rate in the rotating frame, Eq. 16 [m/s].
     tip : ndarray (times, 2)
         Position of the tip in the inertial frame [m].
+    axis : ndarray (times, points, 2)
+        Position of the points asked for in the frame that turns with the clamp [m].
     error : float
         Estimated error of the tip's position over the largest |q|: the difference from the next
         coarser solution in step and functions, hence an upper estimate.
@@ -55,6 +57,7 @@ class SpinUpResponse:
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
     tip: FloatArray = field(repr=False)
+    axis: FloatArray = field(repr=False)
     error: float
     steps: int
     functions: int
@@ -67,6 +70,7 @@ def spin_up_response(
     *,
     tolerance: float = 1e-8,
     rotary_inertia: bool = False,
+    points: ArrayLike = (),
 ) -> SpinUpResponse:
     """Return the exact response of the undamped beam, at rest and straight before t = 0.
 
@@ -83,6 +87,8 @@ def spin_up_response(
         Largest error of the tip's position over the largest |q|.
     rotary_inertia : bool
         Give the cross-sections their inertia against rotation.
+    points : array_like
+        Material points [m] whose positions are wanted as well, to draw the beam.
 
     Raises
     ------
@@ -102,6 +108,7 @@ def spin_up_response(
         )
     warn_if_rpm(beam, spin_up.omega)
     rotary = beam.slenderness if rotary_inertia else 0.0
+    along = np.asarray(points, dtype=np.float64) / beam.length
     coarser, error = None, math.inf
     for level in range(_REFINEMENTS):
         functions = _FUNCTIONS + _MORE_FUNCTIONS * level
@@ -109,7 +116,7 @@ def spin_up_response(
         rate = steady_rate(beam, spin_up.omega, model)
         longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level
         grid = _grid(spin_up, float(time[-1]), longest / beam.frequency_scale)
-        finer = _integrated(beam, spin_up, model, grid, time)
+        finer = _integrated(beam, spin_up, model, grid, time, along)
         if finer is None:
             coarser = None
             continue
@@ -126,6 +133,7 @@ def spin_up_response(
                     q=z.imag,
                     q_dot=z_dot.imag,
                     tip=np.stack((tip.real, tip.imag), axis=-1),
+                    axis=beam.length * np.stack((finer[2].real, finer[2].imag), axis=-1),
                     error=error,
                     steps=grid.size - 1,
                     functions=functions,
@@ -153,14 +161,23 @@ def _grid(spin_up: SpinUp, end: float, longest: float) -> FloatArray:
 
 
 def _integrated(
-    beam: Beam, spin_up: SpinUp, model: Continuum, grid: FloatArray, time: FloatArray
-) -> tuple[ComplexArray, ComplexArray] | None:
-    """Return the tip's z and ż (times,) in the rotating frame, None where Newton's method fails."""
+    beam: Beam,
+    spin_up: SpinUp,
+    model: Continuum,
+    grid: FloatArray,
+    time: FloatArray,
+    points: FloatArray,
+) -> tuple[ComplexArray, ComplexArray, ComplexArray] | None:
+    """Return the tip's z and ż (times,) and z (times, points) in the rotating frame.
+
+    None where Newton's method fails.
+    """
     method, per_second = radau(_STAGES), beam.frequency_scale
     q, q_dot = np.zeros(model.size), np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.ones(time.size, dtype=np.complex128)
     z_dot = np.zeros(time.size, dtype=np.complex128)
+    axis = np.broadcast_to(points, (time.size, points.size)).astype(np.complex128)
     previous = 0.0
     for start, end in pairwise(grid):
         h = (end - start) * per_second
@@ -196,6 +213,8 @@ def _integrated(
         )
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
+        if points.size:
+            axis[inside] = model.integrated(model.slope(positions), points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return z, z_dot
+    return z, z_dot, axis

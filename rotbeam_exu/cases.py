@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict, dataclass, fields
 from functools import lru_cache
 from typing import Any
@@ -10,9 +11,11 @@ import xarray as xr
 
 from analytic import Beam, SpinUp
 
+from .elements import Formulation, formulation, options_of
 from .linearization import natural_frequencies
 from .oscillation import steady_oscillation
-from .simulation import Frame, simulate
+from .simulation import simulate
+from .solver import Frame
 from .verdict import SimulationError
 
 MEASURED = {
@@ -33,7 +36,7 @@ class Case:
 
     beam: Beam
     spin_up: SpinUp
-    element: str = "cable"
+    element: str | Formulation = "cable"
     elements: int = 16
     duration: float = 15.0
     step: float = 1e-3
@@ -41,7 +44,17 @@ class Case:
 
     def describe(self) -> dict[str, Any]:
         """Return every input as plain values, for keys and records."""
-        return asdict(self)
+        model = formulation(self.element)
+        return {
+            **{f"beam_{name}": value for name, value in asdict(self.beam).items()},
+            **asdict(self.spin_up),
+            "element": model.name,
+            "element_options": json.dumps(options_of(model)),
+            "elements": self.elements,
+            "duration": self.duration,
+            "step": self.step,
+            "frame": self.frame,
+        }
 
 
 def solve(case: Case) -> xr.Dataset:
@@ -78,5 +91,5 @@ def solve(case: Case) -> xr.Dataset:
 
 
 @lru_cache(maxsize=64)
-def _omega_n(beam: Beam, omega: float, element: str, elements: int) -> float:
+def _omega_n(beam: Beam, omega: float, element: str | Formulation, elements: int) -> float:
     return float(natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0])

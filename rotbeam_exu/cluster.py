@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Executor
 from typing import Any
 
-_PATIENCE = "8s"
+_PATIENCE = "5s"
 
 
 def dask_executor(scheduler: str) -> tuple[Executor, Any]:

@@ -9,12 +9,11 @@ import warnings
 from collections.abc import Callable
 from dataclasses import asdict
 from importlib import metadata
-from typing import Any, Literal
+from typing import Any
 
 import exudyn
 import numpy as np
 import xarray as xr
-from exudyn.itemInterface import SensorBody, SensorNode
 
 from analytic import Beam, BeamState, SpinUp, SteadyRotation
 from analytic.beam import warn_if_rpm
@@ -25,14 +24,11 @@ from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix
+from .solver import Frame, Sensors, solve, solver_settings
 from .verdict import SimulationError, judge, remedy
-
-Frame = Literal["inertial", "rotating"]
 
 SAMPLE_INTERVAL = 5e-3
 """Samples are kept about this far apart [s]: 400 a period of the paper's beam."""
-
-_OUTPUT = exudyn.OutputVariableType
 
 
 def simulate(
@@ -116,12 +112,12 @@ def simulate(
         else:
             drive.fix_root(mbs, chain, model, direction=True)
             drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
-        sensors = _Sensors(mbs, chain)
+        sensors = Sensors(mbs, chain)
         _start(mbs, chain, model, beam, spin_up, frame, initial_state)
         mbs.Assemble()
-        settings, described = _settings(duration, steps, every, frame)
+        settings, described = solver_settings(duration, steps, every, frame)
         started = clock.perf_counter()
-        failure = _solve(mbs, settings, duration, progress, smaller)
+        failure = solve(mbs, settings, duration, progress, smaller)
         wall_time = clock.perf_counter() - started
         time, coordinates, velocities, elastic = sensors.read()
         if failure is None and time.size != steps // every + 1:
@@ -219,125 +215,6 @@ def _whole_steps(duration: float, step: float) -> int:
             f"try a step of {nearest:.6g} s"
         )
     return steps
-
-
-def _settings(
-    duration: float, steps: int, every: int, frame: Frame
-) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
-    """Solver settings, and the same as a plain record.
-
-    The default absolute tolerance lies under the round-off floor, and adaptive stepping then
-    halves steps silently. In the rotating frame each iteration calls back into Python, and a new
-    Jacobian for each step saves iterations.
-    """
-    described: dict[str, Any] = {
-        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
-        "spectral_radius": 0.9 if frame == "inertial" else 1.0,
-        "relative_tolerance": 1e-8,
-        "absolute_tolerance": 1e-6,
-        "sample_every": every,
-    }
-    settings = exudyn.SimulationSettings()
-    integration = settings.timeIntegration
-    integration.endTime = duration
-    integration.numberOfSteps = steps
-    integration.adaptiveStep = False
-    integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
-    integration.newton.relativeTolerance = described["relative_tolerance"]
-    integration.newton.absoluteTolerance = described["absolute_tolerance"]
-    integration.newton.modifiedNewtonJacUpdatePerStep = frame == "rotating"
-    integration.verboseMode = 0
-    settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
-    settings.solution.file.write = False
-    # A little under the interval, so that round-off in t does not skip a sample.
-    settings.solution.sensors.writePeriod = every * duration / steps
-    return settings, described
-
-
-def _solve(
-    mbs: exudyn.MainSystem,
-    settings: exudyn.SimulationSettings,
-    duration: float,
-    progress: Callable[[float], None] | None,
-    smaller: str,
-) -> SimulationError | None:
-    """Run the solver; Ctrl-C comes out as what it is, a failure is returned with its remedy."""
-    shown = 0.0
-
-    def before_step(mbs: Any, t: float) -> bool:
-        # Being called at all lets Python see Ctrl-C between two steps.
-        nonlocal shown
-        if progress is not None and t >= shown:
-            progress(min(t / duration, 1.0))
-            shown += 0.01 * duration
-        return True
-
-    mbs.SetPreStepUserFunction(before_step)
-    try:
-        mbs.SolveDynamic(settings)
-    except BaseException as error:
-        if "KeyboardInterrupt" in _chain_of(error):
-            raise KeyboardInterrupt from None
-        failure = SimulationError(
-            f"the solver gave up at t = {mbs.systemData.GetTime():.6g} s of {duration:g} s: "
-            f"{smaller}"
-        )
-        failure.__cause__ = error
-        return failure
-    if progress is not None:
-        progress(1.0)
-    return None
-
-
-def _chain_of(error: BaseException | None) -> str:
-    """Names and texts of an error and of what caused it."""
-    text = ""
-    while error is not None:
-        text += f"{type(error).__name__} {error} "
-        error = error.__cause__ or error.__context__
-    return text
-
-
-class _Sensors:
-    """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
-
-    def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
-        self._mbs, self._chain = mbs, chain
-        self._reference = np.array(
-            [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
-        )
-        self._coordinates = [self._of_node(n, _OUTPUT.Coordinates) for n in chain.nodes]
-        self._velocities = [self._of_node(n, _OUTPUT.Coordinates_t) for n in chain.nodes]
-        self._elastic = [
-            mbs.AddSensor(
-                SensorBody(
-                    bodyNumber=body,
-                    outputVariableType=_OUTPUT.PotentialEnergy,
-                    storeInternal=True,
-                    writeToFile=False,
-                )
-            )
-            for body in chain.bodies
-        ]
-
-    def _of_node(self, node: Any, variable: Any) -> Any:
-        return self._mbs.AddSensor(
-            SensorNode(
-                nodeNumber=node, outputVariableType=variable, storeInternal=True, writeToFile=False
-            )
-        )
-
-    def read(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Time (n,), coordinates and velocities (n, nodes, ·), elastic energy (n,)."""
-        table = self._mbs.GetSensorStoredData
-        time = np.array(table(self._coordinates[0])[:, 0])
-        coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
-        velocities = np.stack([table(s)[:, 1:] for s in self._velocities], axis=1)
-        coordinates += self._reference
-        elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
-        if self._chain.elastic_energy is not None:
-            elastic = elastic + self._chain.elastic_energy(coordinates)
-        return time, coordinates, velocities, elastic
 
 
 def _dataset(

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import asdict
 from itertools import product
 from typing import Any, Literal
 
@@ -23,8 +22,8 @@ from analytic.input_checks import whole_number
 
 from .cache import Cache
 from .cases import MEASURED, Case, solve
-from .elements import formulation
-from .simulation import Frame
+from .elements import Formulation, formulation
+from .solver import Frame
 from .verdict import SimulationError
 
 OnError = Literal["raise", "record"]
@@ -35,7 +34,7 @@ def sweep(
     *,
     omegas: Sequence[float],
     ramp_times: Sequence[float],
-    element: str = "cable",
+    element: str | Formulation = "cable",
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
@@ -117,7 +116,7 @@ def sweep(
                 f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
                 f"{result.attrs['failure']}; on_error='record' keeps going"
             )
-    return _collect(beam, cases, results, history)
+    return _collect(cases, results, history)
 
 
 def failures(result: xr.Dataset) -> dict[str, int]:
@@ -227,7 +226,6 @@ def _obey_parent() -> None:
 
 
 def _collect(
-    beam: Beam,
     cases: dict[tuple[float, float], Case],
     results: dict[tuple[float, float], xr.Dataset],
     history: bool,
@@ -257,10 +255,7 @@ def _collect(
             "omega": ("omega", omegas, {"units": "rad/s", "long_name": "angular velocity ω"}),
             "ramp_time": ("ramp_time", ramp_times, {"units": "s", "long_name": "ramp time T"}),
         },
-        attrs={
-            **{f"beam_{name}": value for name, value in asdict(beam).items()},
-            **{k: v for k, v in first.items() if k not in ("beam", "spin_up")},
-        },
+        attrs={k: v for k, v in first.items() if k not in ("omega", "ramp_time")},
     )
     data["verdict"] = (dims, verdict.astype(str), {"units": "1", "long_name": "verdict"})
     data["failure"] = (dims, failure.astype(str), {"units": "1", "long_name": "why a case failed"})

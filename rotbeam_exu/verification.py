@@ -206,7 +206,8 @@ def cost_at_error(
 
     LADDER's runs of twice the ramp time are timed one after the other, on one core if the caller
     sees to it; the error is the largest of q(t) over max|q|; time over error is interpolated
-    between runs, logarithmically, and NaN where the ladder does not reach the error.
+    between runs, logarithmically. NaN where the ladder does not reach the error; where even its
+    first run is better, the time of that, an upper bound.
 
     Returns
     -------
@@ -231,7 +232,7 @@ def cost_at_error(
     if not finished.size:
         return math.nan, ladder
     errors, seconds = np.log(finished[np.argsort(finished[:, 0])]).T
-    at_error = np.interp(math.log(error), errors, seconds, left=math.nan, right=math.nan)
+    at_error = np.interp(math.log(error), errors, seconds, left=math.nan)
     return math.exp(float(at_error)), ladder
 
 

@@ -29,6 +29,8 @@ for _command in (
     "figure",
     "table",
     "verify",
+    "explore",
+    "animate",
     "doctor",
 ):
     app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))

@@ -10,12 +10,13 @@ from rich.progress import Progress
 from analytic import Beam, SpinUp
 
 from ..config import load_beam
-from ..elements import formulation
 from ..linearization import natural_frequencies
 from ..oscillation import steady_oscillation
-from ..simulation import Frame, simulate
+from ..simulation import simulate
+from ..solver import Frame
 from ..storage import save, writable_folder
 from ..verdict import energy_drift
+from .options import chosen_formulation
 
 
 def run(
@@ -58,7 +59,7 @@ def run(
     """
     beam = Beam.reference() if config is None else load_beam(config)
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-    model = formulation(element, dict(map(_name_and_value, option or [])))
+    model = chosen_formulation(element, option)
     folder = writable_folder(out)
     console = Console(highlight=False, soft_wrap=True)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
@@ -117,16 +118,3 @@ def run(
     line("wall time", f"{data.attrs['wall_time']:.2f} s")
     line("verdict", data.attrs["verdict"])
     line("written", ", ".join(str(path) for path in written))
-
-
-def _name_and_value(text: str) -> tuple[str, object]:
-    """Split name=value; what reads as a number is one."""
-    name, equals, value = text.partition("=")
-    if not (name and equals and value):
-        raise ValueError(f"an option is given as name=value, got {text!r}")
-    for number in (int, float):
-        try:
-            return name, number(value)
-        except ValueError:
-            continue
-    return name, value

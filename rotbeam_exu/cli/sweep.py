@@ -17,10 +17,11 @@ from ..cluster import dask_executor
 from ..comparison.backbones import PAPER_RAMP_TIMES
 from ..comparison.theory import PAPER_SPEEDS
 from ..config import load_beam
-from ..simulation import Frame
+from ..solver import Frame
 from ..storage import save, writable_folder
 from ..sweeps import failures
 from ..sweeps import sweep as run_sweep
+from .options import chosen_formulation
 from .output import print_columns
 
 Values = Annotated[list[float], Parameter(consume_multiple=True)]
@@ -31,6 +32,7 @@ def sweep(
     omega: Values = list(PAPER_SPEEDS),  # noqa: B006
     ramp_time: Values = list(PAPER_RAMP_TIMES),  # noqa: B006
     element: str = "cable",
+    option: list[str] | None = None,
     elements: int = 16,
     step: float = 1e-3,
     duration: float = 15.0,
@@ -54,6 +56,8 @@ def sweep(
         Ramp times T [s].
     element
         Beam formulation.
+    option
+        Option of the formulation as name=value; may be given again for another.
     elements
         Number of elements.
     step
@@ -80,6 +84,7 @@ def sweep(
         Folder for the results.
     """
     beam = Beam.reference() if config is None else load_beam(config)
+    model = chosen_formulation(element, option)
     folder = writable_folder(out)
     part = _shard(shard)
     if executor == "dask" and scheduler is None:
@@ -92,7 +97,7 @@ def sweep(
                 beam,
                 omegas=omega,
                 ramp_times=ramp_time,
-                element=element,
+                element=model,
                 elements=elements,
                 duration=duration,
                 step=step,

@@ -84,7 +84,8 @@ def _print_verdicts(console: Console, entries: tuple[Entry, ...]) -> None:
 
 def _print_costs(console: Console, entries: tuple[Entry, ...], error: float) -> None:
     table = Table(
-        title=f"Wall time at an error of {error:g} of max|q|, ω = 6 rad/s in T = 3 s, 6 s"
+        box=box.SIMPLE,
+        title=f"Wall time at an error of {error:g} of max|q|, ω = 6 rad/s in T = 3 s, 6 s",
     )
     for header in ("", *(f"{n} × {h:g} s" for n, h in LADDER), f"s at {error:g}"):
         table.add_column(header, justify="right" if header else "left")

@@ -64,6 +64,9 @@ class Formulation(Protocol):
     fixed_at_root: ClassVar[tuple[int, ...]]
     """Root coordinates held at their reference values, whatever the angle."""
 
+    def __hash__(self) -> int:
+        """Equal options, equal hash: a formulation is a value."""
+
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
 

@@ -7,6 +7,7 @@ The only place that knows matplotlib. The data comes from the function of the sa
 
 from __future__ import annotations
 
+from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
 from .critical_speed import critical_speed
 from .orbits import figure_15
@@ -16,6 +17,7 @@ from .style import save_figure
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
+    "animate",
     "critical_speed",
     "figure_3",
     "figure_4",
@@ -28,6 +30,7 @@ __all__ = [
     "figure_13",
     "figure_14",
     "figure_15",
+    "save_animation",
     "save_figure",
     "spin_up",
 ]

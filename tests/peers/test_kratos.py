@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic import SpinUp, spin_up_response
+from analytic import spin_up_response
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.peers import NotInstalledError, installed, peer
 
@@ -41,13 +41,13 @@ def test_it_agrees_with_the_exact_beam(beam, spin_up):
 
 @needs_kratos
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-def test_it_converges_with_second_order(beam, fitted_order):
-    spin_up, errors = SpinUp(omega=6.0, ramp_time=1.0), []
-    for elements, step in ((4, 4e-3), (8, 2e-3), (16, 1e-3)):
-        run = peer("kratos").simulate(beam, spin_up, elements=elements, duration=2.0, step=step)
+def test_it_converges_with_second_order(beam, spin_up):
+    errors = []
+    for elements, step in ((8, 2e-3), (16, 1e-3)):
+        run = peer("kratos").simulate(beam, spin_up, elements=elements, duration=3.0, step=step)
         exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6)
         errors.append(np.abs(run["q"] - exact.q).max().item())
-    assert fitted_order([4, 2, 1], errors) == pytest.approx(2.0, abs=0.25)
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
 
 
 @needs_kratos

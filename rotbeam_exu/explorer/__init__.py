@@ -1,0 +1,83 @@
+"""The Explorer: one self-contained page that shows every model, the exact beam and the mesh.
+
+`explorer_data` computes, `explorer_page` writes; the page itself is template.html.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from importlib import resources
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from .data import AMPLITUDES, OMEGAS, explorer_data
+
+__all__ = ["AMPLITUDES", "OMEGAS", "explorer_data", "explorer_page"]
+
+_MARK = "/*DATA*/null"
+_AXIS_STEP = 5e-5
+"""Step to which the beam's axis is rounded, of the length: a hundredth of a pixel."""
+
+
+def explorer_page(data: xr.Dataset | None = None, **options: Any) -> str:
+    """Return the Explorer as the text of an HTML page, which needs nothing else to be viewed.
+
+    Parameters
+    ----------
+    data : Dataset, optional
+        As made by `explorer_data`.
+    **options
+        For `explorer_data`, where no data are given.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> Path("explorer.html").write_text(explorer_page(), encoding="utf-8")  # doctest: +SKIP
+    """
+    if data is None:
+        data = explorer_data(**options)
+    elif options:
+        raise TypeError(f"options are for new data, but data were given with {', '.join(options)}")
+    template = resources.files(__name__).joinpath("template.html").read_text(encoding="utf-8")
+    # "<" escaped: no text in the data can end the script.
+    return template.replace(_MARK, json.dumps(_document(data)).replace("<", "\\u003c"))
+
+
+def _document(data: xr.Dataset) -> dict[str, Any]:
+    numbers = {
+        name: _packed(data[name], "float64")
+        for name in (
+            "omega", "a", "omega_n", "lambda_omega", "lambda_x", "exact_omega_n",
+            "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude", "fe_frequency",
+            "fe_omega_n",
+        )
+    }  # fmt: skip
+    return {
+        "models": data["model"].to_numpy().tolist(),
+        "notes": data["note"].to_numpy().tolist(),
+        "rampTimes": data["ramp_time"].to_numpy().tolist(),
+        "frequencyScale": data.attrs["frequency_scale"],
+        "length": data.attrs["length"],
+        "elements": data.attrs["elements"],
+        "axisStep": _AXIS_STEP,
+        "arrays": {
+            **numbers,
+            "harmonics": _packed(data["harmonics"], "float32"),
+            "axis_x": _packed(np.rint(data["axis_x"] / _AXIS_STEP), "int16"),
+            "axis_y": _packed(np.rint(data["axis_y"] / _AXIS_STEP), "int16"),
+        },
+    }
+
+
+def _packed(values: ArrayLike, dtype: str) -> dict[str, Any]:
+    """Return an array as base64 of its little-endian bytes, which a browser reads at once."""
+    array = np.asarray(values).astype(np.dtype(dtype).newbyteorder("<"))
+    return {
+        "dtype": dtype,
+        "shape": array.shape,
+        "data": base64.b64encode(array.tobytes()).decode(),
+    }

@@ -1,0 +1,39 @@
+"""The deflected beam as it is drawn: from periodic orbits and from the spin-up."""
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp, periodic_orbits, spin_up_response
+
+
+@pytest.mark.parametrize("omega", [0.0, 6.0])
+def test_axis_of_an_orbit_agrees_with_its_state(beam, omega):
+    backbone = periodic_orbits(beam, omega, [0.3])
+    points, phases = np.linspace(0.0, beam.length, 9), np.array([0.3, 2.0, 5.0])
+    x, y = backbone.axis(0, points, phases)
+    assert x.shape == y.shape == (3, 9)
+    for k, phase in enumerate(phases):
+        state = backbone.state(0, points, phase)
+        np.testing.assert_allclose(x[k], points + state.u, atol=1e-12)
+        np.testing.assert_allclose(y[k], state.v, atol=1e-12)
+
+
+def test_axis_of_a_spin_up_is_the_beam(beam):
+    times, points = np.linspace(0.0, 4.0, 41), np.linspace(0.0, beam.length, 401)
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    response = spin_up_response(beam, spin_up, times, tolerance=1e-6, points=points)
+    assert response.axis.shape == (41, 401, 2)
+    np.testing.assert_allclose(response.axis[:, -1, 1], response.q, atol=1e-10)
+    np.testing.assert_allclose(response.axis[:, 0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(response.axis[0, :, 0], points, atol=1e-12)
+    # Clamped: y grows as x², up to the change of curvature over 1 % of the length.
+    bent = np.abs(response.axis[:, 1, 1]).argmax()
+    assert response.axis[bent, 4, 1] / response.axis[bent, 2, 1] == pytest.approx(4.0, rel=0.02)
+    # Hardly stretched: μw̄² is 1e-4; the chords miss 3e-6 of the arc.
+    arc = np.linalg.norm(np.diff(response.axis, axis=1), axis=-1).sum(axis=1)
+    np.testing.assert_allclose(arc, beam.length, rtol=2e-4)
+
+
+def test_without_points_there_is_no_axis(beam):
+    response = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), [0.1], tolerance=1e-5)
+    assert response.axis.shape == (1, 0, 2)

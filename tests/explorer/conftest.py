@@ -1,0 +1,132 @@
+import shutil
+
+import numpy as np
+import pytest
+
+from rotbeam_exu.explorer import explorer_data, explorer_page
+
+OMEGAS = tuple(np.arange(0.0, 12.5, 1.0).tolist())
+AMPLITUDES = tuple((np.arange(1, 13) * 5 / 100).tolist())
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
+ARGUMENTS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
+    "--disable-background-networking", "--disable-component-update",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def data():
+    """The Explorer's data on a coarser grid and mesh."""
+    return explorer_data(
+        omegas=OMEGAS,
+        amplitudes=AMPLITUDES,
+        finite_element_omegas=(6.0,),
+        ramp_times=(3.0, 2.5),
+        elements=4,
+        jobs=2,
+    )
+
+
+@pytest.fixture(scope="session")
+def url(data, tmp_path_factory):
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    path.write_text(explorer_page(data), encoding="utf-8")
+    return path.as_uri()
+
+
+@pytest.fixture(scope="session")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("no chromium: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
+    with playwright.sync_playwright() as driver:
+        started = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=ARGUMENTS)
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def open_page(browser):
+    """Return a function that opens a URL and refuses noise: messages, errors, the network."""
+    noise, contexts = [], []
+
+    def opened(url, *, phone=False, dark=False, motion=False):
+        context = browser.new_context(
+            viewport={"width": 390, "height": 844} if phone else {"width": 1280, "height": 800},
+            color_scheme="dark" if dark else "light",
+            reduced_motion="no-preference" if motion else "reduce",
+            is_mobile=phone,
+            has_touch=phone,
+        )
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda message: noise.append(message.text))
+        page.on("pageerror", lambda error: noise.append(str(error)))
+        page.on(
+            "request",
+            lambda request: (
+                None
+                if request.url.startswith((url.split("#")[0], "data:"))
+                else noise.append(request.url)
+            ),
+        )
+        page.goto(url)
+        page.wait_for_selector("html[data-ready]")
+        settle(page)
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert noise == []
+
+
+def settle(page):
+    """Wait for what the last input asked to be drawn."""
+    page.evaluate("new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))")
+
+
+@pytest.fixture
+def at():
+    """Return a function that sets the sliders of a page to a speed and an amplitude."""
+
+    def set_sliders(page, omega, a):
+        for name, grid, value in (("omega", OMEGAS, omega), ("amplitude", AMPLITUDES, a)):
+            index = int(np.argmin(np.abs(np.subtract(grid, value))))
+            page.locator(f"#{name}").evaluate(
+                "(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", index
+            )
+        settle(page)
+
+    return set_sliders
+
+
+@pytest.fixture
+def drawn():
+    """Return a function that reads a curve of a chart back in the units of its axes."""
+
+    def read(page, chart, selector, closed=False):
+        x, y, points = page.evaluate(
+            """([chart, selector]) => {
+                const svg = document.querySelector(`#${chart} > svg`);
+                const number = text => parseFloat(text.replace("−", "-"));
+                const isNumber = t => /^−?[\\d.]+$/.test(t.textContent);
+                const ticks = [...svg.querySelectorAll("text")].filter(isNumber);
+                const along = ticks.filter(t => t.getAttribute("text-anchor") === "middle");
+                const up = ticks.filter(t => t.getAttribute("text-anchor") === "end");
+                const curve = svg.querySelectorAll(selector);
+                const points = curve[0].tagName === "path"
+                    ? curve[0].getAttribute("d").slice(1).split("L").map(
+                        p => p.split(",").map(Number))
+                    : [...curve].map(c => [+c.getAttribute("cx"), +c.getAttribute("cy")]);
+                return [along.map(t => [+t.getAttribute("x"), number(t.textContent)]),
+                        up.map(t => [t.getAttribute("y") - 4, number(t.textContent)]), points];
+            }""",
+            [chart, selector],
+        )
+        return tuple(
+            np.polyval(np.polyfit(*np.transpose(ticks), 1), np.array(points)[:, k])
+            for k, ticks in enumerate((x, y))
+        )
+
+    return read

@@ -1,0 +1,313 @@
+"""The Explorer in a real browser: quiet, alone, and of one mind with the Python API."""
+
+import re
+
+import numpy as np
+import pytest
+
+from analytic import VARIANTS, linear_modes, periodic_orbits, reduced_model
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu.explorer import explorer_page
+
+pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+STATES = [(0.0, 0.05), (5.0, 0.3), (6.0, 0.2), (12.0, 0.6)]
+
+
+def shown(value, digits):
+    text = f"{value:.{digits}f}"
+    return text.replace("-", "" if float(text) == 0.0 else "−")
+
+
+def cells(page, model):
+    row = page.locator(f"tr[data-model={model}]")
+    return [row.locator(f"td.{name}").inner_text() for name in ("linear", "lambda", "frequency")]
+
+
+@pytest.mark.parametrize(("phone", "dark"), [(False, False), (False, True), (True, False)])
+def test_it_loads_quietly_and_alone_and_fits(open_page, url, phone, dark):
+    page = open_page(url, phone=phone, dark=dark)  # the fixture listens for noise
+    width = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
+    assert width[0] <= width[1]
+    background, ink = page.evaluate(
+        "[getComputedStyle(document.body).backgroundColor, getComputedStyle(document.body).color]"
+    )
+    luminance = [sum(map(int, re.findall(r"\d+", color)[:3])) for color in (background, ink)]
+    assert (luminance[0] < luminance[1]) == dark
+    for text in page.locator("svg text.name").all():
+        assert text.bounding_box()["x"] + text.bounding_box()["width"] <= width[1]
+
+
+def test_it_refers_to_nothing_outside(data):
+    found = set(re.findall(r"(?:https?:)?//[\w.-]+\.\w+[\w./-]*", explorer_page(data)))
+    assert found <= {"http://www.w3.org/2000/svg"}  # a name, not an address
+
+
+@pytest.mark.parametrize(("omega", "a"), STATES)
+def test_numbers_are_those_of_the_api(open_page, url, at, beam, omega, a):
+    page = open_page(url)
+    at(page, omega, a)
+    exact = periodic_orbits(beam, omega, [a])
+    assert cells(page, "exact") == [
+        shown(exact.omega_n, 4),
+        shown(exact.lambda_omega, 5),
+        shown(exact.frequency[0], 4),
+    ]
+    for name in VARIANTS:
+        model = reduced_model(beam, omega, name)
+        frequency = model.frequency(a)
+        assert cells(page, name) == [
+            shown(model.omega_n, 4),
+            shown(model.lambda_omega, 5),
+            shown(frequency, 4),
+        ]
+        error = shown(100.0 * (frequency / exact.frequency[0] - 1.0), 3)
+        assert page.locator(f"tr[data-model={name}] td.error").inner_text().lstrip("+") == error
+
+
+@pytest.mark.parametrize(("omega", "a"), STATES)
+def test_curves_lie_where_the_axes_say(open_page, url, at, drawn, beam, data, omega, a):
+    page = open_page(f"{url}#scale=all")
+    at(page, omega, a)
+    amplitudes = data["a"].to_numpy()
+    exact = periodic_orbits(beam, omega, amplitudes)
+    # Paths are rounded to a tenth of a pixel, about a 3000th of an axis.
+    for name in ("exact", "FrE", "CI"):
+        x, y = drawn(page, "backbone", f"path[data-model={name}]")
+        ratio = (
+            exact.frequency / exact.omega_n
+            if name == "exact"
+            else 1.0 - reduced_model(beam, omega, name).lambda_omega * amplitudes**2
+        )
+        np.testing.assert_allclose(x[1:], amplitudes, atol=3e-4)
+        np.testing.assert_allclose(y[1:], ratio, atol=3e-4)
+        x, y = drawn(page, "softening", f"path[data-model={name}]")
+        at_omega = (
+            reduced_model(beam, omega, name).lambda_omega
+            if name != "exact"
+            else (exact.lambda_omega)
+        )
+        assert y[np.argmin(np.abs(x - omega))] == pytest.approx(at_omega, abs=1e-3)
+
+
+@pytest.mark.parametrize(("omega", "a"), STATES)
+def test_orbits_are_those_of_the_api(open_page, url, at, drawn, beam, omega, a):
+    page = open_page(url)
+    at(page, omega, a)
+    orbit = periodic_orbits(beam, omega, [a]).orbit(0, 120)
+    for wanted, found in zip(orbit, drawn(page, "orbit", "path[data-model=exact]"), strict=True):
+        np.testing.assert_allclose(found, wanted, atol=1e-3 * np.abs(wanted).max())
+    model = reduced_model(beam, omega, "FrI")
+    time = np.linspace(0.0, 2.0 * np.pi / model.frequency(a), 121)
+    x, rate = drawn(page, "orbit", "path[data-model=FrI]")
+    np.testing.assert_allclose(x, model.response(time, a), atol=1e-3 * a)
+    # dx/dτ against central differences of Eq. 65 in time.
+    h = 1e-5
+    slope = (model.response(time + h, a) - model.response(time - h, a)) / (2.0 * h)
+    wanted = slope / beam.frequency_scale
+    np.testing.assert_allclose(rate, wanted, atol=1e-3 * np.abs(wanted).max())
+
+
+def test_exact_orbit_to_the_digits_shown(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 6.0, 0.6)
+    found = page.evaluate(
+        "[...Array(13).keys()].map(k => exactState(state.w, state.a, k*Math.PI/6))"
+    )
+    wanted = np.transpose(periodic_orbits(beam, 6.0, [0.6]).orbit(0, 12))
+    # Four digits are shown; single precision and the harmonics left out stay below a tenth.
+    np.testing.assert_allclose(found, wanted, atol=5e-6)
+
+
+@pytest.mark.parametrize("omega", [0.0, 6.0, 12.0])
+def test_the_beam_moves_as_the_exact_one(open_page, url, at, beam, omega):
+    page = open_page(url)
+    at(page, omega, 0.6)
+    phases = np.linspace(0.0, 2.0 * np.pi, 7)
+    found = np.array(
+        page.evaluate("phases => phases.map(p => beamAxis(state.w, state.a, p))", phases.tolist())
+    )
+    points = np.linspace(0.0, beam.length, found.shape[1])
+    x, y = periodic_orbits(beam, omega, [0.6]).axis(0, points, phases)
+    # Harmonics beyond the seventh are left out: a tenth of a pixel of 300.
+    np.testing.assert_allclose(beam.length * found[..., 0], x, atol=3e-4 * beam.length)
+    np.testing.assert_allclose(beam.length * found[..., 1], y, atol=3e-4 * beam.length)
+
+
+def test_the_beam_is_drawn_to_scale(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 6.0, 0.4)
+    page.locator("#phase").evaluate("e => { e.value = 90; e.dispatchEvent(new Event('input')); }")
+    root, scale, tip = page.evaluate(
+        "[[beam.x0, beam.y0], beam.scale, ['cx', 'cy'].map(n => +beam.tip.getAttribute(n))]"
+    )
+    x, y = periodic_orbits(beam, 6.0, [0.4]).axis(0, [beam.length], [0.5 * np.pi])
+    assert tip[0] - root[0] == pytest.approx(scale * x.item() / beam.length, abs=0.2)
+    assert root[1] - tip[1] == pytest.approx(scale * y.item() / beam.length, abs=0.2)
+    q = periodic_orbits(beam, 6.0, [0.4]).response(
+        0.5 * np.pi / periodic_orbits(beam, 6.0, [0.4]).frequency, 0
+    )
+    assert page.locator("#deflection").text_content() == f"q = {q.item():.3f} L"
+
+
+def test_finite_element_points_at_their_speed_only(open_page, url, at, drawn, data):
+    page = open_page(f"{url}#scale=all")
+    at(page, 6.0, 0.2)
+    here = data.sel(fe_omega=6.0)
+    circles = "g[clip-path] circle.point"
+    inside = here["fe_amplitude"].to_numpy() <= 0.6
+    assert inside.any()
+    x, y = drawn(page, "backbone", circles)
+    np.testing.assert_allclose(x, here["fe_amplitude"].to_numpy()[inside], atol=3e-4)
+    ratio = (here["fe_frequency"] / here["fe_omega_n"]).to_numpy()[inside]
+    np.testing.assert_allclose(y, ratio, atol=3e-4)
+    at(page, 5.0, 0.2)
+    assert page.locator(f"#backbone {circles}").count() == 0
+
+
+def curve(page, chart, model="exact"):
+    return page.locator(f"#{chart} path[data-model={model}]").get_attribute("d")
+
+
+def test_sliders_move_the_curves(open_page, url, at):
+    page = open_page(url)
+    at(page, 6.0, 0.3)
+    before = [curve(page, chart) for chart in ("backbone", "orbit", "softening")]
+    marker = page.locator("#softening line.now").get_attribute("x1")
+    beam = page.locator("#beam path.beam").get_attribute("d")
+    at(page, 3.0, 0.3)
+    after = [curve(page, chart) for chart in ("backbone", "orbit", "softening")]
+    assert [a != b for a, b in zip(after, before, strict=True)] == [True, True, False]
+    assert float(page.locator("#softening line.now").get_attribute("x1")) < float(marker)
+    moved = page.locator("#beam path.beam").get_attribute("d")
+    assert moved != beam
+    at(page, 3.0, 0.5)
+    assert curve(page, "backbone") == after[0]
+    assert curve(page, "orbit") != after[1]
+    assert page.locator("#beam path.beam").get_attribute("d") != moved
+
+
+def test_the_link_keeps_the_state(open_page, url, at):
+    page = open_page(url)
+    at(page, 8.0, 0.45)
+    page.get_by_role("button", name="all", exact=True).click()
+    page.get_by_role("button", name="/ exact").click()
+    page.locator("tr[data-model=CE] input").uncheck()
+    link = page.locator("#link").get_attribute("href")
+    page.wait_for_function("link => location.hash === link", arg=link)
+    address = page.url
+    other = open_page(address)
+    for opened in (page, other):
+        assert opened.locator("#omega-value").inner_text() == "8.00 rad/s"
+        assert opened.locator("#amplitude-value").inner_text() == "0.45"
+        assert opened.locator("#backbone path[data-model=CE]").count() == 0
+        assert opened.locator("#backbone path[data-model=FrM]").count() == 1
+    assert curve(other, "backbone") == curve(page, "backbone")
+    assert curve(other, "softening", "FrE") == curve(page, "softening", "FrE")
+    other.evaluate("location.hash = '#omega=3&a=0.1'")
+    other.wait_for_function("document.getElementById('omega-value').textContent === '3.00 rad/s'")
+
+
+@pytest.mark.parametrize("fragment", ["#omega=nan&a=&scale=7&hide=x", "#%%%", "#omega=1e9&a=-5"])
+def test_a_broken_link_still_opens(open_page, url, fragment):
+    page = open_page(url + fragment)
+    assert page.locator("#backbone path[data-model=exact]").count() == 1
+
+
+def test_keyboard(open_page, url, data):
+    page = open_page(url)
+    value = page.locator("#omega-value")
+    page.get_by_label("Speed ω").focus()
+    for key, wanted in (("ArrowRight", "7.00"), ("ArrowLeft", "6.00"), ("Home", "0.00")):
+        page.keyboard.press(key)
+        assert value.inner_text() == f"{wanted} rad/s"
+    page.keyboard.press("End")
+    assert page.locator("#omega").get_attribute("aria-valuetext") == "12.00 rad/s"
+    page.get_by_label("Amplitude a").focus()
+    page.keyboard.press("ArrowUp")
+    assert page.locator("#amplitude-value").inner_text() == "0.35"
+    # Everything that can be used is reached with Tab, in order.
+    reached = set()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
+    assert {"play", "phase", "INPUT", "BUTTON", "link"} <= reached
+
+
+def test_numbers_under_the_cursor(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 6.0, 0.2)
+    box = page.locator("#softening > svg").bounding_box()
+    x = page.evaluate("softening.x(4)")
+    page.mouse.move(box["x"] + x, box["y"] + 100)
+    readout = page.locator("#softening .readout")
+    assert "ω = 4.00 rad/s" in readout.inner_text()
+    for name in ("FrE", "FrM", "CI"):
+        value = shown(reduced_model(beam, 4.0, name).lambda_omega, 5)
+        assert re.search(rf"{name}\s*{value}", readout.inner_text())
+    page.mouse.click(box["x"] + x, box["y"] + 100)
+    assert page.locator("#omega-value").inner_text() == "4.00 rad/s"
+    page.mouse.move(5, 5)
+    assert not readout.is_visible()
+
+    box = page.locator("#orbit > svg").bounding_box()
+    place = page.evaluate("(([x, v]) => [orbit.x(x), orbit.y(v)])(exactState(state.w, state.a, 0))")
+    page.mouse.move(box["x"] + place[0], box["y"] + place[1] + 1)
+    assert page.locator("#orbit .readout").is_visible()
+
+
+def test_touch(open_page, url):
+    page = open_page(url, phone=True)
+    box = page.locator("#backbone > svg").bounding_box()
+    x = page.evaluate("backbone.x(0.5)")
+    page.touchscreen.tap(box["x"] + x, box["y"] + 60)
+    assert page.locator("#amplitude-value").inner_text() == "0.50"
+    page.locator("#jumps button").tap()
+    assert page.locator("#omega-value").inner_text() == "6.00 rad/s"
+
+
+def test_motion_in_real_time_unless_unwanted(open_page, url, beam):
+    still = open_page(url)
+    assert still.locator("#play").inner_text() == "Play"
+    page = open_page(url, motion=True)
+    assert page.locator("#play").inner_text() == "Pause"
+    seconds, turned = page.evaluate(
+        """new Promise(done => requestAnimationFrame(start => {
+            const from = state.phase;
+            const step = now => now - start > 300
+                ? done([(now - start) / 1000, state.phase - from]) : requestAnimationFrame(step);
+            requestAnimationFrame(step);
+        }))"""
+    )
+    rate = periodic_orbits(beam, 6.0, [0.3]).frequency[0]
+    # A picture more or less; on a busy machine one may take a tenth of a second.
+    assert turned % (2.0 * np.pi) == pytest.approx(rate * seconds, abs=0.1 * rate)
+    page.locator("#play").click()
+    at_rest = page.evaluate("state.phase")
+    page.wait_for_timeout(100)
+    assert page.evaluate("state.phase") == at_rest
+
+
+def test_a_model_without_oscillation_has_no_curve(open_page, data, tmp_path):
+    broken = data.copy(deep=True)
+    for name in ("omega_n", "lambda_omega", "lambda_x"):
+        broken[name].loc[{"model": "CI"}] = np.nan
+    path = tmp_path / "broken.html"
+    path.write_text(explorer_page(broken), encoding="utf-8")
+    page = open_page(path.as_uri())
+    assert cells(page, "CI") == ["–"] * 3
+    assert not curve(page, "backbone", "CI")
+
+
+def test_what_the_exact_orbits_warn_of_is_said(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 12.0, 0.6)
+    with pytest.warns(RotbeamWarning, match="internal resonance") as caught:
+        periodic_orbits(beam, 12.0, [0.25, 0.6])
+    assert caught
+    warning = page.locator("#warning").inner_text()
+    assert "internal resonance" in warning
+    first, _ = linear_modes(beam, 12.0, count=2).frequencies
+    assert 2.0 * first < 12.0
+    assert "twice the natural frequency" in warning
+    at(page, 6.0, 0.2)
+    assert page.locator("#warning").inner_text() == ""

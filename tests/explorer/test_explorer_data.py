@@ -1,0 +1,40 @@
+"""What the page is made of, without a browser."""
+
+import json
+
+import numpy as np
+import pytest
+
+from analytic import periodic_orbits
+from rotbeam_exu.explorer import explorer_data, explorer_page
+
+
+def test_uneven_sliders_are_refused():
+    with pytest.raises(ValueError, match="omegas must ascend in equal steps"):
+        explorer_data(omegas=[0.0, 1.0, 3.0])
+    with pytest.raises(ValueError, match="amplitudes must ascend in equal steps"):
+        explorer_data(amplitudes=[0.2, 0.1])
+
+
+def test_options_beside_data_are_refused(data):
+    with pytest.raises(TypeError, match="data were given with jobs"):
+        explorer_page(data, jobs=1)
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_harmonics_left_out_are_small(beam, data):
+    for omega in (0.0, 6.0, 12.0):
+        kept = data["harmonics"].sel(omega=omega, a=0.6).to_numpy()
+        all_of_them = periodic_orbits(beam, omega, [0.6]).harmonics[0]
+        assert np.abs(kept[: all_of_them.size] - all_of_them[: kept.size]).max() < 1e-12
+        assert np.abs(all_of_them[kept.size :]).sum() < 1e-6
+
+
+def test_nothing_in_the_data_ends_the_script(data):
+    nasty = data.copy()
+    nasty["note"] = nasty["note"].astype(object)
+    nasty["note"][:] = "</script><b>"
+    page = explorer_page(nasty)
+    assert page.count("</script>") == 1
+    document = page.split("const DATA = ", 1)[1].split(";\n", 1)[0]
+    assert json.loads(document)["notes"][0] == "</script><b>"

@@ -1,0 +1,120 @@
+"""The moving picture of a spin-up."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.animation import FFMpegWriter
+from PIL import Image
+
+from analytic import SpinUp, spin_up_response
+from rotbeam_exu.cli import main
+from rotbeam_exu.figures import animate, save_animation
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+
+
+@pytest.fixture(scope="module")
+def response(beam):
+    times, points = np.linspace(0.0, 4.0, 21), np.linspace(0.0, beam.length, 41)
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    return spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
+
+
+def drawn(response, n):
+    """Curves of the picture `n`, (points,) complex [m], by axes: the beam is the longest line."""
+    animation = animate(response)
+    animation._draw_frame(n)
+    animation._draw_was_started = True
+    inertial, rotating, history = animation._fig.axes
+    beams = []
+    for ax in (inertial, rotating):
+        beam = max(ax.lines, key=lambda line: line.get_linewidth())
+        beams.append(beam.get_xdata() + 1j * beam.get_ydata())
+    dot = next(line for line in history.lines if line.get_marker() == "o")
+    return animation, beams, (dot.get_xdata()[0], dot.get_ydata()[0])
+
+
+def test_both_views_show_the_same_beam_turned(response):
+    for n in (0, 7, 20):
+        animation, (inertial, rotating), dot = drawn(response, n)
+        angle = response.spin_up.angle(response.time[n])
+        np.testing.assert_allclose(inertial, rotating * np.exp(1j * angle), atol=1e-12)
+        tip = inertial[-1]
+        np.testing.assert_allclose([tip.real, tip.imag], response.tip[n], atol=1e-9)
+        assert dot == (response.time[n], response.q[n])
+        assert rotating[-1].imag == pytest.approx(response.q[n], abs=1e-9)
+        plt.close(animation._fig)
+
+
+def test_deflection_is_to_scale(response):
+    animation, _, _ = drawn(response, 8)
+    animation._fig.draw_without_rendering()  # only now the axes take their shape
+    inertial, rotating, _ = animation._fig.axes
+    scales = []
+    for ax in (inertial, rotating):
+        box = ax.get_window_extent()
+        scales += [box.width / np.ptp(ax.get_xlim()), box.height / np.ptp(ax.get_ylim())]
+    np.testing.assert_allclose(scales, scales[0], rtol=1e-9)
+    plt.close(animation._fig)
+
+
+def test_a_gif_has_every_picture_in_real_time(response, tmp_path):
+    counted = []
+    save_animation(response, tmp_path / "beam.gif", progress=counted.append)
+    with Image.open(tmp_path / "beam.gif") as picture:
+        assert picture.n_frames == response.time.size
+        assert picture.info["duration"] == pytest.approx(200, abs=10)  # in 1/100 s
+        first = np.asarray(picture.convert("RGB"))
+        picture.seek(10)
+        assert (np.asarray(picture.convert("RGB")) != first).any()
+    assert counted == list(range(1, response.time.size + 1))
+
+
+@pytest.mark.skipif(not FFMpegWriter.isAvailable(), reason="no ffmpeg")
+def test_an_mp4_where_ffmpeg_is(response, tmp_path):
+    save_animation(response, tmp_path / "beam.mp4")
+    assert (tmp_path / "beam.mp4").read_bytes()[4:8] == b"ftyp"
+
+
+def test_nothing_to_animate_is_refused(beam):
+    response = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), [0.0, 0.1], tolerance=1e-5)
+    with pytest.raises(ValueError, match="points along the beam, got 0 of them at 2 times"):
+        animate(response)
+
+
+def test_the_command_writes_a_gif(tmp_path, capsys):
+    out = tmp_path / "beam.gif"
+    main(["animate", "--duration", "3.2", "--rate", "2", "--out", str(out)])
+    assert "beam.gif" in capsys.readouterr().out
+    with Image.open(out) as picture:
+        assert picture.n_frames == 7
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--out", "beam.avi"], "the ending must be .gif or .mp4"),
+        (["--rate", "0"], "rate must be at least 1"),
+        (["--duration", "-1"], "duration must be positive"),
+        (["--omega", "nan"], "omega must be finite"),
+    ],
+)
+def test_bad_arguments_are_one_sentence(tmp_path, capsys, monkeypatch, arguments, sentence):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        main(["animate", *arguments])
+    assert stop.value.code == 2
+    assert sentence in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+def test_the_default_is_small_and_short(tmp_path):
+    out = tmp_path / "beam.gif"
+    main(["animate", "--omega", "6", "--ramp-time", "3", "--out", str(out)])
+    assert out.stat().st_size < 5e6
+    with Image.open(out) as picture:
+        assert picture.n_frames * picture.info["duration"] < 15e3
