@@ -65,5 +65,6 @@ def printed(text: str, namespace: dict[str, Any], where: str) -> str:
     out = io.StringIO()
     with contextlib.redirect_stdout(out), warnings.catch_warnings():
         warnings.simplefilter("error")
-        exec(compile(text, where, "exec"), namespace)
+        # Not with this module's own __future__ imports: a reader's script has none.
+        exec(compile(text, where, "exec", dont_inherit=True), namespace)
     return out.getvalue()

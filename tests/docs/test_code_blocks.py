@@ -14,9 +14,10 @@ from rotbeam_exu.cli import app
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
-# Pages that run finite elements in number, or scan many exact orbits.
-SLOW = {"index", "comparison", "errata", "validation", "harmonic_balance", "continuum", "trust"}
-SLOW |= {"finite_element", "own_element", "paper_figures", "sweeps"}
+# Pages that run finite elements in number, long exact spin-ups, or a cluster of processes.
+SLOW = ("index", "validation", "theory/comparison", "theory/continuum", "theory/finite_element",
+        "howto/sweeps")  # fmt: skip
+SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
 
 
 def load(name):
@@ -35,7 +36,7 @@ def page_cases():
     for page in PAGES:
         found = list(blocks.fenced(page.read_text(encoding="utf-8")))
         if any(block.language in ("python", "{computed}") for block in found):
-            marks = [pytest.mark.slow] if page.stem in SLOW else []
+            marks = [pytest.mark.slow] if page in SLOW_PAGES else []
             yield pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks)
 
 
