@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures golden test test-all bench bench-peers lint check clean
+.PHONY: run figures golden test test-all bench bench-peers lint docs check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -35,6 +35,9 @@ lint: $(VENV)/.dev  ## linters and type checks
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
+	$(BIN)/python -m sphinx -E -W --keep-going -q docs docs/_build/html
+
 check: lint test
 
 $(VENV)/.venv:
@@ -49,9 +52,14 @@ $(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.venv
 	$(PIP) install -c constraints.txt -e ".[test,dev]"
 	touch $@ $(VENV)/.run
 
+$(VENV)/.docs: pyproject.toml constraints.txt | $(VENV)/.venv
+	$(PIP) install -c constraints.txt -e ".[docs]"
+	touch $@ $(VENV)/.run
+
 $(VENV)/.peers: $(VENV)/.dev
 	$(PIP) install -c constraints.txt -e ".[test,dev,peers]"
 	touch $@
 
 clean:
-	rm -rf $(VENV) results .pytest_cache .mypy_cache .ruff_cache
+	rm -rf docs/_build docs/gallery docs/_static/figures docs/sg_execution_times.rst
+	rm -rf $(VENV) results docs/_build docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache

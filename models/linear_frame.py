@@ -1,4 +1,8 @@
-"""What linear elasticity in one floating frame does with the benchmark: it diverges.
+"""
+A linear model that flies apart
+===============================
+
+What linear elasticity in one floating frame does with the benchmark: it diverges.
 
 Above the beam's first natural frequency centrifugal forces win over the bending stiffness, since
 nothing in the model knows of the tension that they bring. A geometrically exact beam just swings.

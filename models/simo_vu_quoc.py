@@ -1,8 +1,11 @@
-"""The classic spin-up of Simo and Vu-Quoc (1986), with the smooth ramp of Eq. 1.
+"""
+The spin-up of Simo and Vu-Quoc
+===============================
 
-A beam of 10 m is brought to 6 rad/s in 15 s. It lags behind by half a meter on the way, and in
-steady rotation it is longer by half a millimeter: a model that is linear in the wrong place
-loses the stiffening that this tension brings, and diverges.
+The classic of 1986, with the smooth ramp of Eq. 1: a beam of 10 m is brought to 6 rad/s in 15 s.
+It lags behind by half a meter on the way, and in steady rotation it is longer by half a millimeter:
+a model that is linear in the wrong place loses the stiffening that this tension brings, and
+diverges.
 """
 
 import matplotlib.pyplot as plt
@@ -16,8 +19,11 @@ beam = Beam.from_stiffness(
 run = simulate(
     beam, SpinUp(omega=6.0, ramp_time=15.0), elements=16, duration=20.0, step=2e-3, frame="rotating"
 )
-lag = int(run["q"].argmin("time"))
-print(f"largest lag of the tip {run['q'][lag]:.5f} m at t = {run['time'][lag]:.3f} s")
-print(f"steady stretch {steady_stretch(beam, 6.0):.4e} m")
 figures.spin_up(run)
 plt.show()
+
+# %%
+# The largest lag, and the stretch by rotation that the literature prints as 5.14e-4 m:
+lag = run["q"][int(run["q"].argmin("time"))].item()
+stretch = steady_stretch(beam, 6.0)
+print(f"largest lag of the tip {lag:.5f} m, steady stretch {stretch:.4e} m")

@@ -1,4 +1,8 @@
-"""Linear floating frames in a row: stable up to a critical speed that grows with their number.
+"""
+Substructures
+=============
+
+Linear floating frames in a row: stable up to a critical speed that grows with their number.
 
 Valverde and García-Vallejo's point of 2009: the nonlinearity that a rotating beam needs can be had
 from linear substructures, for the rotation between their frames brings it in, and how much each
@@ -12,7 +16,7 @@ from rotbeam_exu import critical_speed, figures
 from rotbeam_exu.stability import critical_speeds
 
 beam = Beam.reference()
-for frame in ("tangent", "pinned"):
-    print(f"two {frame} frames: {critical_speed(beam, 2, frame):.4f} rad/s")
+two = {frame: critical_speed(beam, 2, frame) for frame in ("tangent", "pinned")}
+print(", ".join(f"two {frame} frames: {speed:.4f} rad/s" for frame, speed in two.items()))
 figures.critical_speed(critical_speeds(beam, [1, 2, 3, 4, 6, 8, 12, 16]))
 plt.show()

@@ -1,0 +1,70 @@
+"""Code in the pages: found in Markdown, and run with what it prints kept."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import warnings
+from collections.abc import Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+_FENCE = re.compile(r"^```(\S+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+class Block(NamedTuple):
+    """A fenced block: its language, its text without options, and its first line in the page."""
+
+    language: str
+    text: str
+    line: int
+
+
+def fenced(markdown: str) -> Iterator[Block]:
+    """Yield the fenced blocks of a page, ``{computed}`` ones included."""
+    for match in _FENCE.finditer(markdown):
+        text = re.sub(r"\A(:\w+:.*\n)+\n?", "", match[2])
+        yield Block(match[1], text, markdown.count("\n", 0, match.start(2)) + 1)
+
+
+def table(header: Iterable[object], rows: Iterable[Iterable[object]]) -> None:
+    """Print a Markdown table; a pipe within a cell is escaped."""
+    lines = [list(header), *map(list, rows)]
+    lines.insert(1, ["---"] * len(lines[0]))
+    for line in lines:
+        print("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |")  # noqa: T201
+
+
+def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
+    """Save the figure of `axes` in `folder`, below the pages' _static, and print its Markdown."""
+    folder.mkdir(parents=True, exist_ok=True)
+    root = axes.get_figure(root=True)
+    root.savefig(folder / f"{name}.svg")
+    width = round(115 * root.get_figwidth())  # [px]: the drawings' letters as large as the text's
+    root.clear()
+    text = " ".join(caption.split())
+    source, brief = f"/_static/{folder.name}/{name}.svg", text.split(". ")[0]
+    print(f"```{{figure}} {source}\n:alt: {brief}\n:width: {width}px\n\n{text}\n```")  # noqa: T201
+
+
+def names(pages: Path) -> dict[str, Any]:
+    """Return what the blocks of a page in the folder `pages` start with."""
+    return {
+        "__name__": "page",
+        "pages": pages,
+        "table": table,
+        "figure": partial(figure, pages / "_static" / "figures"),
+        "cache": pages / "_build" / "runs",
+    }
+
+
+def printed(text: str, namespace: dict[str, Any], where: str) -> str:
+    """Run a block in `namespace` and return what it prints; a warning is an error."""
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # Not with this module's own __future__ imports: a reader's script has none.
+        exec(compile(text, where, "exec", dont_inherit=True), namespace)
+    return out.getvalue()

@@ -1,0 +1,45 @@
+"""The directive ``computed``: a page's numbers are computed when the page is built.
+
+It runs Python and inserts the Markdown that is printed. With ``:show:`` the code is shown, and what
+it prints appears beneath as it is. The blocks of a page share their names, in order.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from blocks import names, printed
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+from sphinx.util.docutils import SphinxDirective
+
+
+class Computed(SphinxDirective):
+    """Run a block; see the module."""
+
+    has_content = True
+    option_spec = {"show": directives.flag}  # noqa: RUF012  (as docutils has it)
+
+    def run(self) -> list[nodes.Node]:
+        """Return the nodes of what the block prints."""
+        source, line = self.get_source_info()
+        text, where = "\n".join(self.content), f"{source}:{line}"
+        namespace = self.env.temp_data.setdefault("computed", names(Path(self.env.srcdir)))
+        try:
+            output = printed(text, namespace, where)
+        except Exception as error:
+            raise ExtensionError(f"{where}: {type(error).__name__}: {error}") from error
+        if "show" not in self.options:
+            return self.parse_text_to_nodes(output, allow_section_headings=True)
+        code = nodes.literal_block(text, text, language="python")
+        result = nodes.literal_block(output, output, language="text", classes=["output"])
+        return [code, result] if output else [code]
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the directive."""
+    app.add_directive("computed", Computed)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

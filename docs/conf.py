@@ -1,0 +1,138 @@
+"""The site: `make docs`. Nothing is fetched; pages compute their numbers, models/*.py run."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
+
+import rotbeam_exu  # noqa: E402
+
+mpl.use("agg")
+
+project = "rotbeam_exu"
+author = "The rotbeam_exu developers"
+project_copyright = author
+version = release = rotbeam_exu.__version__
+
+extensions = [
+    "computed",
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+    "sphinxcontrib.bibtex",
+]
+exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
+suppress_warnings = ["config.cache"]  # the gallery's sort keys do not pickle
+
+# Links: all of ours have to resolve. Types of other projects do not, for nothing is fetched.
+nitpicky = True
+nitpick_ignore_regex = [
+    ("py:class", r"(?!analytic\.|rotbeam_exu\.).*"),
+    ("py:class", r".*\.(FloatArray|ComplexArray|Axial|Frame|OnError|Mesh|_.*)"),
+    ("py:(obj|data|exc|meth|func|attr)", r"(?!analytic\.|rotbeam_exu\.).*"),
+]
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+bibtex_bibfiles = ["references.bib"]
+bibtex_default_style = "unsrt"
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_default_options = {"members": True, "ignore-module-all": True}
+default_role = "literal"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+python_maximum_signature_line_length = 88
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../models",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    # The main job is the command line's, and takes its arguments.
+    "ignore_pattern": r"rotating_beam\.py$",
+    "within_subsection_order": "gallery_order.GalleryOrder",
+    "copyfile_regex": r"GALLERY_HEADER\.rst",
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "show_memory": False,
+    "show_signature": False,
+    "abort_on_example_error": True,
+    "min_reported_time": 1000,
+    "image_scrapers": ("matplotlib",),
+    "image_srcset": ["2x"],
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = "rotbeam_exu"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sphinx = False
+html_show_sourcelink = False
+html_sidebars = dict.fromkeys(
+    ("index", "explorer", "validation", "conventions", "gotchas", "bibliography"), ()
+)
+html_theme_options = {
+    "navigation_with_keys": True,
+    "navbar_end": ["theme-switcher"],
+    "show_toc_level": 2,
+    "header_links_before_dropdown": 6,
+    "navbar_persistent": ["search-button"],
+    "footer_start": [],
+    "footer_end": [],
+    "secondary_sidebar_items": ["page-toc"],
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+
+
+def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Let docstrings write formulas: no markup begins with | or **, and `w_bar`² is no error."""
+    del app, name, obj, options
+    if what in ("attribute", "data", "property"):
+        lines.insert(0, "\\ ")  # or napoleon takes what is before a colon for a type
+    doctest = False
+    for i, line in enumerate(tuple(lines)):
+        doctest = line.lstrip().startswith(">>>") or (doctest and bool(line.strip()))
+        if not doctest:
+            literal = re.sub(r"(?<!`)([|]|\*\*)", r"\\\1", line)
+            lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
+
+
+def skip(app: Any, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
+    """Leave a function out that shares its full name with a module, which the link would find."""
+    del app, what, options
+    module = f"{getattr(obj, '__module__', '')}.{name}"
+    return True if inspect.isfunction(obj) and module in sys.modules else skipped or None
+
+
+def write_interactive() -> None:
+    """Write the explorer and the animation that the pages embed, by the command line itself."""
+    static = HERE / "_static"
+    for arguments in (
+        ["explore", "--cache", str(HERE / "_build" / "runs"), "--out", f"{static}/explorer.html"],
+        ["animate", "--omega", "6", "--ramp-time", "3", "--out", f"{static}/spin_up.gif"],
+    ):
+        rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
+        subprocess.run([*rotbeam, *arguments], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
+
+
+def setup(app: Any) -> None:
+    """Connect the above."""
+    app.connect("autodoc-process-docstring", plain, priority=400)
+    app.connect("autodoc-skip-member", skip)
+    app.connect("builder-inited", lambda _: write_interactive(), priority=100)

@@ -1,0 +1,96 @@
+"""Every block of code in the README and the pages runs, and every command shown exists."""
+
+import importlib.util
+import os
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+
+from rotbeam_exu.cli import app
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
+# Pages that run finite elements in number, long exact spin-ups, or a cluster of processes.
+SLOW = ("index", "validation", "theory/comparison", "theory/continuum", "theory/finite_element",
+        "howto/sweeps")  # fmt: skip
+SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
+
+
+def load(name):
+    """A module of docs/_ext, which is no package."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "_ext" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+blocks = load("blocks")
+
+
+def page_cases():
+    for page in PAGES:
+        found = list(blocks.fenced(page.read_text(encoding="utf-8")))
+        if any(block.language in ("python", "{computed}") for block in found):
+            marks = [pytest.mark.slow] if page in SLOW_PAGES else []
+            yield pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks)
+
+
+def slurm(folder):
+    """A folder with the two commands of SLURM that Dask uses; jobs run on this machine."""
+    folder.mkdir()
+    for name, text in {
+        "sbatch": 'bash "$1" > job.log 2>&1 & echo "Submitted batch job $!"',
+        "scancel": 'pkill -P "$1"; kill "$1"',
+    }.items():
+        (folder / name).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+        (folder / name).chmod(0o755)
+    return folder
+
+
+@pytest.mark.parametrize("page", list(page_cases()))
+def test_blocks_run_in_order(page, tmp_path, monkeypatch):
+    """What a page computes and what it shows, each in names of its own, in a temporary folder."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    monkeypatch.setenv("PATH", str(slurm(tmp_path / "bin")), prepend=os.pathsep)
+    computed, shown = blocks.names(tmp_path), blocks.names(tmp_path)
+    for block in blocks.fenced(page.read_text(encoding="utf-8")):
+        where = f"{page.name}:{block.line}"
+        if block.language == "{computed}":
+            assert blocks.printed(block.text, computed, where).strip(), f"{where} prints nothing"
+        elif block.language == "python":
+            blocks.printed(block.text, shown, where)
+
+
+def commands():
+    for page in PAGES:
+        for block in blocks.fenced(page.read_text(encoding="utf-8")):
+            if block.language == "bash":
+                for line in block.text.splitlines():
+                    yield pytest.param(line, id=f"{page.name}: {line[:40]}")
+        # Indented blocks, as the README has them.
+        for line in re.findall(
+            r"^    (make .*|rotbeam .*)$", page.read_text("utf-8"), re.MULTILINE
+        ):
+            yield pytest.param(line, id=f"{page.name}: {line[:40]}")
+
+
+@pytest.mark.parametrize("line", list(commands()))
+def test_commands_shown_exist(line):
+    words = shlex.split(line.replace("$SLURM_ARRAY_TASK_ID", "1"), comments=True)
+    if words[:1] == ["rotbeam"]:
+        assert words[1] in set(app)
+        command, bound, *_ = app.parse_args(words[1:], exit_on_error=False, print_error=False)
+        assert command.__name__.replace("_", "-") == words[1]
+        assert bound is not None
+    elif words[:1] == ["make"]:
+        targets = (ROOT / "Makefile").read_text(encoding="utf-8")
+        assert re.search(rf"^{re.escape(words[1])}:", targets, re.MULTILINE)
+    else:
+        known = ([], ["pip", "install"], ["git", "clone"], ["export", "OMP_NUM_THREADS=1"])
+        assert words[:2] in known

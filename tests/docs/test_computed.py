@@ -1,0 +1,67 @@
+"""The pages' own machinery: blocks are found, run in order, and become Markdown."""
+
+from pathlib import Path
+
+import pytest
+
+EXT = Path(__file__).parents[2] / "docs" / "_ext"
+
+
+@pytest.fixture
+def blocks(monkeypatch):
+    monkeypatch.syspath_prepend(str(EXT))
+    import blocks
+
+    return blocks
+
+
+def test_fenced_blocks_are_found_with_their_line(blocks):
+    page = (
+        "text\n\n```python\na = 1\n```\n\n"
+        "```{computed}\n:show:\nprint(a)\n```\n\n```text\nno\n```\n"
+    )
+    assert list(blocks.fenced(page)) == [
+        ("python", "a = 1\n", 4),
+        ("{computed}", "print(a)\n", 8),
+        ("text", "no\n", 13),
+    ]
+
+
+def test_blocks_share_their_names_and_print_tables(blocks, tmp_path):
+    names = blocks.names(tmp_path)
+    assert blocks.printed("a = 2", names, "here") == ""
+    table = blocks.printed("table(['x', '|y|'], [[a, a**2]])", names, "here")
+    assert table == "| x | \\|y\\| |\n| --- | --- |\n| 2 | 4 |\n"
+
+
+def test_a_warning_in_a_block_is_an_error(blocks, tmp_path):
+    with pytest.raises(UserWarning, match="careful"):
+        blocks.printed("import warnings; warnings.warn('careful')", blocks.names(tmp_path), "here")
+
+
+def test_the_directive_inserts_what_is_printed_and_names_a_block_that_fails(tmp_path):
+    pytest.importorskip("sphinx", reason="the extra `docs` is not installed")
+    pytest.importorskip("myst_parser", reason="the extra `docs` is not installed")
+    from sphinx.errors import ExtensionError
+    from sphinx.testing.util import SphinxTestApp
+
+    (tmp_path / "conf.py").write_text(
+        f"import sys\nsys.path.insert(0, {str(EXT)!r})\nextensions = ['computed', 'myst_parser']\n"
+    )
+    page = tmp_path / "index.md"
+    page.write_text(
+        "# Page\n\n```{computed}\nn = 6\nprint(f'**{n * 7}**')\n```\n\n"
+        "```{computed}\n:show:\nprint(n + 1)\n```\n"
+    )
+    app = SphinxTestApp(srcdir=tmp_path, warningiserror=True)
+    try:
+        app.build()
+        html = (tmp_path / "_build" / "html" / "index.html").read_text()
+        assert "<strong>42</strong>" in html
+        assert '<span class="mi">1</span>' in html
+        assert ">7\n" in html
+        page.write_text("# Page\n\n```{computed}\n1 / 0\n```\n")
+        with pytest.raises(ExtensionError, match=r"index\.md:.*ZeroDivisionError"):
+            app.build()
+    finally:
+        app.cleanup()

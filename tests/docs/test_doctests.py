@@ -1,0 +1,29 @@
+"""Examples in docstrings run and print what they say."""
+
+import doctest
+import importlib
+import pkgutil
+
+import pytest
+
+import analytic
+import rotbeam_exu
+
+MODULES = sorted(
+    module.name
+    for package in (analytic, rotbeam_exu)
+    for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
+    if not module.name.endswith("__main__")
+)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples(name):
+    result = doctest.testmod(importlib.import_module(name), optionflags=doctest.ELLIPSIS)
+    assert result.failed == 0
+
+
+def test_there_are_examples():
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    examples = [t for n in MODULES for t in finder.find(importlib.import_module(n)) if t.examples]
+    assert examples
