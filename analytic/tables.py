@@ -13,7 +13,7 @@ from .shapes import CantileverMode, static_deflection
 
 PRINTED_BETA = 1.8751
 """β as the paper rounded it, in Eq. 78 at least."""
-_ROUNDED = "beyond rounding: the print used rounded constants"
+_ROUNDED = "beyond the rounding of the print"
 
 _RATIONAL: dict[int, dict[str, tuple[str, str]]] = {
     1: {
