@@ -45,7 +45,8 @@ CAPTIONS: dict[int, str] = {
     ),
     15: (
         "One period of the finite element orbit, and of the models at the same peak amplitude. The "
-        "paper: FrI stays open because its frequency is too low. So it does; FrM, FrC and FrE lie "
-        "on the exact orbit to the width of the line."
+        "paper: FrI stays open because its frequency is too low. So it does; FrM, FrC and FrE "
+        "close. The exact orbit is a little lower than theirs: the second harmonic, which Coriolis "
+        "forces bring and Eq. 65 has not."
     ),
 }
