@@ -114,11 +114,9 @@ def sweep(
         if client is not None:
             client.close()
     name = f"sweep-{element}-{elements}" + ("" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}")
-    written = [
-        save(result, folder / f"{name}.nc"),
-        save(result.drop_dims("time", errors="ignore"), folder / f"{name}.csv"),
-    ]
-    rows = result.drop_dims("time", errors="ignore").to_dataframe().reset_index()
+    measured = result.drop_dims("time", errors="ignore")
+    written = [save(result, folder / f"{name}.nc"), save(measured, folder / f"{name}.csv")]
+    rows = measured.to_dataframe().reset_index()
     columns: dict[str, Any] = {
         "ω [rad/s]": rows["omega"],
         "T [s]": rows["ramp_time"],
