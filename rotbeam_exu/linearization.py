@@ -16,6 +16,8 @@ from analytic.input_checks import rotation_speed, whole_number
 from . import drive
 from .elements import Formulation, formulation
 from .elements.formulation import FloatArray
+from .resolution import require_feasible, require_stretch, warn_if_coarse
+from .units import Units
 from .verdict import SimulationError
 
 
@@ -70,6 +72,7 @@ def natural_frequencies(
     """
     whole_number("count", count)
     _, system = _steady_state(beam, omega, element, elements)
+    warn_if_coarse(beam, omega, elements)
     name, modes = formulation(element).name, system[0].shape[0]
     if count > modes:
         raise ValueError(
@@ -77,7 +80,7 @@ def natural_frequencies(
             "elements; take more elements"
         )
     inverse = _inverse_eigenvalues(*system)
-    growth = _growth(inverse)
+    growth = _growth(inverse) / Units.of(beam).time
     if growth > 0.0:
         raise SimulationError(
             f"the steady state of {elements} {name!r} elements at omega = "
@@ -85,7 +88,7 @@ def natural_frequencies(
             "another element"
         )
     frequencies = 1.0 / np.sort(np.abs(inverse.imag))[::-1]
-    return np.asarray(frequencies[: 2 * count : 2])
+    return np.asarray(frequencies[: 2 * count : 2]) / Units.of(beam).time
 
 
 def growth_rate(
@@ -97,7 +100,7 @@ def growth_rate(
     √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
     """
     _, system = _steady_state(beam, omega, element, elements)
-    return _growth(_inverse_eigenvalues(*system))
+    return _growth(_inverse_eigenvalues(*system)) / Units.of(beam).time
 
 
 def _inverse_eigenvalues(
@@ -131,26 +134,34 @@ def steady_stretch(
     tan(kL)/k - L with k = ω √(ρ/E), larger by the factor 1 + (2/5)(kL)².
     """
     stretch, _ = _steady_state(beam, omega, element, elements)
-    return stretch
+    return stretch * beam.length
 
 
 def _steady_state(
     beam: Beam, omega: float, element: str | Formulation, elements: int
 ) -> tuple[float, tuple[FloatArray, FloatArray, FloatArray]]:
-    """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium."""
+    """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium.
+
+    In the beam's units.
+    """
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    model = formulation(element)
-    mass = mass_matrix(model, beam, whole_number("elements", elements))
+    model, units = formulation(element), Units.of(beam)
+    rotation = units.rotation(SteadyRotation(omega=omega))
+    unit_beam = units.beam(beam)
+    elements = whole_number("elements", elements)
+    require_stretch(beam)
+    require_feasible(elements)
+    mass = mass_matrix(model, unit_beam, elements)
     container = exudyn.SystemContainer()
     mbs = container.AddSystem()
     try:
-        chain = model.lay(mbs, beam, elements)
+        chain = model.lay(mbs, unit_beam, elements)
         drive.fix_root(mbs, chain, model, direction=True)
-        drive.add_inertial_forces(mbs, chain, model, mass, SteadyRotation(omega=omega))
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
         mbs.Assemble()
-        settings = _static_settings(beam, elements)
+        settings = _static_settings(unit_beam, elements)
         try:
             mbs.SolveStatic(settings, updateInitialValues=True)
         except Exception as error:
@@ -171,7 +182,13 @@ def _static_settings(beam: Beam, elements: int) -> exudyn.SimulationSettings:
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
     settings.staticSolver.verboseMode = 0
-    # Newton cannot go below the round-off of the axial force EA (|r'| - 1), r' from r/l.
-    round_off = 1e-14 * elements * beam.axial_stiffness
-    settings.staticSolver.newton.absoluteTolerance = round_off
+    settings.staticSolver.newton.absoluteTolerance = round_off(beam, elements)
     return settings
+
+
+def round_off(beam: Beam, elements: int) -> float:
+    """Return the residual force that Newton cannot go below, for a beam of unit length.
+
+    The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².
+    """
+    return 1e-14 * (elements * beam.axial_stiffness + 10.0 * elements**3 * beam.bending_stiffness)

@@ -23,12 +23,16 @@ from analytic.spin_up import Rotation
 from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
-from .linearization import mass_matrix
+from .linearization import mass_matrix, round_off
+from .resolution import (
+    require_feasible,
+    require_resolved_ramp,
+    require_stretch,
+    sampling,
+)
 from .solver import Frame, Sensors, solve, solver_settings
+from .units import Units
 from .verdict import SimulationError, judge, remedy
-
-SAMPLE_INTERVAL = 5e-3
-"""Samples are kept about this far apart [s]: 400 a period of the paper's beam."""
 
 
 def simulate(
@@ -44,6 +48,10 @@ def simulate(
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Spin the beam up and let it oscillate (Secs. 2 and 6), undamped.
+
+    Solved in the beam's own units, so that any beam is as well resolved as the paper's; samples
+    are kept at least 200 times a period of ω_n. Exudyn cannot be left in mid-run: an interpreter
+    that exits while another thread simulates aborts the process, so join such threads first.
 
     Parameters
     ----------
@@ -88,50 +96,51 @@ def simulate(
     KeyboardInterrupt
         On Ctrl-C, at the next step.
     """
-    model = formulation(element)
-    whole_number("elements", elements)
+    model, elements = formulation(element), whole_number("elements", elements)
+    step, duration = positive("step", step, "s"), positive("duration", duration, "s")
     ramp_time = spin_up.ramp_time if isinstance(spin_up, SpinUp) else 0.0
-    step = positive("step", step, "s")
-    duration = _checked_duration(duration, ramp_time)
-    steps = _whole_steps(duration, step)
+    steps, every = _checked_steps(beam, spin_up.omega, ramp_time, elements, duration, step)
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
     warn_if_rpm(beam, spin_up.omega)
-    every = max(n for n in range(1, max(1, round(SAMPLE_INTERVAL / step)) + 1) if steps % n == 0)
 
+    units = Units.of(beam, step)
+    unit_beam, rotation = units.beam(beam), units.rotation(spin_up)
     critical_speed = model.critical_speed(beam, elements)
-    smaller = remedy(step, spin_up.omega, critical_speed)
     container = exudyn.SystemContainer()
     mbs = container.AddSystem()
     try:
-        chain = model.lay(mbs, beam, elements)
-        mass = mass_matrix(model, beam, elements)
+        chain = model.lay(mbs, unit_beam, elements)
+        mass = mass_matrix(model, unit_beam, elements)
         if frame == "inertial":
             drive.fix_root(mbs, chain, model)
-            drive.prescribe_rotation(mbs, chain, model, spin_up)
+            drive.prescribe_rotation(mbs, chain, model, rotation)
         else:
             drive.fix_root(mbs, chain, model, direction=True)
-            drive.add_inertial_forces(mbs, chain, model, mass, spin_up)
+            drive.add_inertial_forces(mbs, chain, model, mass, rotation)
         sensors = Sensors(mbs, chain)
-        _start(mbs, chain, model, beam, spin_up, frame, initial_state)
+        start = None
+        if initial_state is not None:
+            x = np.linspace(0.0, 1.0, len(chain.nodes))
+            start = model.coordinates(x, units.state(initial_state(beam.length * x)))
+        _start(mbs, chain, model, rotation, frame, start)
         mbs.Assemble()
-        settings, described = solver_settings(duration, steps, every, frame)
+        settings, described = solver_settings(
+            steps, step / units.time, every, frame, round_off=round_off(unit_beam, elements)
+        )
         started = clock.perf_counter()
-        failure = solve(mbs, settings, duration, progress, smaller)
+        cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         time, coordinates, velocities, elastic = sensors.read()
-        if failure is None and time.size != steps // every + 1:
-            failure = SimulationError(
-                f"the solver kept {time.size} samples up to t = {time[-1]:.6g} s instead of "
-                f"{steps // every + 1}: {smaller}"
-            )
     finally:
         # Systems are not collected by themselves: memory would grow from run to run.
         mbs.Reset()
         container.Reset()
 
+    # Counted, not added up: the times of the steps asked for.
+    time = step * np.rint(time * units.time / step)
     run = _dataset(
-        beam, model, mass, spin_up, frame, time, coordinates, velocities, elastic, step=step
+        units, unit_beam, model, mass, spin_up, frame, time, coordinates, velocities, elastic
     )
     run.attrs = {
         **{f"beam_{name}": value for name, value in asdict(beam).items()},
@@ -149,22 +158,14 @@ def simulate(
         "wall_time": wall_time,
     }
     try:
-        # What went wrong before the solver noticed says more than that it gave up.
         run.attrs["verdict"] = judge(run)
-        if failure is not None:
-            raise failure
+        if cause is not None:
+            raise SimulationError(f"the solver gave up at its last step: {remedy(run, duration)}")
     except SimulationError as error:
         run.attrs["verdict"] = str(error)
         error.run = run
-        raise
-    if spin_up.omega > critical_speed:
-        warnings.warn(
-            f"omega = {spin_up.omega:g} rad/s is above the critical speed, {critical_speed:.6g} "
-            f"rad/s, of {elements} {model.name!r} elements: their steady rotation is unstable, and "
-            "what keeps the oscillation bounded is not the beam; take more elements",
-            RotbeamWarning,
-            stacklevel=2,
-        )
+        raise error from cause
+    _warn_above_critical_speed(run)
     return run
 
 
@@ -172,22 +173,32 @@ def _start(
     mbs: exudyn.MainSystem,
     chain: Chain,
     model: Formulation,
-    beam: Beam,
     rotation: Rotation,
     frame: Frame,
-    initial_state: Callable[[FloatArray], BeamState] | None,
+    start: tuple[FloatArray, FloatArray] | None,
 ) -> None:
     """Set initial coordinates and velocities; the frame turns by θ'(0) from angle zero."""
     reference = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes])
     coordinates, velocities = reference, np.zeros_like(reference)
-    if initial_state is not None:
-        x = np.linspace(0.0, beam.length, len(chain.nodes))
-        coordinates, velocities = model.coordinates(x, initial_state(x))
+    if start is not None:
+        coordinates, velocities = start
     if frame == "inertial":
         velocities = velocities + rotation.rate(0.0) * spun(model, coordinates)
     for node, moved, moving in zip(chain.nodes, coordinates - reference, velocities, strict=True):
         mbs.SetNodeParameter(node, "initialCoordinates", moved)
         mbs.SetNodeParameter(node, "initialVelocities", moving)
+
+
+def _warn_above_critical_speed(run: xr.Dataset) -> None:
+    omega, critical_speed = run.attrs["omega"], run.attrs["critical_speed"]
+    if omega > critical_speed:
+        warnings.warn(
+            f"omega = {omega:g} rad/s is above the critical speed, {critical_speed:.6g} rad/s, of "
+            f"{run.attrs['elements']} {run.attrs['element']!r} elements: their steady rotation is "
+            "unstable, and what keeps the oscillation bounded is not the beam; take more elements",
+            RotbeamWarning,
+            stacklevel=3,
+        )
 
 
 def versions() -> dict[str, str]:
@@ -196,28 +207,32 @@ def versions() -> dict[str, str]:
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
 
 
-def _checked_duration(duration: float, ramp_time: float) -> float:
-    duration = positive("duration", duration, "s")
+def _checked_steps(
+    beam: Beam, omega: float, ramp_time: float, elements: int, duration: float, step: float
+) -> tuple[int, int]:
+    """Return how many steps the run has, and of how many one is kept; refuse what cannot do."""
     if duration <= ramp_time:
         raise ValueError(
             f"duration {duration:g} s ends before the steady rotation, which begins at "
             f"ramp_time {ramp_time:g} s; the paper runs 15 s"
         )
-    return duration
-
-
-def _whole_steps(duration: float, step: float) -> int:
     steps = round(duration / step)
     if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
         nearest = duration / max(steps, 1)
         raise ValueError(
             f"duration {duration:g} s is not a whole number of steps of {step:g} s; "
-            f"try a step of {nearest:.6g} s"
+            f"try a step of {nearest:.12g} s"
         )
-    return steps
+    require_stretch(beam)
+    require_resolved_ramp(ramp_time, step)
+    require_feasible(elements, steps)
+    every = sampling(beam, omega, steps, step)
+    require_feasible(elements, steps, samples=steps // every)
+    return steps, every
 
 
 def _dataset(
+    units: Units,
     beam: Beam,
     model: Formulation,
     mass: Any,
@@ -227,13 +242,12 @@ def _dataset(
     coordinates: FloatArray,
     velocities: FloatArray,
     elastic: FloatArray,
-    *,
-    step: float,
 ) -> xr.Dataset:
-    """Everything a run is asked for, from coordinates in the frame that turns with the clamp."""
-    # The integrator adds up its steps; the grid is what was asked for.
-    time = step * np.rint(time / step)
-    angle, rate = spin_up.angle(time), spin_up.rate(time)
+    """Everything a run is asked for in SI units, from coordinates and a beam in units of its own.
+
+    Seen from the frame that turns with the clamp; `time` [s] and `spin_up` are in SI units.
+    """
+    angle, rate = spin_up.angle(time), units.time * spin_up.rate(time)
     if frame == "inertial":
         coordinates = turned(model, coordinates, -angle)
         absolute = turned_velocities(model, velocities, -angle)
@@ -271,9 +285,10 @@ def _dataset(
             "largest axial strain along the beam",
         ),
     }
+    scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     return xr.Dataset(
         {
-            name: ("time", values, {"units": unit, "long_name": label})
+            name: ("time", scale.get(unit, 1.0) * values, {"units": unit, "long_name": label})
             for name, (values, unit, label) in columns.items()
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},

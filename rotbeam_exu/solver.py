@@ -11,32 +11,35 @@ from exudyn.itemInterface import SensorBody, SensorNode
 
 from .elements import Chain
 from .elements.formulation import FloatArray
-from .verdict import SimulationError
 
 Frame = Literal["inertial", "rotating"]
+
+_TOLERANCE = 1e-9
+"""Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
 
 _OUTPUT = exudyn.OutputVariableType
 
 
 def solver_settings(
-    duration: float, steps: int, every: int, frame: Frame
+    steps: int, step: float, every: int, frame: Frame, *, round_off: float
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
-    """Solver settings, and the same as a plain record.
+    """Solver settings, and the same as a plain record, all in the beam's units.
 
-    The default absolute tolerance lies under the round-off floor, and adaptive stepping then
-    halves steps silently. In the rotating frame each iteration calls back into Python, and a new
+    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
+    the round-off is never met, whereupon adaptive stepping halves steps silently: Newton stops at
+    an absolute force. In the rotating frame each iteration calls back into Python, and a new
     Jacobian for each step saves iterations.
     """
     described: dict[str, Any] = {
         "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
         "spectral_radius": 0.9 if frame == "inertial" else 1.0,
-        "relative_tolerance": 1e-8,
-        "absolute_tolerance": 1e-6,
+        "relative_tolerance": 1e-14,
+        "absolute_tolerance": max(_TOLERANCE, round_off),
         "sample_every": every,
     }
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
-    integration.endTime = duration
+    integration.endTime = steps * step
     integration.numberOfSteps = steps
     integration.adaptiveStep = False
     integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
@@ -47,40 +50,43 @@ def solver_settings(
     settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False
     # Exactly the interval: a little under it, samples would drift off the grid.
-    settings.solution.sensors.writePeriod = every * duration / steps
+    settings.solution.sensors.writePeriod = every * step
     return settings, described
 
 
 def solve(
     mbs: exudyn.MainSystem,
     settings: exudyn.SimulationSettings,
-    duration: float,
     progress: Callable[[float], None] | None,
-    smaller: str,
-) -> SimulationError | None:
-    """Run the solver; Ctrl-C comes out as what it is, a failure is returned with its remedy."""
-    shown = 0.0
+) -> BaseException | None:
+    """Run the solver, and return its error where it gave up.
+
+    Ctrl-C, and whatever `progress` raises, come out as what they are.
+    """
+    shown, end = 0.0, settings.timeIntegration.endTime
+    interruption: BaseException | None = None
 
     def before_step(mbs: Any, t: float) -> bool:
         # Being called at all lets Python see Ctrl-C between two steps.
-        nonlocal shown
+        nonlocal shown, interruption
         if progress is not None and t >= shown:
-            progress(min(t / duration, 1.0))
-            shown += 0.01 * duration
+            try:
+                progress(min(t / end, 1.0))
+            except BaseException as error:
+                interruption = error
+                raise
+            shown += 0.01 * end
         return True
 
     mbs.SetPreStepUserFunction(before_step)
     try:
         mbs.SolveDynamic(settings)
     except BaseException as error:
+        if interruption is not None:
+            raise interruption from None
         if "KeyboardInterrupt" in _chain_of(error):
             raise KeyboardInterrupt from None
-        failure = SimulationError(
-            f"the solver gave up at t = {mbs.systemData.GetTime():.6g} s of {duration:g} s: "
-            f"{smaller}"
-        )
-        failure.__cause__ = error
-        return failure
+        return error
     if progress is not None:
         progress(1.0)
     return None

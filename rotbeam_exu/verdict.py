@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+
+from analytic import Beam
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -17,6 +21,13 @@ RESIDUAL_LIMIT = 1e-8
 
 DRIFT_LIMIT = 1e-2
 """Drift of the steady Jacobi energy over the largest elastic energy; 1e-6 at the default step."""
+
+
+LARGE_SWING = 0.7
+"""Deflection of the tip over L above which a beam in free swing may break into short waves."""
+
+_RESOLVED = 0.06
+"""Phase of a step [rad], a hundredth of a cycle, below which a smaller one is no remedy."""
 
 
 class SimulationError(RuntimeError):
@@ -36,10 +47,9 @@ class _Check:
     name: str
     size: NDArray[np.float64]
     limit: float
-    remedy: str
 
     def failure(self, time: NDArray[np.float64]) -> tuple[float, str] | None:
-        """When the limit is first passed [s], and the sentence that says so."""
+        """When the limit is first passed [s], and what to say of it."""
         # Written so that NaN fails.
         bad = ~(self.size <= self.limit)
         if not bad.any():
@@ -47,23 +57,52 @@ class _Check:
         first = int(np.argmax(bad))
         return float(time[first]), (
             f"{self.name} reaches {self.size[first]:.3g} at t = {time[first]:.6g} s, "
-            f"above {self.limit:.3g}: {self.remedy}"
+            f"above {self.limit:.3g}"
         )
 
 
-def remedy(step: float, omega: float, critical_speed: float) -> str:
-    """Return what to try after a run that went wrong: no step cures a linear model's reach."""
-    if math.isinf(critical_speed):
-        return f"take a smaller step than {step:g} s"
-    if omega <= critical_speed:
+def beam_of(attrs: Mapping[Any, Any]) -> Beam:
+    """Return the beam that the attributes of a run describe."""
+    return Beam(**{field.name: attrs[f"beam_{field.name}"] for field in fields(Beam)})
+
+
+def remedy(run: xr.Dataset, t: float) -> str:
+    """Return what to try after a run that went wrong at `t` [s].
+
+    No step cures a linear model's reach, a rotation that tears the beam, or the waves, too short
+    for any step, that a beam breaks into when it swings through most of its length.
+    """
+    attrs = run.attrs
+    omega, critical_speed = float(attrs["omega"]), float(attrs["critical_speed"])
+    smaller = f"take a smaller step than {attrs['step']:g} s"
+    if omega > critical_speed:
+        return (
+            f"linear elastic frames diverge above their critical speed, {critical_speed:.6g} "
+            f"rad/s here, and omega is {omega:g} rad/s: take more substructures or another element"
+        )
+    if math.isfinite(critical_speed):
         return (
             "linear elastic frames are for small deflection: take a longer ramp_time, more "
-            f"substructures or another element, or a smaller step than {step:g} s"
+            f"substructures or another element, or {smaller.removeprefix('take ')}"
         )
-    return (
-        f"linear elastic frames diverge above their critical speed, {critical_speed:.6g} rad/s "
-        f"here, and omega is {omega:g} rad/s: take more substructures or another element"
-    )
+    beam = beam_of(attrs)
+    # ½ρω²L² at the root, Eq. 67's strain; bending adds to it.
+    strain = 0.5 * beam.density * (omega * beam.length) ** 2 / beam.youngs_modulus
+    if strain > 0.2 * STRAIN_LIMIT:
+        return (
+            f"the rotation alone strains the root by {strain:.2g}: lower omega below "
+            f"{omega * math.sqrt(0.2 * STRAIN_LIMIT / strain):.3g} rad/s, or raise the axial "
+            "stiffness EA"
+        )
+    resolved = float(attrs["step"]) * max(omega, beam.omega_0) < _RESOLVED
+    before = run["q"].to_numpy()[run["time"].to_numpy() <= t]
+    swing = float(np.abs(before).max(initial=0.0)) / beam.length
+    if resolved and LARGE_SWING < swing < 1.0:
+        return (
+            f"the tip has swung to {swing:.2g} of the length, where the beam breaks into waves "
+            f"too short for any step: take a longer ramp_time, or a duration below {t:.4g} s"
+        )
+    return smaller
 
 
 def judge(run: xr.Dataset) -> str:
@@ -84,12 +123,12 @@ def judge(run: xr.Dataset) -> str:
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs
     step, length = float(attrs["step"]), float(attrs["beam_length"])
-    smaller = remedy(step, float(attrs["omega"]), float(attrs["critical_speed"]))
     for name, variable in run.data_vars.items():
         bad = ~np.isfinite(variable.to_numpy())
         if bad.any():
+            first = int(np.argmax(bad))
             raise SimulationError(
-                f"{name} is not finite at t = {time[int(np.argmax(bad))]:.6g} s: {smaller}"
+                f"{name} is not finite at t = {time[first]:.6g} s: {remedy(run, time[first])}"
             )
     # A beam that hardly vibrates has no elastic energy to speak of.
     scale = max(run["elastic_energy"].max().item(), 1e-4 * run["kinetic_energy"].max().item())
@@ -101,39 +140,36 @@ def judge(run: xr.Dataset) -> str:
             name="the tip's distance from the clamp over the length",
             size=np.hypot(run["tip_x"].to_numpy(), run["tip_y"].to_numpy()) / length,
             limit=1.0 + STRAIN_LIMIT,
-            remedy=smaller,
         ),
         _Check(
             name="the axial strain",
             size=run["axial_strain"].to_numpy(),
             limit=STRAIN_LIMIT,
-            remedy=f"{smaller}, or check the axial stiffness EA and the speed",
         ),
         _Check(
             name="the clamp's position error over the length",
             size=run["clamp_residual"].to_numpy() / length,
             limit=RESIDUAL_LIMIT,
-            remedy=smaller,
         ),
         _Check(
             name="the root's direction error",
             size=np.abs(run["direction_residual"].to_numpy()),
             limit=RESIDUAL_LIMIT,
-            remedy=smaller,
         ),
         _Check(
-            name="the drift of the Jacobi energy E - ω L_z over the largest elastic energy",
+            name="the drift of the steady Jacobi energy E - ω L_z over the largest elastic energy",
             size=drift / max(scale, np.finfo(float).tiny),
             limit=DRIFT_LIMIT,
-            remedy=f"energy should not change once the rotation is steady; {smaller}",
         ),
     )
     failures = [failure for check in checks if (failure := check.failure(time)) is not None]
     if failures:
-        raise SimulationError(min(failures, key=lambda failure: failure[0])[1])
+        t, sentence = min(failures, key=lambda failure: failure[0])
+        raise SimulationError(f"{sentence}: {remedy(run, t)}")
     if time[-1] < float(attrs["duration"]) - 0.5 * step:
         raise SimulationError(
-            f"the solver stopped at t = {time[-1]:.6g} s of {attrs['duration']:g} s: {smaller}"
+            f"the solver stopped at t = {time[-1]:.6g} s of {attrs['duration']:g} s: "
+            f"{remedy(run, time[-1])}"
         )
     return "passed"
 

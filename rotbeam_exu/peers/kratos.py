@@ -23,7 +23,7 @@ import xarray as xr
 from analytic import Beam, SpinUp
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
-from ..simulation import SAMPLE_INTERVAL
+from ..resolution import require_resolved_ramp, sampling
 from ..verdict import SimulationError
 
 
@@ -68,7 +68,8 @@ def simulate(
     """
     elements, step = whole_number("elements", elements), positive("step", step, "s")
     steps = round(positive("duration", duration, "s") / step)
-    every = max(1, round(SAMPLE_INTERVAL / step))
+    require_resolved_ramp(spin_up.ramp_time, step)
+    every = sampling(beam, spin_up.omega, steps, step)
     strategy, part, kratos, _model = _assembled(beam, elements, tolerance, iterations)
     root, tip = part.Nodes[1], part.Nodes[elements + 1]
     time = step * np.arange(0, steps + 1, every)

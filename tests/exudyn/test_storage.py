@@ -36,7 +36,7 @@ def test_a_loaded_run_can_be_done_again_to_the_bit(run, tmp_path):
     )
     xr.testing.assert_equal(again, run)
     assert json.loads(attrs["versions"])["exudyn"]
-    assert json.loads(attrs["settings"])["relative_tolerance"] == 1e-8
+    assert json.loads(attrs["settings"])["spectral_radius"] == 0.9
 
 
 def test_every_variable_has_unit_and_name(run):

@@ -1,0 +1,104 @@
+"""What a mesh and a step can resolve, said before a run instead of after it."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+from analytic import Beam, linear_modes
+from analytic.input_checks import RotbeamWarning
+
+SAMPLES_PER_PERIOD = 200
+"""Samples kept of a period of ω_n, at least."""
+
+STEPS_PER_PERIOD = 20
+"""Steps in a period of ω_n, at least: with fewer the oscillation is the integrator's own."""
+
+STEPS_PER_RAMP = 20
+"""Steps in a ramp, at least: fewer do not see Eq. 1, and a ramp within one or two not at all."""
+
+LEAST_SLENDERNESS = 1e-11
+"""μ below which the round-off of |r'| - 1 spoils the axial force by more than 1e-5 of it."""
+
+_LARGEST_MEMORY = 8e9
+"""Of samples or of a matrix [bytes]."""
+
+_LONGEST_RUN = 3e6
+"""Wall time [s], about a month."""
+
+_SECONDS_PER_ELEMENT_STEP = 2e-6
+"""The least that was measured, so that what is refused would indeed take too long."""
+
+
+def sampling(beam: Beam, omega: float, steps: int, step: float) -> int:
+    """Return how many steps lie between two samples: a divisor of `steps`.
+
+    Raises
+    ------
+    ValueError
+        If no steady state exists at the speed `omega` [rad/s], or a period of its first mode has
+        fewer steps than STEPS_PER_PERIOD.
+    """
+    period = 2.0 * math.pi / float(linear_modes(beam, omega, 1).frequencies[0])
+    if period < STEPS_PER_PERIOD * step:
+        raise ValueError(
+            f"a step of {step:g} s leaves {period / step:.3g} steps in a period of the natural "
+            f"frequency, {period:.4g} s: take {period / STEPS_PER_PERIOD:.3g} s or less"
+        )
+    most = max(1, int(period / (SAMPLES_PER_PERIOD * step)))
+    return max(n for n in range(1, most + 1) if steps % n == 0)
+
+
+def require_resolved_ramp(ramp_time: float, step: float) -> None:
+    """Refuse a ramp of fewer than STEPS_PER_RAMP steps."""
+    if 0.0 < ramp_time < (STEPS_PER_RAMP - 1e-9) * step:
+        raise ValueError(
+            f"ramp_time {ramp_time:g} s holds {ramp_time / step:.3g} steps of {step:g} s, too few "
+            f"to follow Eq. 1: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
+        )
+
+
+def require_stretch(beam: Beam) -> None:
+    """Refuse a beam so stiff along its axis that double precision does not hold its stretch."""
+    if beam.slenderness < LEAST_SLENDERNESS:
+        raise ValueError(
+            f"the slenderness I/(AL²) = {beam.slenderness:.3g} is below {LEAST_SLENDERNESS:g}, "
+            "where round-off of the stretch spoils the axial force: lower the axial stiffness EA "
+            f"below {beam.bending_stiffness / (LEAST_SLENDERNESS * beam.length**2):.3g} N, which "
+            "changes nothing else"
+        )
+
+
+def require_feasible(elements: int, steps: int = 0, samples: int = 0) -> None:
+    """Refuse by an estimate what would not fit into memory or end within a month."""
+    coordinates = 4.0 * (elements + 1.0)
+    memory = max(8.0 * coordinates**2, 2 * 8.0 * coordinates * samples)
+    if memory > _LARGEST_MEMORY:
+        raise ValueError(
+            f"{elements:.6g} elements and {samples:.6g} samples need about {memory / 1e9:.3g} GB "
+            f"of memory, more than {_LARGEST_MEMORY / 1e9:g} GB: take fewer elements or a shorter "
+            "duration"
+        )
+    seconds = _SECONDS_PER_ELEMENT_STEP * elements * steps
+    if seconds > _LONGEST_RUN:
+        raise ValueError(
+            f"{steps:.6g} steps of {elements} elements would take about {seconds / 86400:.3g} "
+            "days: take a larger step, fewer elements or a shorter duration"
+        )
+
+
+def warn_if_coarse(beam: Beam, omega: float, elements: int) -> None:
+    """Warn where the root's boundary layer is shorter than half an element.
+
+    The tension N bends a rotating beam within √(EI/N) = √2 L/w̄ of its clamp; there, cubic
+    elements of twice that length are off by half a percent in frequency, linear ones by more.
+    """
+    layer = math.sqrt(2.0) * beam.frequency_scale / omega if omega > 0.0 else math.inf
+    if elements * layer < 0.5:
+        warnings.warn(
+            f"at omega = {omega:g} rad/s the beam bends within {layer:.2g} L of its clamp, less "
+            f"than half of one of {elements} elements: frequencies may be off by percents; take "
+            f"{math.ceil(1.0 / layer)} elements or more",
+            RotbeamWarning,
+            stacklevel=3,
+        )

@@ -1,0 +1,86 @@
+"""The units in which Exudyn solves: those of the beam, so that no tolerance knows SI.
+
+Length L and mass m of the beam are one, and time is counted in steps of a power of two near
+√(mL³/EI), the time of Eq. 40: any beam, from a reed to a blade, is then the same numbers, and
+sums of steps are exact.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from analytic import Beam, BeamState
+from analytic.spin_up import Rotation
+
+
+@dataclass(frozen=True, kw_only=True)
+class Units:
+    """Units of length [m], mass [kg] and time [s]; those derived from them follow."""
+
+    length: float
+    mass: float
+    time: float
+
+    @classmethod
+    def of(cls, beam: Beam, step: float | None = None) -> Units:
+        """Return L, m and √(mL³/EI), or the nearest 2^k times a `step` [s]."""
+        time = 1.0 / beam.frequency_scale
+        if step is not None:
+            time = math.ldexp(step, round(math.log2(time / step)))
+        return cls(length=beam.length, mass=beam.mass, time=time)
+
+    @property
+    def velocity(self) -> float:
+        """Unit of velocity [m/s]."""
+        return self.length / self.time
+
+    @property
+    def energy(self) -> float:
+        """Unit of energy [J]."""
+        return self.mass * self.velocity**2
+
+    def beam(self, beam: Beam) -> Beam:
+        """Return the beam in these units."""
+        return Beam(
+            length=beam.length / self.length,
+            area=beam.area / self.length**2,
+            second_moment=beam.second_moment / self.length**4,
+            youngs_modulus=beam.youngs_modulus * self.length**3 / self.energy,
+            density=beam.density * self.length**3 / self.mass,
+        )
+
+    def rotation(self, rotation: Rotation) -> Rotation:
+        """Return the rotation over time in these units."""
+        return _Rescaled(rotation, self.time)
+
+    def state(self, state: BeamState) -> BeamState:
+        """Return the state in these units; slopes have none."""
+        return BeamState(
+            u=state.u / self.length,
+            v=state.v / self.length,
+            u_slope=state.u_slope,
+            v_slope=state.v_slope,
+            u_dot=state.u_dot / self.velocity,
+            v_dot=state.v_dot / self.velocity,
+            u_slope_dot=state.u_slope_dot * self.time,
+            v_slope_dot=state.v_slope_dot * self.time,
+        )
+
+
+@dataclass(frozen=True)
+class _Rescaled:
+    """A rotation whose time is counted in units of `unit` [s]."""
+
+    rotation: Rotation
+    unit: float
+
+    def angle(self, t: Any) -> Any:
+        return self.rotation.angle(self.unit * t)
+
+    def rate(self, t: Any) -> Any:
+        return self.unit * self.rotation.rate(self.unit * t)
+
+    def acceleration(self, t: Any) -> Any:
+        return self.unit**2 * self.rotation.acceleration(self.unit * t)

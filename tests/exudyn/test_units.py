@@ -1,0 +1,235 @@
+"""The answer does not depend on the units, nor on the size, stiffness or mesh of the beam."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from analytic import Beam, SpinUp, linear_modes, spin_up_response
+from rotbeam_exu import natural_frequencies, simulate, steady_stretch
+from rotbeam_exu.units import Units
+
+STEEL_BAR = Beam(
+    length=2.0, area=2.5e-3, second_moment=5.2083e-7, youngs_modulus=2.1e11, density=7850.0
+)
+BLADE = Beam.from_stiffness(
+    length=60.0, axial_stiffness=2e9, bending_stiffness=2e8, mass_per_length=200.0
+)
+REED = Beam(
+    length=0.05, area=2.5e-6, second_moment=5.208e-14, youngs_modulus=2.1e11, density=7850.0
+)
+
+
+def slender(mu):
+    """The paper's beam with another axial stiffness."""
+    paper = Beam.reference()
+    return Beam.from_stiffness(
+        length=paper.length,
+        axial_stiffness=paper.bending_stiffness / (mu * paper.length**2),
+        bending_stiffness=paper.bending_stiffness,
+        mass_per_length=paper.mass_per_length,
+    )
+
+
+def spun_up(beam, speed_ratio, steps=2000, **options):
+    """Spin up to Ω in nine units of time, and on to twelve: q/L on a grid of its own."""
+    second = 1.0 / beam.frequency_scale
+    run = simulate(
+        beam,
+        SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
+        duration=12.0 * second,
+        step=12.0 * second / steps,
+        **options,
+    )
+    assert run.attrs["verdict"] == "passed"
+    return run["q"].to_numpy() / beam.length
+
+
+def in_other_units(beam, length, mass, time):
+    """The same beam by other numbers: units of length [m], mass [kg] and time [s]."""
+    return Beam(
+        length=beam.length / length,
+        area=beam.area / length**2,
+        second_moment=beam.second_moment / length**4,
+        youngs_modulus=beam.youngs_modulus * length * time**2 / mass,
+        density=beam.density * length**3 / mass,
+    )
+
+
+@pytest.mark.parametrize(
+    ("beam", "speed_ratio", "frame"),
+    [
+        pytest.param(beam, ratio, frame, id=f"{name}-{ratio}-{frame}", marks=marks)
+        for name, beam, fast in (
+            ("bar", STEEL_BAR, (1.5, "inertial")),
+            ("blade", BLADE, (1.5, "rotating")),
+            ("reed", REED, (0.5, "rotating")),
+        )
+        for ratio, frame in itertools.product((0.5, 1.5), ("inertial", "rotating"))
+        for marks in [() if (ratio, frame) == fast else pytest.mark.slow]
+    ],
+)
+def test_real_beams_of_any_size_follow_the_exact_one(beam, speed_ratio, frame):
+    q = spun_up(beam, speed_ratio, elements=8, frame=frame)
+    second = 1.0 / beam.frequency_scale
+    exact = spin_up_response(
+        beam,
+        SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
+        np.linspace(0.0, 12.0 * second, q.size),
+        tolerance=1e-5,
+    )
+    # Eight cables and a step of 6e-3 units of time: the mesh leaves 1e-4, the step half of it.
+    assert np.abs(q - exact.q / beam.length).max() < 5e-4 * np.abs(q).max()
+
+
+def check_units(length, mass, time, frame, mu):
+    beam = slender(mu)
+    # Forces of the size EA cancel to EI/L²: what is left of double precision.
+    expected = 1e-9 + 1e-15 / mu
+    here, there = (
+        spun_up(b, 1.2, steps=600, elements=4, frame=frame)
+        for b in (beam, in_other_units(beam, length, mass, time))
+    )
+    assert np.abs(here - there).max() < expected
+    ratio = [
+        natural_frequencies(b, 1.2 * b.omega_0, elements=4, count=1)[0] / b.frequency_scale
+        for b in (beam, in_other_units(beam, length, mass, time))
+    ]
+    assert ratio[0] == pytest.approx(ratio[1], rel=1e-9)
+
+
+UNITS = {
+    "length": st.floats(-6.0, 6.0).map(lambda x: 10.0**x),
+    "mass": st.floats(-9.0, 9.0).map(lambda x: 10.0**x),
+    "time": st.floats(-9.0, 9.0).map(lambda x: 10.0**x),
+    "frame": st.sampled_from(["inertial", "rotating"]),
+    "mu": st.floats(-7.0, -3.0).map(lambda x: 10.0**x),
+}
+
+
+@settings(
+    max_examples=5,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+@given(**UNITS)
+def test_q_over_length_is_the_same_in_any_units(length, mass, time, frame, mu):
+    check_units(length, mass, time, frame, mu)
+
+
+@pytest.mark.slow
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(**UNITS)
+def test_q_over_length_is_the_same_in_many_units(length, mass, time, frame, mu):
+    check_units(length, mass, time, frame, mu)
+
+
+@pytest.mark.parametrize("frame", [pytest.param("inertial", marks=pytest.mark.slow), "rotating"])
+@pytest.mark.parametrize("element", ["cable", "exact"])
+def test_slenderness_hardly_matters(element, frame):
+    """As μ → 0 the response settles; so stiff an axis must neither stop nor bend the solver."""
+    # In the inertial frame each step turns the stiff axis: Newton's method wants it to be small.
+    steps = {"inertial": 6000, "rotating": 800}[frame]
+    stiff, stiffer, stiffest = (
+        spun_up(slender(mu), 1.2, steps=steps, elements=4, element=element, frame=frame)
+        for mu in (1e-6, 1e-8, 1e-10)
+    )
+    # Extensibility shifts λ_ω by 5 μ; an element of the exact beam is 2e-3 softer at 1e-6.
+    assert np.abs(stiff - stiffest).max() < {"cable": 2e-4, "exact": 3e-3}[element]
+    # Round-off of the axial force, 1e-14 × 4/μ in EI/L², for 12 units of time.
+    assert np.abs(stiffer - stiffest).max() < 2e-4
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_a_stocky_beam_runs(frame):
+    beam, second = slender(1e-2), 1.0 / slender(1e-2).frequency_scale
+    q = spun_up(beam, 0.5, elements=8, frame=frame)
+    spin_up = SpinUp(omega=0.5 * beam.omega_0, ramp_time=9.0 * second)
+    exact = spin_up_response(beam, spin_up, np.linspace(0.0, 12.0 * second, q.size), tolerance=1e-5)
+    assert np.abs(q - exact.q / beam.length).max() < 5e-4 * np.abs(q).max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+@pytest.mark.parametrize("mu", [1e-4, 1.758e-6])
+@pytest.mark.parametrize("elements", [128, 256, 400, 512])
+def test_fine_meshes_agree_with_a_coarse_one(elements, mu, frame):
+    coarse, fine = (
+        spun_up(slender(mu), 1.2, steps=1200, elements=n, frame=frame) for n in (64, elements)
+    )
+    # 64 elements are off by 2e-7; Newton's tolerance on 512 is 1e-13 × 512³.
+    assert np.abs(coarse - fine).max() < 2e-6
+
+
+@pytest.mark.parametrize("elements", [128, 256, pytest.param(512, marks=pytest.mark.slow)])
+def test_the_steady_state_of_fine_meshes(beam, elements):
+    k = 6.0 * math.sqrt(beam.density / beam.youngs_modulus)
+    stretch = math.tan(k * beam.length) / k - beam.length
+    assert steady_stretch(beam, 6.0, elements=elements) == pytest.approx(stretch, rel=1e-9)
+
+
+@pytest.mark.parametrize("mu", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+def test_natural_frequencies_of_any_slenderness(mu):
+    beam = slender(mu)
+    omega = min(6.0, 0.5 * beam.burst_speed)
+    exact = linear_modes(beam, omega, 1).frequencies[0]
+    # Mesh of 16: 4e-5.
+    assert natural_frequencies(beam, omega, count=1)[0] == pytest.approx(exact, rel=1e-4)
+
+
+@pytest.mark.parametrize(("duration", "step"), [(3600.0, 0.04), (2000.0, 5e-3)])
+def test_long_runs_keep_every_sample(beam, duration, step):
+    """Sums of such steps are not exact in seconds; in units of a power of two of them they are."""
+    units = Units.of(beam, step)
+    own = step / units.time
+    assert math.frexp(own)[0] == 0.5
+    steps = round(duration / step)
+    assert np.cumsum(np.full(steps, own))[-1] == steps * own
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("duration", "step"), [(3600.0, 0.04), (2000.0, 5e-3)])
+def test_long_runs_reach_their_end(beam, duration, step):
+    run = simulate(
+        beam, SpinUp(omega=2.0, ramp_time=10.0), elements=1, duration=duration, step=step
+    )
+    assert run["time"][-1] == pytest.approx(duration, rel=1e-12)
+    assert np.diff(run["time"]) == pytest.approx(run["time"].to_numpy()[1], rel=1e-9)
+
+
+def test_samples_follow_the_period():
+    """A reed of 1133 rad/s is sampled like the paper's beam: 200 times a period at least."""
+    run = simulate(
+        REED, SpinUp(omega=1000.0, ramp_time=0.006), elements=4, duration=0.03, step=1e-5
+    )
+    period = 2.0 * math.pi / linear_modes(REED, 1000.0, 1).frequencies[0]
+    assert 200 <= period / float(run["time"][1]) < 600
+
+
+def test_a_short_ramp_is_followed(beam):
+    """A ramp of thirty steps leaves what the exact beam keeps of it, not 1e-9 of that."""
+    step, spin_up = 4e-3, SpinUp(omega=0.5, ramp_time=0.12)
+    for frame in ("inertial", "rotating"):
+        run = simulate(beam, spin_up, elements=4, duration=1.0, step=step, frame=frame)
+        exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-3)
+        assert np.abs(run["q"] - exact.q).max() < 2e-2 * np.abs(exact.q).max()
+
+
+def test_scaling_points(beam):
+    """Initial states and energies come back in SI units: a steady rotation keeps its energy."""
+    from analytic import SteadyRotation, periodic_orbits
+
+    orbits = periodic_orbits(beam, 6.0, [0.1])
+    run = simulate(
+        beam, SteadyRotation(omega=6.0), elements=8, duration=0.5, frame="rotating",
+        initial_state=lambda x: orbits.state(0, x),
+    )  # fmt: skip
+    state = orbits.state(0, [beam.length])
+    assert run["q_dot"][0] == pytest.approx(state.v_dot[0], rel=1e-6)
+    # A rigid rotation about the clamp has ½·mL²/3·ω²; the orbit's own motion adds some percent.
+    rigid = beam.mass * beam.length**2 * 6.0**2 / 6.0
+    assert run["kinetic_energy"].mean() == pytest.approx(rigid, rel=0.1)
