@@ -5,13 +5,18 @@ from __future__ import annotations
 import io
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import h5netcdf
+import numpy as np
 import xarray as xr
 from xarray.backends import H5NetCDFStore
+
+OUTCOMES = frozenset({"critical_speed", "failure", "settings", "verdict", "versions", "wall_time"})
+"""Attributes of a result that follow from its inputs, and from where and when it was made."""
 
 
 def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
@@ -81,6 +86,69 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
+
+
+def differing_inputs(
+    run: xr.Dataset | Mapping[str, object], path: str | os.PathLike[str]
+) -> dict[str, tuple[object, object]]:
+    """Tell whether the file at `path` holds the same inputs: what to ask before replacing it.
+
+    Inputs are the attributes but `OUTCOMES`, and the coordinates of every dimension but time: the
+    grid of a sweep.
+
+    Parameters
+    ----------
+    run : Dataset or mapping
+        A result, or only its inputs by name, where it is not computed yet.
+    path : path
+        A file that `save` wrote, or none.
+
+    Returns
+    -------
+    dict
+        By name, the value in `run` and the one in the file, None where there is none, of every
+        input that differs; `variables`, if the file has some that the result lacks; `file`, if it
+        cannot be read. Empty if there is no file, or if it may be replaced without loss.
+    """
+    if not Path(path).exists():
+        return {}
+    try:
+        there = load(path)
+    except (OSError, ValueError) as error:
+        return {"file": (None, str(error))}
+    mine, theirs = _inputs(run), _inputs(there)
+    differing = {
+        name: (mine.get(name), theirs.get(name))
+        for name in sorted(mine.keys() | theirs.keys())
+        if not _same(mine.get(name), theirs.get(name))
+    }
+    if isinstance(run, xr.Dataset) and not there.variables.keys() <= run.variables.keys():
+        differing["variables"] = (
+            sorted(map(str, run.variables)),
+            sorted(map(str, there.variables)),
+        )
+    return differing
+
+
+def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
+    if isinstance(run, xr.Dataset):
+        grid = {name: run[name] for name in run.dims if name in run.coords and name != "time"}
+        run = {**{str(k): v for k, v in run.attrs.items()}, **{str(k): v for k, v in grid.items()}}
+    return {name: _plain(value) for name, value in run.items() if name not in OUTCOMES}
+
+
+def _plain(value: Any) -> object:
+    """Return numbers, text and lists of them for NumPy's and xarray's."""
+    if isinstance(value, (list, tuple, np.ndarray, np.generic, xr.DataArray)):
+        return np.asarray(value).tolist()
+    return value
+
+
+def _same(one: object, other: object) -> bool:
+    """Whether two plain values are equal, NaN to itself."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return one == other or (one != one and other != other)  # noqa: PLR0124
 
 
 @contextmanager

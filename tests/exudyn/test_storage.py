@@ -8,7 +8,7 @@ import xarray as xr
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import load, save, simulate
-from rotbeam_exu.storage import whole_file, writable_folder
+from rotbeam_exu.storage import differing_inputs, whole_file, writable_folder
 
 
 @pytest.fixture(scope="module")
@@ -76,3 +76,43 @@ def test_a_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="cannot write to the folder .* choose another"):
         writable_folder(tmp_path / "file" / "results")
+
+
+def test_inputs_that_differ_from_a_file_are_named(run, tmp_path):
+    path = save(run, tmp_path / "run.nc")
+    # Another day, another machine, another version: the same run.
+    again = run.assign_attrs(wall_time=9.0, versions="{}", verdict="failed")
+    assert differing_inputs(again, path) == {}
+    assert differing_inputs(run, tmp_path / "none.nc") == {}
+    other = run.assign_attrs(step=1e-3, frame="rotating")
+    assert differing_inputs(other, path) == {
+        "frame": ("rotating", "inertial"),
+        "step": (1e-3, 5e-3),
+    }
+    # Before it is computed, its inputs will do.
+    inputs = {**run.attrs, "elements": np.int64(2)}
+    assert differing_inputs(inputs, path) == {}
+    assert differing_inputs({**inputs, "beam_length": 9.0}, path) == {"beam_length": (9.0, 8.0)}
+
+
+def test_another_grid_differs_and_so_does_what_would_be_lost(tmp_path):
+    grid = xr.Dataset(
+        {"a": (("omega", "time"), np.zeros((2, 3)))},
+        coords={"omega": [4.0, np.nan], "time": [0.0, 1.0, 2.0]},
+    )
+    path = save(grid, tmp_path / "sweep.nc")
+    assert differing_inputs(grid.isel(time=[0]), path) == {}
+    assert list(differing_inputs(grid.isel(omega=[0]), path)) == ["omega"]
+    assert differing_inputs({"omega": [4.0, 6.0, 8.0]}, path)["omega"][0] == [4.0, 6.0, 8.0]
+    assert differing_inputs({"omega": np.array([4.0, np.nan])}, path) == {}
+    assert differing_inputs(grid.drop_vars("a"), path)["variables"] == (
+        ["omega", "time"],
+        ["a", "omega", "time"],
+    )
+
+
+def test_a_file_that_cannot_be_read_differs(run, tmp_path):
+    (tmp_path / "run.nc").write_text("mine")
+    assert "not a netCDF file" in differing_inputs(run, tmp_path / "run.nc")["file"][1]
+    (tmp_path / "folder.nc").mkdir()
+    assert list(differing_inputs(run, tmp_path / "folder.nc")) == ["file"]
