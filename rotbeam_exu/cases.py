@@ -65,11 +65,12 @@ class Case:
             raise ValueError(f"unknown frame {self.frame!r}; known are 'inertial' and 'rotating'")
         require_steady_state(self.beam, self.spin_up.omega)
         try:
-            json.dumps(options_of(formulation(self.element)))
+            model = formulation(self.element)
+            json.dumps([options_of(model), hash(model)])
         except TypeError as error:
             raise TypeError(
-                "element must be the name of a formulation, or an instance of a dataclass whose "
-                f"options are numbers and text, got {self.element!r}"
+                "element must be the name of a formulation, or an instance of a frozen dataclass "
+                f"whose options are numbers and text, got {self.element!r}"
             ) from error
 
     def describe(self) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import site
 import sys
 import sysconfig
 from functools import lru_cache
-from importlib.machinery import ModuleSpec
+from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import find_spec, resolve_name
 from pathlib import Path
 from types import FunctionType
@@ -94,10 +94,17 @@ def _parsed(source: str, package: str) -> tuple[str, frozenset[str]]:
 
 
 def _spec(name: str) -> ModuleSpec | None:
+    """Find a module without importing it or the packages around it, or return None."""
+    top, *rest = name.split(".")
     try:
-        return find_spec(name)
-    except (ImportError, ValueError, AttributeError):
+        spec = find_spec(top)
+    except (ImportError, ValueError):
         return None
+    for part in rest:
+        if spec is None or not spec.submodule_search_locations:
+            return None
+        spec = PathFinder.find_spec(f"{spec.name}.{part}", spec.submodule_search_locations)
+    return spec
 
 
 @lru_cache

@@ -1,6 +1,7 @@
 """The cache and elements of one's own: another code, another case."""
 
 import importlib
+import sys
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,14 +40,14 @@ def author(tmp_path, monkeypatch):
         (folder / "mine.py").write_text(mine)
         (folder / "softness.py").write_text(softness)
         for name in ("softness", "mine"):
-            monkeypatch.delitem(importlib.sys.modules, name, raising=False)
+            monkeypatch.delitem(sys.modules, name, raising=False)
         importlib.invalidate_caches()
         return importlib.import_module("mine").Cable()
 
-    monkeypatch.setattr(importlib.sys, "dont_write_bytecode", True)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
     yield write
     for name in ("softness", "mine"):
-        importlib.sys.modules.pop(name, None)
+        sys.modules.pop(name, None)
 
 
 def test_an_element_with_the_name_of_ours_is_computed(beam, tmp_path, author):
@@ -75,10 +76,18 @@ def test_any_change_of_code_makes_another_case_and_nothing_else_does(author):
     assert len({made["code"] for made in [first, *changed]}) == 5
 
 
-def test_ours_are_cached_and_their_code_includes_the_simulation():
+def test_ours_are_cached_and_looking_at_their_code_imports_nothing():
+    before = set(sys.modules)
     for name in FORMULATIONS:
         assert maker(name) is not None
+    assert set(sys.modules) == before
     assert maker("cable")["class"] == "rotbeam_exu.elements.cable.Cable"
+
+
+@pytest.mark.slow
+def test_an_element_of_ones_own_goes_to_other_processes(beam, author):
+    grid = {**COARSE, "ramp_times": [3.0, 2.0], "element": author()}
+    xr.testing.assert_identical(sweep(beam, **{**grid, "jobs": 2}), sweep(beam, **grid))
 
 
 def test_an_element_that_its_source_does_not_tell_is_not_cached(beam, tmp_path):
@@ -106,3 +115,21 @@ def test_neither_is_one_from_a_prompt_nor_one_that_was_patched(monkeypatch):
     assert maker(names["Cable"]()) is None
     monkeypatch.setattr(Cable, "axial_strain", lambda self, beam, e: np.zeros(1))
     assert maker("cable") is None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tapered(Cable):
+    """An element whose option no file can hold."""
+
+    widths: object = None
+
+
+@dataclass(kw_only=True)
+class Changeable(Cable.__base__):
+    """An element that is no value."""
+
+
+@pytest.mark.parametrize("element", [Tapered(widths=np.ones(2)), Changeable(), Cable, 3])
+def test_what_cannot_be_recorded_is_refused(beam, element):
+    with pytest.raises(TypeError, match="element must be the name .* of a frozen dataclass"):
+        sweep(beam, **COARSE, element=element)

@@ -140,7 +140,7 @@ def test_any_dataset_loads_equal(tmp_path_factory, data):
 
 
 @pytest.mark.slow
-@settings(max_examples=300, **SETTINGS)
+@settings(max_examples=100, **SETTINGS)
 @given(data=datasets())
 def test_many_datasets_load_equal(tmp_path_factory, data):
     check_loads_equal(tmp_path_factory.mktemp("any"), data)
