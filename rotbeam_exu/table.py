@@ -1,4 +1,6 @@
-"""A Dataset as a CSV table for everyone, with header lines from which it is read back whole.
+"""A Dataset as a CSV table for everyone, with header lines from which it is read back.
+
+A table begins like this::
 
     # rotbeam_exu table, sha256 of all below: 5d41...
     # beam_length = 8.0

@@ -1,5 +1,6 @@
 """Sweeps: same numbers however they are run, nothing lost, failures on record."""
 
+import json
 import os
 import signal
 import subprocess
@@ -47,6 +48,16 @@ def test_a_sweep_is_its_runs(beam, serial):
     assert here["omega_n"].item() == natural_frequencies(beam, 6.0, elements=2)[0]
     assert np.array_equal(here["q"], run["q"])
     assert here["verdict"].item() == "passed"
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+def test_a_sweep_in_a_file_says_what_was_run(serial, tmp_path, ending):
+    table = serial.drop_dims("time")
+    kept = load(save(table, tmp_path / f"sweep.{ending}"))
+    xr.testing.assert_identical(kept, table)
+    assert kept.attrs["element"] == "cable"
+    assert kept.attrs["step"] == 5e-3
+    assert json.loads(kept.attrs["versions"])["exudyn"]
 
 
 def test_processes_give_the_same_bits(beam, serial):
