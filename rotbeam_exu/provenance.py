@@ -16,14 +16,15 @@ from pathlib import Path
 from types import FunctionType
 
 _OURS = ("rotbeam_exu", "analytic")
+_DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 def code_of(cls: type, *modules: str) -> str | None:
     """Return a digest of the code of a class, its bases, `modules`, and all that they import.
 
     Followed are this project's modules, those of the package of the class, and whatever lies
-    outside of the folders of installed libraries, for which their versions speak. Comments, layout
-    and what stands under ``if __name__ == "__main__":`` do not count.
+    outside of the folders of installed libraries, for which their versions speak. Comments,
+    docstrings, layout and what stands under ``if __name__ == "__main__":`` do not count.
 
     Returns
     -------
@@ -84,6 +85,8 @@ def _parsed(source: str, package: str) -> tuple[str, frozenset[str]]:
     ]
     found: set[str] = set()
     for node in ast.walk(tree):
+        if isinstance(node, _DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            del node.body[0]
         if isinstance(node, ast.Import):
             found.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

@@ -65,6 +65,7 @@ def test_any_change_of_code_makes_another_case_and_nothing_else_does(author):
     first = maker(author())
     assert first == maker(author())
     assert first == maker(author(MINE.replace("class Cable", "# a remark\n\nclass Cable")))
+    assert first == maker(author(MINE.replace("elements):", "elements):\n        'Lay it.'")))
     script = "\nif __name__ == '__main__':\n    print('the grid of the day')\n"
     assert first == maker(author(MINE + script))
     changed = [
