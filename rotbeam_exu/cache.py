@@ -1,4 +1,4 @@
-"""Finished cases on disk: one file each, named by its content and the versions that matter."""
+"""Finished cases on disk: one file each, named by its inputs and the code that made it."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ import hashlib
 import json
 import os
 import warnings
+from collections.abc import Mapping
 from typing import Any
 
 import xarray as xr
 
 from analytic.input_checks import RotbeamWarning
 
+from .round_trip import plain
 from .simulation import versions
-from .storage import load, save, whole_file, writable_folder
+from .storage import read, save, whole_file, writable_folder
 
-_FORMAT = 1
+_FORMAT = 2
 _MARK = "rotbeam-cache.json"
 
 
@@ -26,6 +28,8 @@ class Cache:
     ----------
     folder : path
         Made if needed.
+    made_by : mapping, optional
+        What else than the description and the versions of libraries decides a result: its code.
 
     Raises
     ------
@@ -35,10 +39,12 @@ class Cache:
         If it cannot be written.
     """
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
+    def __init__(
+        self, folder: str | os.PathLike[str], *, made_by: Mapping[str, str] | None = None
+    ) -> None:
         self._folder = writable_folder(folder)
-        # Python's and scipy's version do not enter the simulation.
-        self._versions = {k: v for k, v in versions().items() if k not in ("python", "scipy")}
+        made_with = {k: v for k, v in versions().items() if k != "python"}
+        self._made = {**made_with, **(made_by or {})}
         mark = self._folder / _MARK
         if mark.exists():
             try:
@@ -64,9 +70,12 @@ class Cache:
         if not path.exists():
             return None
         try:
-            result = load(path)
-            if result.attrs.pop("case", None) != name:
+            result, sealed = read(path)
+            case, content = (result.attrs.pop(key, None) for key in ("case", "content"))
+            if case != name:
                 raise ValueError(f"{path} does not hold the case it is named after")
+            if not sealed or content != _digest(result):
+                raise ValueError(f"{path} was changed after it was written")
         except ValueError as error:
             aside = path.with_suffix(".damaged")
             path.replace(aside)
@@ -83,7 +92,7 @@ class Cache:
         name = self._name(description)
         path = self._folder / f"{name}.nc"
         try:
-            save(result.assign_attrs(case=name), path)
+            save(result.assign_attrs(case=name, content=_digest(result)), path)
         except OSError as error:
             raise OSError(
                 f"cannot keep a finished case in {self._folder}: {error.strerror or error}; "
@@ -91,5 +100,16 @@ class Cache:
             ) from error
 
     def _name(self, description: dict[str, Any]) -> str:
-        content = json.dumps({"case": description, "versions": self._versions}, sort_keys=True)
+        content = json.dumps({"case": description, "made": self._made}, sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()[:32]
+
+
+def _digest(result: xr.Dataset) -> str:
+    """Digest of the content, apart from the file that holds it."""
+    digest = hashlib.sha256(json.dumps(plain(result.attrs), sort_keys=True).encode())
+    for name in sorted(map(str, result.variables)):
+        variable = result[name].variable
+        head = [name, variable.dims, variable.shape, variable.dtype.str, plain(variable.attrs)]
+        digest.update(json.dumps(head, sort_keys=True).encode())
+        digest.update(variable.to_numpy().tobytes())
+    return digest.hexdigest()

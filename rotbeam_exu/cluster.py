@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Executor
 from typing import Any
 
-_PATIENCE = "5s"
+_PATIENCE = 5.0  # s
 
 
 def dask_executor(scheduler: str) -> tuple[Executor, Any]:
@@ -21,7 +21,7 @@ def dask_executor(scheduler: str) -> tuple[Executor, Any]:
     ImportError
         If Dask is not installed.
     OSError
-        If the scheduler does not answer within ten seconds.
+        If the scheduler does not answer within five seconds.
     """
     try:
         from distributed import Client  # noqa: PLC0415  (an extra)
@@ -33,7 +33,7 @@ def dask_executor(scheduler: str) -> tuple[Executor, Any]:
         client: Any = Client(scheduler, timeout=_PATIENCE)
     except (OSError, ValueError) as error:
         raise OSError(
-            f"the scheduler {scheduler} does not answer within {_PATIENCE}: check its address "
+            f"the scheduler {scheduler} does not answer within {_PATIENCE:g} s: check its address "
             "and that it runs"
         ) from error
     return client.get_executor(), client

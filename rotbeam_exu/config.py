@@ -37,8 +37,11 @@ def load_beam(path: str | os.PathLike[str]) -> Beam:
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
     try:
-        document = tomllib.loads(source.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
+        document = tomllib.loads(source.read_text(encoding="utf-8-sig"))
+    except RecursionError as error:
+        raise ValueError(f"{source} is not a beam: it is nested too deeply") from error
+    except ValueError as error:  # of TOML, of UTF-8, or of an integer with too many digits
         raise ValueError(f"{source} is not valid TOML: {error}") from error
     for name in document:
         if name != "beam":
@@ -58,5 +61,5 @@ def load_beam(path: str | os.PathLike[str]) -> Beam:
         raise ValueError(f"{source}: [beam] lacks {', '.join(missing)}")
     try:
         return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
-    except (TypeError, ValueError) as error:
+    except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error

@@ -1,48 +1,52 @@
-"""Results on disk: netCDF that loads back equal, CSV to read anywhere; whole or not at all."""
+"""Results on disk: netCDF and CSV that load back equal; whole or not at all."""
 
 from __future__ import annotations
 
-import io
 import os
 import tempfile
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-import h5netcdf
 import xarray as xr
-from xarray.backends import H5NetCDFStore
+
+from analytic.input_checks import RotbeamWarning
+
+from . import netcdf, table
+from .round_trip import difference, plain, same
+
+OUTCOMES = frozenset({"critical_speed", "failure", "settings", "verdict", "versions", "wall_time"})
+"""Attributes of a result that follow from its inputs, and from where and when it was made."""
 
 
 def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     """Write a Dataset as netCDF (.nc) or CSV (.csv), by the ending of `path`, and return the path.
 
-    The CSV has one row per sample, units in the header, and holds no attributes.
+    `load` gives back what was written: variables, coordinates, attributes, every bit of every
+    number; text comes back as NumPy's text, tuples as lists. The CSV has one row per sample, units
+    in the header of its columns, and all else in lines above that begin with "#".
 
     Raises
     ------
     ValueError
-        If the ending is neither.
+        If the ending is neither; if something would not come back as it is, which the sentence
+        names.
     OSError
         If the file cannot be written; what stood there before then still stands.
     """
     target = Path(path)
     if target.suffix not in (".nc", ".csv"):
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
+    try:
+        content = (netcdf if target.suffix == ".nc" else table).encode(run)
+        lost = difference(run, _decoded(target, content)[0])
+    except (LookupError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot write {target.name!r}: {error}") from error
+    if lost:
+        raise ValueError(f"cannot write {target.name!r}: {lost}")
     with whole_file(target) as partial:
-        if target.suffix == ".nc":
-            # In memory first: HDF5 does not survive a disk that fills while it writes.
-            buffer = io.BytesIO()
-            with h5netcdf.File(buffer, "w") as file:
-                run.dump_to_store(H5NetCDFStore(file))
-            partial.write_bytes(buffer.getbuffer())
-        else:
-            frame = run.to_dataframe().reset_index()
-            units = {str(name): run[name].attrs.get("units", "") for name in frame.columns}
-            frame = frame.rename(
-                columns={n: f"{n} [{u}]" for n, u in units.items() if u not in ("", "1")}
-            )
-            frame.to_csv(partial, index=False)
+        partial.write_bytes(content)
     return target
 
 
@@ -63,24 +67,101 @@ def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read a Dataset that `save` wrote as netCDF, attributes included.
+    """Read a Dataset that `save` wrote, attributes included.
 
     Raises
     ------
     ValueError
-        If the file is not one that can be read.
+        If the file cannot be read, was damaged or changed since it was written, or names other
+        files to read from.
     FileNotFoundError
         If there is none.
+
+    Warns
+    -----
+    RotbeamWarning
+        If a netCDF file was not written by `save`, so that nothing tells whether it is damaged.
     """
+    run, sealed = read(path)
+    if not sealed:
+        warnings.warn(
+            f"{path} was not written by `save`, or by an older version, so that damage would not "
+            "show; check its numbers, and save what was loaded",
+            RotbeamWarning,
+            stacklevel=2,
+        )
+    return run
+
+
+def read(path: str | os.PathLike[str]) -> tuple[xr.Dataset, bool]:
+    """Return what `load` does, and instead of a warning whether a digest vouches for it."""
     source = Path(path)
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
     try:
-        return xr.load_dataset(source, engine="h5netcdf")
-    except (OSError, ValueError, KeyError) as error:
+        return _decoded(source, source.read_bytes())
+    except (LookupError, TypeError, ValueError) as error:
+        if source.suffix == ".csv":
+            raise ValueError(
+                f"{source} cannot be loaded: {error}; pandas.read_csv(path, comment='#') reads any "
+                "table, without units and attributes"
+            ) from error
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
+
+
+def _decoded(path: Path, content: bytes) -> tuple[xr.Dataset, bool]:
+    return (table.decode(content), True) if path.suffix == ".csv" else netcdf.decode(content)
+
+
+def differing_inputs(
+    run: xr.Dataset | Mapping[str, object], path: str | os.PathLike[str]
+) -> dict[str, tuple[object, object]]:
+    """Tell whether the file at `path` holds the same inputs: what to ask before replacing it.
+
+    Inputs are the attributes but `OUTCOMES`, and the coordinates of every dimension but time: the
+    grid of a sweep.
+
+    Parameters
+    ----------
+    run : Dataset or mapping
+        A result, or only its inputs by name, where it is not computed yet.
+    path : path
+        A file that `save` wrote, or none.
+
+    Returns
+    -------
+    dict
+        By name, the value in `run` and the one in the file, None where there is none, of every
+        input that differs; `variables`, if the file has some that the result lacks; `file`, if it
+        cannot be read. Empty if there is no file, or if it may be replaced without loss.
+    """
+    if not Path(path).exists():
+        return {}
+    try:
+        there, _ = read(path)
+    except (OSError, ValueError) as error:
+        return {"file": (None, str(error))}
+    mine, theirs = _inputs(run), _inputs(there)
+    differing = {
+        name: (mine.get(name), theirs.get(name))
+        for name in sorted(mine.keys() | theirs.keys())
+        if not same(mine.get(name), theirs.get(name))
+    }
+    if isinstance(run, xr.Dataset) and not there.variables.keys() <= run.variables.keys():
+        differing["variables"] = (
+            sorted(map(str, run.variables)),
+            sorted(map(str, there.variables)),
+        )
+    return differing
+
+
+def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
+    if isinstance(run, xr.Dataset):
+        grid = {name: run[name] for name in run.dims if name in run.coords and name != "time"}
+        run = {**{str(k): v for k, v in run.attrs.items()}, **{str(k): v for k, v in grid.items()}}
+    return {name: plain(value) for name, value in run.items() if name not in OUTCOMES}
 
 
 @contextmanager

@@ -6,23 +6,25 @@ import multiprocessing
 import os
 import signal
 import threading
+import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from itertools import product
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from analytic import Beam, SpinUp
-from analytic.input_checks import whole_number
+from analytic.input_checks import RotbeamWarning, finite_values, whole_number
 
 from .cache import Cache
-from .cases import MEASURED, Case, solve
+from .cases import Case, maker, solve
 from .elements import Formulation, formulation
+from .measured import collect
 from .solver import Frame
 from .verdict import SimulationError
 
@@ -64,6 +66,8 @@ def sweep(
         Number of processes of the default executor, by default the cores; 1 runs in this process.
     cache : path, optional
         Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
+        What is found there was made by the same code: of this project, of the element, of whatever
+        else they import that is no installed library.
     progress : callable, optional
         Called with the cases done and their number.
     on_error : {"raise", "record"}
@@ -78,45 +82,51 @@ def sweep(
     Dataset
         Over `omega` and `ramp_time`: amplitude, first_harmonic, offset and residual [-],
         frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, for a case
-        of another shard, "pending") and failure, the sentence; with `history` also q [m].
+        of another shard, "pending") and failure, the sentence; with `history` also q [m], NaN where
+        it was not computed or another case's time has no sample.
 
     Raises
     ------
     ValueError
-        If the grid is empty or has duplicates, or an input is refused.
+        If the grid is empty or has duplicates, or an input is refused, mostly before any work.
     SimulationError
-        If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached.
+        If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached, and
+        the attribute `run` of the error holds what would have been returned, as far as it got.
     """
     cases = _grid(
-        [float(w) for w in omegas],
-        [float(t) for t in ramp_times],
+        _values("omegas", omegas, "rad/s"),
+        _values("ramp_times", ramp_times, "s"),
         lambda spin_up: Case(
             beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
             step=step, frame=frame,
         ),
     )  # fmt: skip
-    formulation(element)
-    whole_number("elements", elements)
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
-    part, parts = whole_number("shard", shard[0]), whole_number("shard", shard[1])
+    if jobs is not None:
+        jobs = whole_number("jobs", jobs)
+    part, parts = (whole_number("shard", number) for number in shard)
     if part > parts:
         raise ValueError(f"shard {part}/{parts}: the part must be between 1 and {parts}")
     mine = list(cases)[part - 1 :: parts]
-    store = None if cache is None else Cache(cache)
+    store = None if cache is None else _store(cache, element)
     results: dict[tuple[float, float], xr.Dataset] = {}
-    for done, (point, result) in enumerate(
-        _solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
-    ):
-        results[point] = result
-        if progress is not None:
-            progress(done, len(mine))
-        if result.attrs["failure"] and on_error == "raise":
-            raise SimulationError(
-                f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
-                f"{result.attrs['failure']}; on_error='record' keeps going"
-            )
-    return _collect(cases, results, history)
+    try:
+        for done, (point, result) in enumerate(
+            _solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
+        ):
+            results[point] = result
+            if progress is not None:
+                progress(done, len(mine))
+            if result.attrs["failure"] and on_error == "raise":
+                raise SimulationError(
+                    f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
+                    f"{result.attrs['failure']}; on_error='record' keeps going"
+                )
+    except SimulationError as error:
+        error.run = collect(cases, results, history)
+        raise
+    return collect(cases, results, history)
 
 
 def failures(result: xr.Dataset) -> dict[str, int]:
@@ -129,12 +139,16 @@ def failures(result: xr.Dataset) -> dict[str, int]:
     return dict(causes.most_common())
 
 
+def _values(name: str, values: Sequence[float], unit: str) -> list[float]:
+    if np.size(np.asarray(values)) == 0:
+        raise ValueError(f"{name} is empty; give at least one value")
+    return [float(value) for value in finite_values(name, values, unit)]
+
+
 def _grid(
     omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], Case]
 ) -> dict[tuple[float, float], Case]:
     for name, values in (("omegas", omegas), ("ramp_times", ramp_times)):
-        if not values:
-            raise ValueError(f"{name} is empty; give at least one value")
         twice = [f"{value:g}" for value, count in Counter(values).items() if count > 1]
         if twice:
             raise ValueError(f"{name} holds {', '.join(twice)} more than once")
@@ -142,6 +156,20 @@ def _grid(
         (omega, ramp_time): make(SpinUp(omega=omega, ramp_time=ramp_time))
         for omega, ramp_time in product(omegas, ramp_times)
     }
+
+
+def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
+    made_by = maker(element)
+    if made_by is None:
+        cls = type(formulation(element))
+        warnings.warn(
+            f"the source of {cls.__qualname__} does not tell what it does, so its cases are not "
+            "kept in the cache; define it at the top level of a module on file",
+            RotbeamWarning,
+            stacklevel=3,
+        )
+        return None
+    return Cache(folder, made_by=made_by)
 
 
 def _solved(
@@ -198,7 +226,7 @@ def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Ex
         yield executor
         return
     cores = os.cpu_count() or 1
-    workers = min(whole_number("jobs", cores if jobs is None else jobs), most)
+    workers = min(cores if jobs is None else jobs, most)
     spawn = multiprocessing.get_context("spawn")
     own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
     try:
@@ -223,60 +251,3 @@ def _obey_parent() -> None:
             os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
-
-
-def _collect(
-    cases: dict[tuple[float, float], Case],
-    results: dict[tuple[float, float], xr.Dataset],
-    history: bool,
-) -> xr.Dataset:
-    omegas = list(dict.fromkeys(omega for omega, _ in cases))
-    ramp_times = list(dict.fromkeys(ramp_time for _, ramp_time in cases))
-    shape = (len(omegas), len(ramp_times))
-    dims = ("omega", "ramp_time")
-    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in MEASURED}
-    verdict = np.full(shape, "pending", dtype=object)
-    failure = np.full(shape, "", dtype=object)
-    for i, j in np.ndindex(shape):
-        result = results.get((omegas[i], ramp_times[j]))
-        if result is None:
-            continue
-        verdict[i, j], failure[i, j] = result.attrs["verdict"], result.attrs["failure"]
-        if not result.attrs["failure"]:
-            for name, column in columns.items():
-                column[i, j] = result.attrs[name]
-    first = next(iter(cases.values())).describe()
-    data = xr.Dataset(
-        {
-            name: (dims, column, {"units": MEASURED[name][0], "long_name": MEASURED[name][1]})
-            for name, column in columns.items()
-        },
-        coords={
-            "omega": ("omega", omegas, {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "ramp_time": ("ramp_time", ramp_times, {"units": "s", "long_name": "ramp time T"}),
-        },
-        attrs={k: v for k, v in first.items() if k not in ("omega", "ramp_time")},
-    )
-    data["verdict"] = (dims, verdict.astype(str), {"units": "1", "long_name": "verdict"})
-    data["failure"] = (dims, failure.astype(str), {"units": "1", "long_name": "why a case failed"})
-    if history:
-        data = data.merge(_histories(omegas, ramp_times, results))
-    return data
-
-
-def _histories(
-    omegas: list[float],
-    ramp_times: list[float],
-    results: dict[tuple[float, float], xr.Dataset],
-) -> xr.Dataset:
-    """Q over (omega, ramp_time, time), NaN where a case has none."""
-    finished = {point: r["q"] for point, r in results.items() if not r.attrs["failure"]}
-    if not finished:
-        return xr.Dataset()
-    some = next(iter(finished.values()))
-    missing = some * np.nan
-    rows = [
-        xr.concat([finished.get((w, t), missing) for t in ramp_times], dim="ramp_time")
-        for w in omegas
-    ]
-    return xr.concat(rows, dim="omega").assign_attrs(some.attrs).to_dataset(name="q")

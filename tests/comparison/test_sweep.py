@@ -1,5 +1,6 @@
 """Sweeps: same numbers however they are run, nothing lost, failures on record."""
 
+import json
 import os
 import signal
 import subprocess
@@ -7,21 +8,27 @@ import sys
 import time
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
+from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     SimulationError,
+    load,
     natural_frequencies,
+    save,
     simulate,
     steady_oscillation,
     sweep,
     sweeps,
 )
+from rotbeam_exu.elements import Cable
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
 COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
@@ -33,8 +40,6 @@ def serial(beam):
 
 
 def test_a_sweep_is_its_runs(beam, serial):
-    from analytic import SpinUp
-
     run = simulate(beam, SpinUp(omega=6.0, ramp_time=2.0), **COARSE)
     steady = steady_oscillation(run)
     here = serial.sel(omega=6.0, ramp_time=2.0)
@@ -43,6 +48,16 @@ def test_a_sweep_is_its_runs(beam, serial):
     assert here["omega_n"].item() == natural_frequencies(beam, 6.0, elements=2)[0]
     assert np.array_equal(here["q"], run["q"])
     assert here["verdict"].item() == "passed"
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+def test_a_sweep_in_a_file_says_what_was_run(serial, tmp_path, ending):
+    table = serial.drop_dims("time")
+    kept = load(save(table, tmp_path / f"sweep.{ending}"))
+    xr.testing.assert_identical(kept, table)
+    assert kept.attrs["element"] == "cable"
+    assert kept.attrs["step"] == 5e-3
+    assert json.loads(kept.attrs["versions"])["exudyn"]
 
 
 def test_processes_give_the_same_bits(beam, serial):
@@ -61,13 +76,14 @@ def test_dask_gives_the_same_bits(beam, serial):
     xr.testing.assert_identical(found, serial)
 
 
-def test_a_scheduler_that_does_not_answer_is_a_sentence_within_ten_seconds():
+def test_a_scheduler_that_does_not_answer_is_a_sentence_within_the_time_it_gives():
     pytest.importorskip("distributed")
     from rotbeam_exu.cluster import dask_executor
 
     started = time.monotonic()
-    with pytest.raises(OSError, match="scheduler tcp://127.0.0.1:9 does not answer"):
+    with pytest.raises(OSError, match="scheduler tcp://127.0.0.1:9 does not answer within 5 s"):
         dask_executor("tcp://127.0.0.1:9")
+    # As long as it says; distributed needs a while to be imported and to close its threads.
     assert time.monotonic() - started < 10.0
 
 
@@ -101,9 +117,23 @@ def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, tmp_
     assert victim.with_suffix(".damaged").stat().st_size == 1000
 
 
+@pytest.mark.parametrize("amplitude", [0.5, np.nan])
+def test_a_number_changed_by_hand_is_not_believed(beam, serial, tmp_path, amplitude):
+    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+    victims = sorted(tmp_path.glob("*.nc"))[:2]
+    # With our own means, and with others'.
+    save(load(victims[0]).assign_attrs(amplitude=amplitude), victims[0])
+    with h5py.File(victims[1], "r+") as file:
+        file.attrs["amplitude"] = amplitude
+    with pytest.warns(RotbeamWarning, match="was changed after it was written; it is set aside"):
+        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, history=True)
+    xr.testing.assert_identical(again, serial)
+    assert len(list(tmp_path.glob("*.damaged"))) == 2
+
+
 def test_a_cache_of_another_format_is_refused(beam, tmp_path):
     (tmp_path / "rotbeam-cache.json").write_text('{"format": 99}')
-    with pytest.raises(ValueError, match="has format 99, this version writes 1; choose another"):
+    with pytest.raises(ValueError, match="has format 99, this version writes 2; choose another"):
         sweep(beam, **SMALL, **COARSE, cache=tmp_path)
 
 
@@ -117,6 +147,61 @@ def test_a_failed_case_stays_on_record_with_its_sentence(beam):
     assert list(sweeps.failures(found).values()) == [1]
     with pytest.raises(SimulationError, match=r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"):
         sweep(beam, **grid, **COARSE, jobs=1)
+
+
+def test_what_was_computed_of_a_failed_case_is_kept(beam, tmp_path):
+    grid = {"omegas": [6.0], "ramp_times": [3.0, 8.5], "history": True, "jobs": 1}
+    found = sweep(beam, **grid, **COARSE, on_error="record", cache=tmp_path)
+    run = simulate(beam, SpinUp(omega=6.0, ramp_time=8.5), **COARSE)
+    assert found["verdict"].to_numpy().tolist() == [["passed", "failed"]]
+    assert np.array_equal(found["q"].sel(ramp_time=8.5).squeeze(), run["q"])
+    # From the cache the same; and the error of a sweep that ends holds what was there by then.
+    with pytest.raises(SimulationError) as stop:
+        sweep(beam, **grid, **COARSE, cache=tmp_path)
+    xr.testing.assert_identical(stop.value.run, found)
+
+
+def test_what_a_run_that_fails_its_checks_computed_is_kept(beam):
+    options = {"element": "linear", "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1}
+    found = sweep(beam, omegas=[6.0], ramp_times=[3.0], **options, on_error="record", history=True)
+    assert found["verdict"].item() == "failed"
+    assert np.isfinite(found["q"]).any()
+    assert np.isnan(found["amplitude"].item())
+
+
+def test_histories_whose_samples_differ_stand_side_by_side(beam, monkeypatch):
+    def solved(case):
+        step = 0.5 if case.spin_up.ramp_time == 2.0 else 1.0
+        time = np.arange(0.0, 4.0, step)
+        q = xr.Dataset({"q": ("time", time)}, {"time": time})
+        return q.assign_attrs(verdict="failed", failure="made up")
+
+    monkeypatch.setattr(sweeps, "solve", solved)
+    found = sweep(beam, **SMALL, **COARSE, jobs=1, on_error="record", history=True)
+    for ramp_time, every in ((2.0, 1), (3.0, 2)):
+        q = found["q"].sel(omega=4.0, ramp_time=ramp_time)
+        assert np.array_equal(q.dropna("time"), found["time"][::every])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Misshapen(Cable):
+    """An element with a mistake, as its author makes."""
+
+    def axial_strain(self, beam, coordinates):
+        return np.zeros(2) + np.zeros(3)
+
+
+def test_a_mistake_in_an_element_is_no_failed_case(beam):
+    with pytest.raises(ValueError, match="could not be broadcast together"):
+        sweep(beam, **SMALL, **COARSE, jobs=1, element=Misshapen(), on_error="record")
+
+
+def test_numbers_of_numpy_are_numbers(beam, serial, tmp_path):
+    grid = {name: np.array(values) for name, values in SMALL.items()}
+    coarse = {"elements": np.int64(2), "step": np.float64(5e-3), "duration": np.int64(9)}
+    for _ in range(2):
+        found = sweep(beam, **grid, **coarse, jobs=1, cache=tmp_path, history=True)
+        xr.testing.assert_identical(found, serial)
 
 
 def test_shards_make_the_whole(beam, serial, tmp_path):
@@ -220,11 +305,25 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
         ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
         ({"on_error": "ignore"}, "unknown on_error 'ignore'"),
         ({"jobs": -1}, "jobs must be at least 1"),
+        ({"jobs": True}, "jobs must be a whole number, got True"),
+        ({"shard": (1.5, 4)}, r"shard must be a whole number, got 1\.5"),
+        ({"step": np.nan}, "step must be finite, got nan s"),
+        ({"step": np.inf}, "step must be finite, got inf s"),
+        ({"step": -1.0}, "step must be positive"),
+        ({"duration": 2.5}, "duration 2.5 s ends before .* begins at ramp_time 3 s; take a longer"),
+        ({"elements": 2.5}, r"elements must be a whole number, got 2\.5"),
+        ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
+        ({"element": "brick"}, "unknown element 'brick'"),
+        ({"element": Cable}, "element must be the name of a formulation, or an instance"),
+        ({"omegas": ["6"]}, "omegas must be numbers in rad/s"),
+        ({"omegas": [6.0, np.nan]}, "omegas must be finite, got nan rad/s"),
+        ({"omegas": [1e6]}, "leaves no steady state"),
     ],
 )
-def test_bad_grids_are_refused(beam, options, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        sweep(beam, **{**SMALL, **COARSE, **options})
+def test_bad_input_is_refused_before_any_work(beam, monkeypatch, options, sentence):
+    monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("worked"))
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        sweep(beam, **{**SMALL, **COARSE, "jobs": 1, **options})
 
 
 def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):

@@ -2,13 +2,19 @@
 
 import json
 
+import h5py
+import hypothesis.extra.numpy as npst
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from analytic import Beam, SpinUp
+from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import load, save, simulate
-from rotbeam_exu.storage import whole_file, writable_folder
+from rotbeam_exu.storage import differing_inputs, save_tables, whole_file, writable_folder
 
 
 @pytest.fixture(scope="module")
@@ -46,10 +52,274 @@ def test_every_variable_has_unit_and_name(run):
 
 def test_csv_holds_every_sample_with_units(run, tmp_path):
     path = save(run, tmp_path / "run.csv")
-    header = path.read_text().splitlines()[0]
-    assert header.startswith("time [s],q [m],q_dot [m/s],")
-    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    titles = pd.read_csv(path, comment="#").columns
+    assert titles[:3].tolist() == ["time [s]", "q [m]", "q_dot [m/s]"]
+    table = np.loadtxt(path, delimiter=",", skiprows=len(header(path)) + 1)
     assert np.array_equal(table[:, 1], run["q"])
+
+
+def header(path):
+    """The lines of a table above its titles."""
+    return [line for line in path.read_text(encoding="utf-8").split("\n") if line.startswith("#")]
+
+
+def test_csv_says_what_was_run_and_loads_equal(run, tmp_path):
+    path = save(run, tmp_path / "run.csv")
+    lines = header(path)
+    assert "# beam_length = 8.0" in lines
+    assert "# omega = 6.0" in lines
+    assert '# element = "cable"' in lines
+    assert "# elements = 2" in lines
+    assert "# step = 0.005" in lines
+    assert any(line.startswith("# versions = ") and "exudyn" in line for line in lines)
+    kept = load(path)
+    xr.testing.assert_identical(kept, run)
+    assert {name: type(value) for name, value in kept.attrs.items()} == {
+        name: type(value) for name, value in run.attrs.items()
+    }
+
+
+TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=8)
+NUMBERS = st.one_of(st.floats(), st.integers(-(2**63), 2**63 - 1))
+NAMES = st.text("abcxyz_019", min_size=1, max_size=5)
+ATTRIBUTES = st.dictionaries(
+    NAMES.map("my_{}".format),
+    st.one_of(
+        TEXT,
+        NUMBERS,
+        st.lists(st.floats(), min_size=2, max_size=4),
+        st.lists(TEXT, min_size=2, max_size=4),
+    ),
+    max_size=4,
+)
+VALUES = st.sampled_from(["f8", "f4", "i8", "u2", "?", "U", "O"])
+
+
+@st.composite
+def datasets(draw):
+    """Datasets over up to three dimensions, some of them with coordinates, with any values."""
+    sizes = draw(st.dictionaries(st.sampled_from(["x", "y", "time"]), st.integers(1, 3)))
+    variables = {}
+    for name in draw(st.lists(NAMES.map("v_{}".format), max_size=4, unique=True)) + list(sizes):
+        dims = [name] if name in sizes else draw(st.permutations(list(sizes)))
+        if name not in sizes:
+            dims = dims[: draw(st.integers(0, len(dims)))]
+        elif draw(st.booleans()):
+            continue
+        dtype, shape = draw(VALUES), tuple(sizes[dim] for dim in dims)
+        count = int(np.prod(shape))
+        if dtype in "UO":
+            cells = draw(st.lists(TEXT, min_size=count, max_size=count))
+            values = np.array(cells, dtype=str if dtype == "U" else object).reshape(shape)
+        else:
+            values = draw(npst.arrays(dtype, shape))
+        variables[name] = (dims, values, draw(ATTRIBUTES))
+    return xr.Dataset(variables, attrs=draw(ATTRIBUTES)).set_coords(
+        [name for name in variables if name.startswith("v_") and draw(st.booleans())]
+    )
+
+
+def check_loads_equal(folder, data):
+    for path in (folder / "any.nc", folder / "any.csv"):
+        kept = load(save(data, path))
+        xr.testing.assert_identical(kept, data)
+        for name, variable in data.variables.items():
+            kind = "U" if variable.dtype.kind in "UO" else variable.dtype.kind
+            assert kept[name].dtype.kind == kind
+        # And again: what one file's encoding said does not change the next.
+        xr.testing.assert_identical(load(save(kept, path)), data)
+
+
+SETTINGS = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+
+
+@settings(max_examples=8, **SETTINGS)
+@given(data=datasets())
+def test_any_dataset_loads_equal(tmp_path_factory, data):
+    check_loads_equal(tmp_path_factory.mktemp("any"), data)
+
+
+@pytest.mark.slow
+@settings(max_examples=100, **SETTINGS)
+@given(data=datasets())
+def test_many_datasets_load_equal(tmp_path_factory, data):
+    check_loads_equal(tmp_path_factory.mktemp("any"), data)
+
+
+@pytest.mark.parametrize(
+    ("attrs", "sentence"),
+    [
+        ({"law": None}, "the attribute 'law' is None, which netCDF cannot keep: give a number"),
+        ({"law": {"k": 1.0}}, "the attribute 'law' is {'k': 1.0}, which netCDF"),
+        ({"law": True}, "the attribute 'law' is True, which netCDF"),
+        ({"law": [1.0]}, r"the attribute 'law' is \[1.0\], which netCDF"),
+        ({"law": [1.0, "a"]}, "the attribute 'law' is"),
+        ({"law": 2**64}, "the attribute 'law' is 18446744073709551616, which netCDF"),
+        ({"law": "a\0b"}, "the attribute 'law' is 'a.x00b', which netCDF"),
+        ({"law": np.eye(2)}, "the attribute 'law' is"),
+    ],
+)
+def test_an_attribute_that_netcdf_lacks_is_named(tmp_path, attrs, sentence):
+    with pytest.raises(ValueError, match=f"cannot write 'x.nc': {sentence}"):
+        save(xr.Dataset(attrs=attrs), tmp_path / "x.nc")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_table_keeps_whatever_json_keeps(tmp_path):
+    attrs = {"a": None, "b": {"k": [1.0, [True, 2]]}, "c": [1], "d": 2**70, "e": np.eye(2).tolist()}
+    assert load(save(xr.Dataset(attrs=attrs), tmp_path / "x.csv")).attrs == attrs
+    with pytest.raises(ValueError, match="the attribute 'a' is 1j, which JSON cannot keep"):
+        save(xr.Dataset(attrs={"a": 1j}), tmp_path / "y.csv")
+    with pytest.raises(ValueError, match="the attribute 'a = b' has a name .* rename it"):
+        save(xr.Dataset(attrs={"a = b": 1}), tmp_path / "y.csv")
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+@pytest.mark.parametrize(
+    ("variable", "sentence"),
+    [
+        (("x", np.array([1.0, None], dtype=object)), "'v'"),
+        (("x", np.array(["a", np.nan], dtype=object)), "'v'"),
+        (("x", np.array(["2026-01-01", "2026-01-02"], dtype="M8[ns]")), "'v'"),
+    ],
+)
+def test_values_that_would_come_back_different_are_refused(tmp_path, ending, variable, sentence):
+    with pytest.raises(ValueError, match=rf"cannot write 'x\.{ending}': .*({sentence})"):
+        save(xr.Dataset({"v": variable}), tmp_path / f"x.{ending}")
+    with pytest.raises(ValueError, match="'v' is of type complex128: give numbers"):
+        save(xr.Dataset({"v": 1j}), tmp_path / "y.csv")
+
+
+def test_what_would_be_taken_for_an_encoding_is_refused(tmp_path):
+    for name, value in (("_FillValue", 1), ("scale_factor", 2.0), ("missing_value", 1)):
+        data = xr.Dataset({"v": ("x", [1, 2], {name: value})})
+        with pytest.raises(ValueError, match=f"cannot write 'x.nc': .*'?{name}"):
+            save(data, tmp_path / "x.nc")
+        xr.testing.assert_identical(load(save(data, tmp_path / "x.csv")), data)
+    # Seconds are no time deltas.
+    data = xr.Dataset({"v": ("x", [1.5, 2.0], {"units": "seconds"})})
+    xr.testing.assert_identical(load(save(data, tmp_path / "y.nc")), data)
+
+
+def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -1.0])})
+    data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
+    xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
+
+
+@pytest.fixture
+def small():
+    return xr.Dataset(
+        {"q": ("time", np.sin(np.arange(20.0)), {"units": "m", "long_name": "tip"})},
+        coords={"time": ("time", 0.1 * np.arange(20), {"units": "s"})},
+        attrs={"amplitude": 0.25, "element": "cable", "elements": 16},
+    )
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_a_flipped_bit_is_refused_or_harmless(small, tmp_path, ending):
+    path = save(small, tmp_path / f"small.{ending}")
+    whole = path.read_bytes()
+    rng = np.random.default_rng(7)
+    # Anywhere, and more closely in the digest itself, which stands last in one, first in the other.
+    seal = range(len(whole) - 86, len(whole), 4) if ending == "nc" else range(110)
+    flips = [(int(at), int(rng.integers(8))) for at in rng.integers(len(whole), size=300)]
+    flips += [(at, bit) for at in seal for bit in rng.integers(8, size=1)]
+    refused = 0
+    for at, bit in flips:
+        damaged = bytearray(whole)
+        damaged[at] ^= 1 << bit
+        path.write_bytes(damaged)
+        try:
+            xr.testing.assert_identical(load(path), small)
+        except ValueError as error:
+            refused += str(path) in str(error)
+    assert refused >= 300
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+def test_a_truncated_file_is_refused(small, tmp_path, ending):
+    path = save(small, tmp_path / f"small.{ending}")
+    whole = path.read_bytes()
+    for size in (0, 1, 100, len(whole) // 2, len(whole) - 100):
+        path.write_bytes(whole[:size])
+        with pytest.raises(ValueError, match="small"):
+            load(path)
+
+
+def test_netcdf_of_others_is_loaded_with_a_warning_that_saving_ends(small, tmp_path):
+    path = tmp_path / "others.nc"
+    small.to_netcdf(path, engine="h5netcdf")
+    with pytest.warns(RotbeamWarning, match=r"others\.nc was not written by `save`.*save what"):
+        found = load(path)
+    xr.testing.assert_identical(found, small)
+    xr.testing.assert_identical(load(save(found, path)), small)
+
+
+def test_every_reader_of_netcdf_reads_what_is_saved(small, tmp_path):
+    path = save(small, tmp_path / "small.nc")
+    with xr.open_dataset(path) as found:
+        xr.testing.assert_identical(found.load(), small)
+    # Changed through HDF5, a file is no longer ours, and says so.
+    with h5py.File(path, "r+") as file:
+        file["q"][0] = 9.0
+    with pytest.warns(RotbeamWarning, match="damage would not show"):
+        assert load(path)["q"][0] == 9.0
+
+
+def external_storage(file, other):
+    file.create_dataset("q", (4,), "f8", external=[(str(other), 0, 32)])
+
+
+def external_link(file, other):
+    file["q"] = h5py.ExternalLink(str(other), "/q")
+
+
+def link_in_a_group(file, other):
+    file.create_group("deep/deeper")["q"] = h5py.ExternalLink(str(other), "/q")
+
+
+def virtual(file, other):
+    layout = h5py.VirtualLayout((4,), "f8")
+    layout[:] = h5py.VirtualSource(str(other), "q", (4,))
+    file.create_virtual_dataset("q", layout)
+
+
+@pytest.mark.parametrize("name", [external_storage, external_link, link_in_a_group, virtual])
+def test_a_file_that_names_another_is_refused(tmp_path, name):
+    with h5py.File(tmp_path / "other.nc", "w") as file:
+        file["q"] = np.arange(4.0)
+    with h5py.File(tmp_path / "run.nc", "w") as file:
+        name(file, tmp_path / "other.nc")
+    with pytest.raises(ValueError, match=r"run\.nc .*/q names another file to read from"):
+        load(tmp_path / "run.nc")
+
+
+def test_a_table_of_others_is_a_sentence_and_its_remedy_works(tmp_path):
+    path = tmp_path / "others.csv"
+    path.write_text("time [s],q [m]\n0.0,1.0\n")
+    with pytest.raises(
+        ValueError, match=r"others\.csv cannot be loaded: it does not begin .*"
+    ) as e:
+        load(path)
+    assert "pandas.read_csv(path, comment='#')" in str(e.value)
+    assert pd.read_csv(path, comment="#").shape == (1, 2)
+
+
+def test_tables_of_several_dimensions_load_as_their_parts(tmp_path):
+    data = xr.Dataset(
+        {"a": (("x", "y"), np.eye(2)), "b": ("y", [1.5, np.nan], {"units": "m"})},
+        coords={"x": ["one", "two#"], "y": [1, 2]},
+        attrs={"element": "cable"},
+    )
+    paths = save_tables(data, tmp_path / "t.csv")
+    assert [path.name for path in paths] == ["t-a.csv", "t-b.csv"]
+    for path, name in zip(paths, "ab", strict=True):
+        xr.testing.assert_identical(load(path), data[[name]])
+    table = pd.read_csv(paths[0], comment="#")
+    assert table.columns.tolist() == ["x", "y", "a"]
+    assert table["x"].tolist() == ["one", "one", "two#", "two#"]
 
 
 def test_a_failed_write_leaves_the_old_file(tmp_path):
@@ -76,3 +346,43 @@ def test_a_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="cannot write to the folder .* choose another"):
         writable_folder(tmp_path / "file" / "results")
+
+
+def test_inputs_that_differ_from_a_file_are_named(run, tmp_path):
+    path = save(run, tmp_path / "run.nc")
+    # Another day, another machine, another version: the same run.
+    again = run.assign_attrs(wall_time=9.0, versions="{}", verdict="failed")
+    assert differing_inputs(again, path) == {}
+    assert differing_inputs(run, tmp_path / "none.nc") == {}
+    other = run.assign_attrs(step=1e-3, frame="rotating")
+    assert differing_inputs(other, path) == {
+        "frame": ("rotating", "inertial"),
+        "step": (1e-3, 5e-3),
+    }
+    # Before it is computed, its inputs will do.
+    inputs = {**run.attrs, "elements": np.int64(2)}
+    assert differing_inputs(inputs, path) == {}
+    assert differing_inputs({**inputs, "beam_length": 9.0}, path) == {"beam_length": (9.0, 8.0)}
+
+
+def test_another_grid_differs_and_so_does_what_would_be_lost(tmp_path):
+    grid = xr.Dataset(
+        {"a": (("omega", "time"), np.zeros((2, 3)))},
+        coords={"omega": [4.0, np.nan], "time": [0.0, 1.0, 2.0]},
+    )
+    path = save(grid, tmp_path / "sweep.nc")
+    assert differing_inputs(grid.isel(time=[0]), path) == {}
+    assert list(differing_inputs(grid.isel(omega=[0]), path)) == ["omega"]
+    assert differing_inputs({"omega": [4.0, 6.0, 8.0]}, path)["omega"][0] == [4.0, 6.0, 8.0]
+    assert differing_inputs({"omega": np.array([4.0, np.nan])}, path) == {}
+    assert differing_inputs(grid.drop_vars("a"), path)["variables"] == (
+        ["omega", "time"],
+        ["a", "omega", "time"],
+    )
+
+
+def test_a_file_that_cannot_be_read_differs(run, tmp_path):
+    (tmp_path / "run.nc").write_text("mine")
+    assert "not a netCDF file" in differing_inputs(run, tmp_path / "run.nc")["file"][1]
+    (tmp_path / "folder.nc").mkdir()
+    assert list(differing_inputs(run, tmp_path / "folder.nc")) == ["file"]

@@ -1,0 +1,136 @@
+"""The cache and elements of one's own: another code, another case."""
+
+import importlib
+import sys
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu import sweep
+from rotbeam_exu.cases import maker
+from rotbeam_exu.elements import FORMULATIONS, Cable
+
+COARSE = {
+    "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1,
+}  # fmt: skip
+
+MINE = """
+from dataclasses import dataclass, replace
+from rotbeam_exu.elements import Cable
+from softness import SHARE
+
+@dataclass(frozen=True, kw_only=True)
+class Cable(Cable):
+    def lay(self, mbs, beam, elements):
+        return super().lay(mbs, replace(beam, youngs_modulus=SHARE * beam.youngs_modulus), elements)
+"""
+
+
+@pytest.fixture
+def author(tmp_path, monkeypatch):
+    """Write the modules of an author of elements, and import them anew."""
+    folder = tmp_path / "author"
+    folder.mkdir()
+    monkeypatch.syspath_prepend(folder)
+
+    def write(mine=MINE, softness="SHARE = 0.5"):
+        (folder / "mine.py").write_text(mine)
+        (folder / "softness.py").write_text(softness)
+        for name in ("softness", "mine"):
+            monkeypatch.delitem(sys.modules, name, raising=False)
+        importlib.invalidate_caches()
+        return importlib.import_module("mine").Cable()
+
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    yield write
+    for name in ("softness", "mine"):
+        sys.modules.pop(name, None)
+
+
+def test_an_element_with_the_name_of_ours_is_computed(beam, tmp_path, author):
+    ours = sweep(beam, **COARSE, cache=tmp_path)
+    mine = author()
+    assert mine.name == "cable"
+    theirs = sweep(beam, **COARSE, element=mine, cache=tmp_path)
+    xr.testing.assert_identical(theirs, sweep(beam, **COARSE, element=mine))
+    # Half the stiffness swings further.
+    assert theirs["amplitude"].item() > 1.2 * ours["amplitude"].item()
+    assert len(list(tmp_path.glob("*.nc"))) == 2
+
+
+def test_any_change_of_code_makes_another_case_and_nothing_else_does(author):
+    first = maker(author())
+    assert first == maker(author())
+    assert first == maker(author(MINE.replace("class Cable", "# a remark\n\nclass Cable")))
+    assert first == maker(author(MINE.replace("elements):", "elements):\n        'Lay it.'")))
+    script = "\nif __name__ == '__main__':\n    print('the grid of the day')\n"
+    assert first == maker(author(MINE + script))
+    changed = [
+        maker(author(MINE.replace("SHARE *", "2.0 * SHARE *"))),
+        maker(author(MINE + "\ntwice = 2.0\n")),
+        maker(author(softness="SHARE = 0.25")),
+        maker("cable"),
+    ]
+    assert len({made["code"] for made in [first, *changed]}) == 5
+
+
+def test_ours_are_cached_and_looking_at_their_code_imports_nothing():
+    before = set(sys.modules)
+    for name in FORMULATIONS:
+        assert maker(name) is not None
+    assert set(sys.modules) == before
+    assert maker("cable")["class"] == "rotbeam_exu.elements.cable.Cable"
+
+
+@pytest.mark.slow
+def test_an_element_of_ones_own_goes_to_other_processes(beam, author):
+    grid = {**COARSE, "ramp_times": [3.0, 2.0], "element": author()}
+    xr.testing.assert_identical(sweep(beam, **{**grid, "jobs": 2}), sweep(beam, **grid))
+
+
+def test_an_element_that_its_source_does_not_tell_is_not_cached(beam, tmp_path):
+    def soft(share):
+        @dataclass(frozen=True, kw_only=True)
+        class Soft(Cable):
+            def lay(self, mbs, beam, elements):
+                modulus = share * beam.youngs_modulus
+                return super().lay(mbs, replace(beam, youngs_modulus=modulus), elements)
+
+        return Soft()
+
+    amplitudes = []
+    for share in (1.0, 0.5):
+        with pytest.warns(RotbeamWarning, match="Soft does not tell .* not kept in the cache"):
+            found = sweep(beam, **COARSE, element=soft(share), cache=tmp_path)
+        amplitudes.append(found["amplitude"].item())
+    assert amplitudes[1] > 1.2 * amplitudes[0]
+    assert not list(tmp_path.glob("*.nc"))
+
+
+def test_neither_is_one_from_a_prompt_nor_one_that_was_patched(monkeypatch):
+    names = {"__name__": "prompt"}
+    exec(MINE.replace("from softness import SHARE", "SHARE = 0.5"), names)
+    assert maker(names["Cable"]()) is None
+    monkeypatch.setattr(Cable, "axial_strain", lambda self, beam, e: np.zeros(1))
+    assert maker("cable") is None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tapered(Cable):
+    """An element whose option no file can hold."""
+
+    widths: object = None
+
+
+@dataclass(kw_only=True)
+class Changeable(Cable.__base__):
+    """An element that is no value."""
+
+
+@pytest.mark.parametrize("element", [Tapered(widths=np.ones(2)), Changeable(), Cable, 3])
+def test_what_cannot_be_recorded_is_refused(beam, element):
+    with pytest.raises(TypeError, match="element must be the name .* of a frozen dataclass"):
+        sweep(beam, **COARSE, element=element)

@@ -1,0 +1,88 @@
+"""Beam files: whatever is in them, a beam or one sentence that names the file."""
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from analytic import Beam
+from rotbeam_exu.config import load_beam
+
+GOOD = """[beam]
+length = 8.0
+area = 7.299e-5
+second_moment = 8.214e-9
+youngs_modulus = 6.895e10
+density = 2767.0
+"""
+
+
+def written(path, content):
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+@pytest.mark.parametrize(
+    "content", [GOOD, b"\xef\xbb\xbf" + GOOD.encode(), GOOD.replace("\n", "\r\n")]
+)
+def test_a_good_file_is_a_beam_whatever_wrote_it(tmp_path, content):
+    assert load_beam(written(tmp_path / "beam.toml", content)) == Beam.reference()
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (GOOD.replace("8.0", "nan"), "length must be finite, got nan m"),
+        (GOOD.replace("8.0", "-inf"), "length must be finite"),
+        (GOOD.replace("8.0", "1" + 400 * "0"), "too large|finite"),
+        (GOOD.replace("8.0", 5000 * "1"), "not valid TOML: .* digits"),
+        (GOOD.replace("8.0", "true"), "length must be a number in m, got True"),
+        (GOOD.replace("8.0", "1979-05-27"), "length must be a number in m"),
+        (GOOD.replace("8.0", "[8.0]"), "length must be a number in m"),
+        (GOOD.replace("8.0", 3000 * "[" + 3000 * "]"), "nested too deeply|length must be a number"),
+        (GOOD + "length = 8.0\n", "not valid TOML"),
+        (GOOD.replace("length", "lenght"), "unknown key 'lenght' in .beam.; did you mean 'length'"),
+        (GOOD.replace("density", "# "), "lacks density"),
+        ("beam = 3", "has no table .beam."),
+        ("", "has no table .beam."),
+        ("# Größe\n".encode("latin-1"), "not valid TOML: 'utf-8' codec"),
+        (GOOD.encode("utf-16"), "not valid TOML"),
+        (b"\0\0\0", "not valid TOML"),
+    ],
+)
+def test_a_bad_file_is_one_sentence(tmp_path, content, sentence):
+    path = written(tmp_path / "beam.toml", content)
+    with pytest.raises(ValueError, match=sentence) as refused:
+        load_beam(path)
+    assert str(path) in str(refused.value)
+
+
+WORDS = st.one_of(
+    st.floats().map(repr),
+    st.integers(-(10**400), 10**400).map(str),
+    st.sampled_from(["true", '"8"', "[8.0]", "{}", "1979-05-27", "0x10", "1_0.0", "", "=", "\n"]),
+    st.text(max_size=5),
+)
+LINES = st.tuples(
+    st.sampled_from([*GOOD.replace("[beam]", "").replace("=", "").split()[::2], "mass_per_length"]),
+    WORDS,
+).map(" = ".join)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(
+    st.one_of(
+        st.lists(LINES, max_size=6)
+        .map(lambda x: "\n".join(["[beam]", *x]))
+        .map(lambda x: x.encode(errors="replace")),
+        st.binary(max_size=40),
+    )
+)
+def test_any_file_is_a_beam_or_a_sentence(tmp_path_factory, content):
+    path = written(tmp_path_factory.getbasetemp() / "any.toml", content)
+    try:
+        beam = load_beam(path)
+    except ValueError as error:
+        refused = str(error)
+    else:
+        refused = f"{path}: {beam!r}"
+    assert str(path) in refused
