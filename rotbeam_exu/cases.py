@@ -11,13 +11,13 @@ from typing import Any
 import xarray as xr
 
 from analytic import Beam, SpinUp
-from analytic.beam import require_steady_state
 from analytic.input_checks import positive, whole_number
 
 from .elements import Formulation, formulation, options_of
-from .linearization import natural_frequencies
+from .linearization import mesh_frequencies
 from .oscillation import steady_oscillation
 from .provenance import code_of
+from .resolution import checked_steps
 from .simulation import simulate
 from .solver import Frame
 from .verdict import SimulationError
@@ -56,14 +56,16 @@ class Case:
         object.__setattr__(self, "elements", whole_number("elements", self.elements))
         object.__setattr__(self, "duration", positive("duration", self.duration, "s"))
         object.__setattr__(self, "step", positive("step", self.step, "s"))
-        if self.duration <= self.spin_up.ramp_time:
-            raise ValueError(
-                f"duration {self.duration:g} s ends before the steady rotation, which begins at "
-                f"ramp_time {self.spin_up.ramp_time:g} s; take a longer duration"
-            )
         if self.frame not in ("inertial", "rotating"):
             raise ValueError(f"unknown frame {self.frame!r}; known are 'inertial' and 'rotating'")
-        require_steady_state(self.beam, self.spin_up.omega)
+        checked_steps(
+            self.beam,
+            self.spin_up.omega,
+            self.spin_up.ramp_time,
+            self.elements,
+            self.duration,
+            self.step,
+        )
         try:
             model = formulation(self.element)
             json.dumps([options_of(model), hash(model)])
@@ -146,4 +148,4 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 
 @lru_cache(maxsize=64)
 def _omega_n(beam: Beam, omega: float, element: str | Formulation, elements: int) -> float:
-    return float(natural_frequencies(beam, omega, element=element, elements=elements, count=1)[0])
+    return float(mesh_frequencies(beam, omega, element, elements, 1)[0])

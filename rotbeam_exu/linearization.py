@@ -70,9 +70,16 @@ def natural_frequencies(
     SimulationError
         If the static equilibrium is not found, or unstable: frequencies would not tell.
     """
+    warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
+    return mesh_frequencies(beam, omega, element, elements, count)
+
+
+def mesh_frequencies(
+    beam: Beam, omega: float, element: str | Formulation, elements: int, count: int
+) -> FloatArray:
+    """Return what `natural_frequencies` does, of a mesh however coarse: its own ω_n."""
     whole_number("count", count)
     _, system = _steady_state(beam, omega, element, elements)
-    warn_if_coarse(beam, omega, elements)
     name, modes = formulation(element).name, system[0].shape[0]
     if count > modes:
         raise ValueError(

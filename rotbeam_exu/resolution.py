@@ -6,6 +6,7 @@ import math
 import warnings
 
 from analytic import Beam, linear_modes
+from analytic.beam import require_steady_state
 from analytic.input_checks import RotbeamWarning
 
 SAMPLES_PER_PERIOD = 200
@@ -30,6 +31,37 @@ _SECONDS_PER_ELEMENT_STEP = 2e-6
 """The least that was measured, so that what is refused would indeed take too long."""
 
 
+def checked_steps(
+    beam: Beam, omega: float, ramp_time: float, elements: int, duration: float, step: float
+) -> tuple[int, int]:
+    """Return how many steps a run has, and of how many one is kept.
+
+    Raises
+    ------
+    ValueError
+        If the run ends before its ramp, is no whole number of steps, or is one that the functions
+        below refuse.
+    """
+    if duration <= ramp_time:
+        raise ValueError(
+            f"duration {duration:g} s ends before the steady rotation, which begins at "
+            f"ramp_time {ramp_time:g} s; take a longer duration"
+        )
+    steps = round(duration / step)
+    if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
+        nearest = duration / max(steps, 1)
+        raise ValueError(
+            f"duration {duration:g} s is not a whole number of steps of {step:g} s; "
+            f"try a step of {nearest:.12g} s"
+        )
+    require_stretch(beam)
+    require_resolved_ramp(ramp_time, step)
+    require_feasible(elements, steps)
+    every = sampling(beam, omega, steps, step)
+    require_feasible(elements, steps, samples=steps // every)
+    return steps, every
+
+
 def sampling(beam: Beam, omega: float, steps: int, step: float) -> int:
     """Return how many steps lie between two samples: a divisor of `steps`.
 
@@ -39,6 +71,7 @@ def sampling(beam: Beam, omega: float, steps: int, step: float) -> int:
         If no steady state exists at the speed `omega` [rad/s], or a period of its first mode has
         fewer steps than STEPS_PER_PERIOD.
     """
+    require_steady_state(beam, omega)
     period = 2.0 * math.pi / float(linear_modes(beam, omega, 1).frequencies[0])
     if period < STEPS_PER_PERIOD * step:
         raise ValueError(

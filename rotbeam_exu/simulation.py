@@ -24,12 +24,7 @@ from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix, round_off
-from .resolution import (
-    require_feasible,
-    require_resolved_ramp,
-    require_stretch,
-    sampling,
-)
+from .resolution import checked_steps
 from .solver import Frame, Sensors, solve, solver_settings
 from .units import Units
 from .verdict import SimulationError, judge, remedy
@@ -99,7 +94,7 @@ def simulate(
     model, elements = formulation(element), whole_number("elements", elements)
     step, duration = positive("step", step, "s"), positive("duration", duration, "s")
     ramp_time = spin_up.ramp_time if isinstance(spin_up, SpinUp) else 0.0
-    steps, every = _checked_steps(beam, spin_up.omega, ramp_time, elements, duration, step)
+    steps, every = checked_steps(beam, spin_up.omega, ramp_time, elements, duration, step)
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
     warn_if_rpm(beam, spin_up.omega)
@@ -205,30 +200,6 @@ def versions() -> dict[str, str]:
     """Return the versions that a result depends on."""
     libraries = {name: metadata.version(name) for name in ("exudyn", "numpy", "scipy")}
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
-
-
-def _checked_steps(
-    beam: Beam, omega: float, ramp_time: float, elements: int, duration: float, step: float
-) -> tuple[int, int]:
-    """Return how many steps the run has, and of how many one is kept; refuse what cannot do."""
-    if duration <= ramp_time:
-        raise ValueError(
-            f"duration {duration:g} s ends before the steady rotation, which begins at "
-            f"ramp_time {ramp_time:g} s; the paper runs 15 s"
-        )
-    steps = round(duration / step)
-    if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
-        nearest = duration / max(steps, 1)
-        raise ValueError(
-            f"duration {duration:g} s is not a whole number of steps of {step:g} s; "
-            f"try a step of {nearest:.12g} s"
-        )
-    require_stretch(beam)
-    require_resolved_ramp(ramp_time, step)
-    require_feasible(elements, steps)
-    every = sampling(beam, omega, steps, step)
-    require_feasible(elements, steps, samples=steps // every)
-    return steps, every
 
 
 def _dataset(

@@ -21,7 +21,6 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     SimulationError,
     load,
-    natural_frequencies,
     save,
     simulate,
     steady_oscillation,
@@ -29,6 +28,7 @@ from rotbeam_exu import (
     sweeps,
 )
 from rotbeam_exu.elements import Cable
+from rotbeam_exu.linearization import mesh_frequencies
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
 COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
@@ -45,7 +45,7 @@ def test_a_sweep_is_its_runs(beam, serial):
     here = serial.sel(omega=6.0, ramp_time=2.0)
     assert here["frequency"].item() == steady.frequency
     assert here["amplitude"].item() == steady.amplitude
-    assert here["omega_n"].item() == natural_frequencies(beam, 6.0, elements=2)[0]
+    assert here["omega_n"].item() == mesh_frequencies(beam, 6.0, "cable", 2, 1)[0]
     assert np.array_equal(here["q"], run["q"])
     assert here["verdict"].item() == "passed"
 
