@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
 from .basis import FloatArray
@@ -100,22 +100,28 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
     for low, high in pairwise(speeds.tolist()):
         there = modes_at(high)
         assurance = _assurance(here, there)[tracked]
-        following = np.asarray(optimize.linear_sum_assignment(-assurance)[1])
+        following = _followed(assurance)
         frequencies.append(there.frequencies[following])
         assurances.append(assurance[np.arange(count), following])
 
-        def detuning(omega: float, mode: int, order: int, start: LinearModes = here) -> float:
+        def detuning(
+            omega: float,
+            mode: int,
+            order: int,
+            start: LinearModes = here,
+            rows: NDArray[np.intp] = tracked,
+        ) -> float:
             modes = modes_at(omega)
-            same = int(np.argmax(_assurance(start, modes)[mode]))
+            same = _followed(_assurance(start, modes)[rows])[mode]
             return float(modes.frequencies[same] - order * omega)
 
-        for column, mode in enumerate(tracked):
+        for column in range(count):
             for order in range(1, orders + 1):
                 before = frequencies[-2][column] - order * low
                 after = frequencies[-1][column] - order * high
                 if before > 0.0 >= after or before < 0.0 <= after:
                     omega = optimize.brentq(
-                        detuning, low, high, args=(int(mode), order), xtol=1e-12, rtol=1e-13
+                        detuning, low, high, args=(column, order), xtol=1e-13 * high, rtol=1e-13
                     )
                     crossings.append(
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
@@ -130,8 +136,15 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
     )
 
 
+def _followed(assurance: FloatArray) -> NDArray[np.intp]:
+    """Return the mode that continues each tracked one, all of them different."""
+    return np.asarray(optimize.linear_sum_assignment(-assurance)[1])
+
+
 def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
     """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
-    a = one.coordinates / np.linalg.norm(one.coordinates, axis=1, keepdims=True)
-    b = other.coordinates / np.linalg.norm(other.coordinates, axis=1, keepdims=True)
+    larger = max(one.model, other.model, key=lambda model: model.bending)
+    a, b = (modes.model.padded(modes.coordinates, larger) for modes in (one, other))
+    a = a / np.linalg.norm(a, axis=1, keepdims=True)
+    b = b / np.linalg.norm(b, axis=1, keepdims=True)
     return np.asarray((a @ b.T) ** 2)

@@ -17,7 +17,7 @@ import numpy as np
 from scipy import linalg
 
 from .basis import FloatArray
-from .continuum import Continuum, continuum
+from .continuum import Continuum, finer_model
 
 _NEWTON_STEPS = 15
 _CONVERGED = 1e-13  # of the coordinates of θ and of Ω
@@ -102,13 +102,7 @@ class PeriodicOrbit:
         At four times as many phases as harmonics and on half as many functions again as the
         orbit was computed with, so that it also sees what both truncations left out.
         """
-        model = self.model
-        finer = continuum(
-            model.slenderness,
-            model.bending + model.bending // 2,
-            model.axial + model.axial // 2,
-            model.rotary,
-        )
+        model, finer = self.model, finer_model(self.model)
         q, q_dot, q_ddot = (model.padded(c, finer) for c in self.coordinates(self._fine_phases))
         defect = finer.residual(q, q_dot, q_ddot, self.rate)
         size = np.linalg.norm(q[:, : finer.bending], axis=-1).max()
@@ -137,6 +131,14 @@ class PeriodicOrbit:
         sines[:kept] = self.sines[:kept]
         cosines[: kept + 1] = self.cosines[: kept + 1]
         return replace(self, sines=sines, cosines=cosines)
+
+    def with_functions(self, model: Continuum) -> PeriodicOrbit:
+        """Return the same orbit in the larger basis of `model`."""
+        sines = np.zeros((self.harmonics, model.bending))
+        cosines = np.zeros((self.harmonics + 1, model.axial))
+        sines[:, : self.model.bending] = self.sines
+        cosines[:, : self.model.axial] = self.cosines
+        return replace(self, model=model, sines=sines, cosines=cosines)
 
     def scaled(self, amplitude: float, steady: FloatArray) -> PeriodicOrbit:
         """Return the orbit with harmonic k scaled as its leading order is, as amplitude^k.

@@ -18,7 +18,7 @@ from .shapes import PolynomialShape
 
 FloatArray = NDArray[np.float64]
 
-_MAX_W_BAR = 30.0
+MAX_W_BAR = 30.0
 """Both series grow like exp(w̄/√2): up to here w̄_n keeps 3e-7, at 40 only 3e-4."""
 _MAX_DEGREE = 150
 """At w̄ = 30 the series has converged at degree 100."""
@@ -98,10 +98,11 @@ def rotating_mode(w_bar: float) -> RotatingMode:
 
 def converged_degree(w_bar: float) -> int:
     """Return the degree beyond which the terms of v₂ and v₃ at the tip are round-off."""
-    if w_bar > _MAX_W_BAR:
+    if w_bar > MAX_W_BAR:
         raise ValueError(
             f"the power series of the rotating mode keeps its digits up to w_bar = ω/√(EI/mL³) = "
-            f"{_MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take linear_modes instead"
+            f"{MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take linear_modes "
+            f"for the frequency and periodic_orbits for the backbone"
         )
     k = np.arange(_MAX_DEGREE + 1.0)
     # Third derivatives converge last, and at the upper bound for w̄_n the terms are the largest.

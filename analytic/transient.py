@@ -14,7 +14,7 @@ from .basis import FloatArray
 from .beam import Beam, warn_if_rpm
 from .collocation import radau
 from .continuum import ComplexArray, Continuum, continuum
-from .input_checks import finite_values, positive
+from .input_checks import finite_values, points_of_beam, positive
 from .modes import steady_rate
 from .spin_up import SpinUp
 
@@ -108,7 +108,7 @@ def spin_up_response(
         )
     warn_if_rpm(beam, spin_up.omega)
     rotary = beam.slenderness if rotary_inertia else 0.0
-    along = np.asarray(points, dtype=np.float64) / beam.length
+    along = points_of_beam("points", points, beam.length)
     coarser, error = None, math.inf
     for level in range(_REFINEMENTS):
         functions = _FUNCTIONS + _MORE_FUNCTIONS * level
