@@ -108,16 +108,22 @@ class Backbone:
         """Time at which q is greatest [s], (orbits,); there the reduced models start theirs."""
         return np.array([orbit.peak_phase for orbit in self._orbits]) / self.frequency
 
+    def _orbit(self, i: int) -> PeriodicOrbit:
+        count = len(self._orbits)
+        if not -count <= i < count:
+            raise IndexError(f"orbit {i} is none of the {count} of this backbone, 0 to {count - 1}")
+        return self._orbits[i]
+
     def response(self, t: ArrayLike, i: int, phase: float = 0.0) -> FloatArray:
         """Return q/L of orbit `i` at the times `t` [s], starting at `phase` [rad]."""
-        times = finite_array("t", t, "s")
+        orbit, times = self._orbit(i), finite_array("t", t, "s")
         phases = self.frequency[i] * times.ravel() + finite_number("phase", phase, "rad")
-        return self._orbits[i].tip(phases).reshape(times.shape)
+        return orbit.tip(phases).reshape(times.shape)
 
     def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
         """Return x = q/L and dx/dτ, τ = t √(EI/mL³), at `n` + 1 instants of one period."""
         n = whole_number("n", n)
-        orbit = self._orbits[i]
+        orbit = self._orbit(i)
         q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n + 1))
         return orbit.model.tip(q).imag, orbit.model.tip_rate(q, q_dot).imag
 
@@ -126,7 +132,7 @@ class Backbone:
 
         Points beyond the beam, from 0 to L, are refused.
         """
-        orbit, length = self._orbits[i], self.beam.length
+        orbit, length = self._orbit(i), self.beam.length
         at, phase = points_of_beam("x", x, length), finite_number("phase", phase, "rad")
         q, q_dot, _ = (c[0] for c in orbit.coordinates(np.array([phase])))
         model, per_second = orbit.model, self.beam.frequency_scale
@@ -150,7 +156,7 @@ class Backbone:
         Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
         deflected beam, as one draws it.
         """
-        orbit, length = self._orbits[i], self.beam.length
+        orbit, length = self._orbit(i), self.beam.length
         at = points_of_beam("x", x, length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
         z = length * orbit.model.integrated(orbit.model.slope(q), at)

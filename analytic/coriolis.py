@@ -53,7 +53,7 @@ def rotating_eigenproblem(w_bar: float, count: int) -> tuple[FloatArray, FloatAr
 def rotating_frequencies(w_bar: float, count: int = 3) -> FloatArray:
     """Return the first `count` normalized natural frequencies w̄_j [-], ascending.
 
-    Functions are added as √w̄, which keeps seven digits of the layer at the clamp.
+    Functions are added as √w̄, which keeps ten digits of the layer at the clamp.
     """
     functions = max(_FUNCTIONS, math.ceil(4.0 * math.sqrt(w_bar)))
     K, M = rotating_eigenproblem(w_bar, functions)

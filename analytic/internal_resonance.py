@@ -44,5 +44,5 @@ def warn_of_resonances(
                     f"mode {j} ({modes[j - 1] * per_second:.4f} rad/s); the backbone may branch "
                     "there",
                     RotbeamWarning,
-                    stacklevel=4,
+                    stacklevel=3,
                 )

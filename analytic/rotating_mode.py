@@ -77,8 +77,10 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
     )
 
 
-def rotating_mode(w_bar: float) -> RotatingMode:
+def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
     """Return the first rotating mode, Eq. 87, at the degree at which the series has converged.
+
+    Or at another `degree`, to see what the paper's does.
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.
@@ -88,7 +90,7 @@ def rotating_mode(w_bar: float) -> RotatingMode:
     ValueError
         If `w_bar` is so large that the series does not resolve the mode in double precision.
     """
-    degree = converged_degree(w_bar)
+    degree = degree or converged_degree(w_bar)
     w_n = rotating_frequency(w_bar, degree)
     v_2, v_3 = (frobenius_series(r, w_bar, w_n, degree) for r in (2, 3))
     (moment_2, _), (moment_3, _) = _tip(v_2), _tip(v_3)
