@@ -11,8 +11,9 @@ from scipy import optimize
 
 from .basis import FloatArray
 from .beam import Beam
+from .continuum import Continuum
 from .input_checks import finite_values, rotation_speed, whole_number
-from .modes import LinearModes, linear_modes
+from .modes import LinearModes, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
@@ -89,8 +90,9 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
 
+    wanted = count + _SPARE_MODES
+
     def modes_at(omega: float) -> LinearModes:
-        wanted = count + _SPARE_MODES
         return linear_modes(beam, omega, wanted, functions=max(20, 2 * wanted))
 
     here = modes_at(float(speeds[0]))
@@ -104,14 +106,18 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
         frequencies.append(there.frequencies[following])
         assurances.append(assurance[np.arange(count), following])
 
+        # What resolves the modes at both ends does so between them.
+        finer = max(here.model, there.model, key=lambda model: model.bending)
+
         def detuning(
             omega: float,
             mode: int,
             order: int,
             start: LinearModes = here,
             rows: NDArray[np.intp] = tracked,
+            model: Continuum = finer,
         ) -> float:
-            modes = modes_at(omega)
+            modes = modes_on(model, beam, omega, wanted)
             same = _followed(_assurance(start, modes)[rows])[mode]
             return float(modes.frequencies[same] - order * omega)
 

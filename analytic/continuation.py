@@ -118,18 +118,16 @@ def _resolved(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
                 f"{orbit.jacobi_drift:.1e}"
             )
             larger = orbit.with_harmonics(orbit.harmonics + 4)
+            too_many = larger.harmonics > _MOST_HARMONICS
         elif not meets_the_equations(orbit):
             reason = (
                 f"{orbit.model.bending} functions meet the equations of motion to "
                 f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
             )
             larger = orbit.with_functions(finer_model(orbit.model))
+            too_many = larger.model.bending > MOST_FUNCTIONS
         else:
             return orbit
-        if (
-            larger.harmonics > _MOST_HARMONICS
-            or larger.model.bending > MOST_FUNCTIONS
-            or larger.harmonics * larger.model.size > _MOST_UNKNOWNS
-        ):
+        if too_many or larger.harmonics * larger.model.size > _MOST_UNKNOWNS:
             raise NoOrbitError(reason)
         orbit = solve(larger, amplitude)

@@ -102,8 +102,9 @@ class PeriodicOrbit:
         At four times as many phases as harmonics and on half as many functions again as the
         orbit was computed with, so that it also sees what both truncations left out.
         """
-        model, finer = self.model, finer_model(self.model)
-        q, q_dot, q_ddot = (model.padded(c, finer) for c in self.coordinates(self._fine_phases))
+        finer = finer_model(self.model)
+        state = self.coordinates(self._fine_phases)
+        q, q_dot, q_ddot = (self.model.padded(c, finer) for c in state)
         defect = finer.residual(q, q_dot, q_ddot, self.rate)
         size = np.linalg.norm(q[:, : finer.bending], axis=-1).max()
         return float(np.linalg.norm(defect, axis=-1).max() / size)
@@ -134,10 +135,8 @@ class PeriodicOrbit:
 
     def with_functions(self, model: Continuum) -> PeriodicOrbit:
         """Return the same orbit in the larger basis of `model`."""
-        sines = np.zeros((self.harmonics, model.bending))
-        cosines = np.zeros((self.harmonics + 1, model.axial))
-        sines[:, : self.model.bending] = self.sines
-        cosines[:, : self.model.axial] = self.cosines
+        sines = np.pad(self.sines, ((0, 0), (0, model.bending - self.model.bending)))
+        cosines = np.pad(self.cosines, ((0, 0), (0, model.axial - self.model.axial)))
         return replace(self, model=model, sines=sines, cosines=cosines)
 
     def scaled(self, amplitude: float, steady: FloatArray) -> PeriodicOrbit:

@@ -102,12 +102,20 @@ def linear_modes(
     count = whole_number("count", count)
     warn_if_rpm(beam, omega)
     model, modes = _settled_modes(beam, omega, count, inextensible, rotary_inertia, functions)
-    coordinates = modes.coordinates[:count]
+    return _in_units(beam, omega, count, model, modes)
+
+
+def modes_on(model: Continuum, beam: Beam, omega: float, count: int) -> LinearModes:
+    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    return _in_units(beam, omega, count, model, solve_modes(model, steady_rate(beam, omega, model)))
+
+
+def _in_units(beam: Beam, omega: float, count: int, model: Continuum, modes: Modes) -> LinearModes:
     return LinearModes(
         beam=beam,
         omega=omega,
         frequencies=modes.frequencies[:count] * beam.frequency_scale,
-        coordinates=coordinates,
+        coordinates=modes.coordinates[:count],
         model=model,
         _slopes=modes.slopes[:count],
     )

@@ -233,7 +233,8 @@ def test_an_amplitude_out_of_reach_names_the_last_reached(beam):
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
-    monkeypatch.setattr("analytic.continuation.MOST_FUNCTIONS", 7)
+    for module in ("continuation", "periodic"):
+        monkeypatch.setattr(f"analytic.{module}.MOST_FUNCTIONS", 7)
     with pytest.raises(RuntimeError, match="functions meet the equations of motion to .* only"):
         periodic_orbits(beam, 8.0, [0.5], functions=5)
 

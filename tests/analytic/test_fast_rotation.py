@@ -108,6 +108,13 @@ def test_functions_of_an_orbit_grow_as_it_needs_them(slenderness, omega, amplitu
     assert found.lambda_omega == pytest.approx(finer.lambda_omega, abs=1e-6)
 
 
+def test_more_functions_than_orbits_grow_to_still_take_more_harmonics(beam, monkeypatch):
+    monkeypatch.setattr("analytic.continuation.MOST_FUNCTIONS", 16)
+    many = periodic_orbits(beam, 6.0, [0.3], functions=20)
+    few = periodic_orbits(beam, 6.0, [0.3])
+    assert many.frequency == pytest.approx(few.frequency, rel=1e-8)
+
+
 def test_very_fast_orbits():
     found = periodic_orbits(unit_beam(1e-10), 250.0, [0.1])
     linear = linear_modes(unit_beam(1e-10), 250.0, 1).frequencies[0]

@@ -203,6 +203,18 @@ def test_units_of_a_beam():
     assert complaint(Beam, **{**tiny, "length": 1.0}, youngs_modulus=1.0, density=1.0) == ""
 
 
+def test_coriolis_coupling_about_the_rotating_mode():
+    setting = {"name": "own", "axial": "consistent", "coriolis": True}
+    assert complaint(Variant, **setting, shape="cantilever").endswith('take shape "rotating"')
+    assert complaint(Variant, **setting, shape="rotating") == ""
+
+
+def test_integers_beyond_floats_in_larger_units():
+    given = {"area": 1.0, "second_moment": 1.0, "youngs_modulus": 1.0, "density": 1.0}
+    assert "choose larger units" in complaint(Beam, length=10**310, **given)
+    assert complaint(Beam, length=10**3, **given) == ""
+
+
 def test_turning_the_other_way(beam):
     assert "change the sign of q" in complaint(reduced_model, beam, -4.0)
     assert complaint(reduced_model, beam, 4.0) == ""
