@@ -13,9 +13,10 @@ from .beam import Beam
 from .spin_up import SpinUp, SteadyRotation
 
 if TYPE_CHECKING:
+    from .backbone import AmplitudeNotReachedError, Backbone, BeamState
     from .campbell_diagram import Campbell, Crossing, campbell
     from .modes import LinearModes, linear_modes
-    from .periodic import Backbone, BeamState, periodic_orbits
+    from .periodic import periodic_orbits
     from .reduced import ReducedModel, critical_speed, reduced_model
     from .softening import softening_speed
     from .tables import paper_table
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
     from .variants import VARIANTS, Variant
 
 _LAZY: dict[str, str] = {
-    "Backbone": "periodic",
-    "BeamState": "periodic",
+    "AmplitudeNotReachedError": "backbone",
+    "Backbone": "backbone",
+    "BeamState": "backbone",
     "Campbell": "campbell_diagram",
     "Crossing": "campbell_diagram",
     "LinearModes": "modes",
@@ -44,6 +46,7 @@ _LAZY: dict[str, str] = {
 
 __all__ = [
     "VARIANTS",
+    "AmplitudeNotReachedError",
     "Backbone",
     "Beam",
     "BeamState",

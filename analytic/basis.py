@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
@@ -40,33 +40,41 @@ def gauss_points(count: int) -> tuple[FloatArray, FloatArray]:
 
 def transverse_basis(count: int, x: FloatArray) -> BasisValues:
     """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`."""
-    curvature, slope, value = _integrals(count, x, times=2)
-    return BasisValues(value, slope, curvature)
+    curvature = _legendre(count + 2, x)
+    slope = _integrated(curvature)
+    value = _integrated(slope)
+    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
 
 
 def axial_basis(count: int, x: FloatArray) -> BasisValues:
     """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`."""
-    slope, value = _integrals(count, x, times=1)
-    curvature = 2.0 * legendre.legval(2.0 * x - 1.0, legendre.legder(_normalized(count), axis=0))
-    return BasisValues(value, slope, _points_first(curvature))
+    slope = _legendre(count + 1, x)
+    value, curvature = _integrated(slope), _differentiated(slope)
+    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
 
 
-def _points_first(values: ArrayLike) -> FloatArray:
-    return np.moveaxis(np.asarray(values, dtype=np.float64), 0, -1)
+def _legendre(count: int, x: FloatArray) -> FloatArray:
+    """P_k(2x-1), k < `count`, along the last axis."""
+    return np.asarray(legendre.legvander(2.0 * x - 1.0, count - 1), dtype=np.float64)
 
 
-def _normalized(count: int) -> FloatArray:
-    return np.diag(np.sqrt(2.0 * np.arange(count) + 1.0))
+def _normalized(count: int, values: FloatArray) -> FloatArray:
+    return np.asarray(values[..., :count] * np.sqrt(2.0 * np.arange(count) + 1.0))
 
 
-def _integrals(count: int, x: FloatArray, times: int) -> list[FloatArray]:
-    """Values of √(2k+1) P_k and of its first `times` integrals from the clamp, at `x`."""
-    coefficients = _normalized(count)
-    values = []
-    for _ in range(times + 1):
-        values.append(_points_first(legendre.legval(2.0 * x - 1.0, coefficients)))
-        # dx is half of the Legendre variable's own differential.
-        coefficients = np.asarray(
-            legendre.legint(coefficients, lbnd=-1.0, scl=0.5, axis=0), dtype=np.float64
-        )
-    return values
+def _integrated(values: FloatArray) -> FloatArray:
+    """Return the integrals from the clamp of P_k, or of their integrals, one fewer.
+
+    ∫P_k dx = (P_{k+1} - P_{k-1})/(4k+2), where P_{-1} stands for -P_0; and so again.
+    """
+    before = np.concatenate((-values[..., :1], values[..., :-2]), axis=-1)
+    k = np.arange(values.shape[-1] - 1)
+    return np.asarray((values[..., 1:] - before) / (4.0 * k + 2.0))
+
+
+def _differentiated(values: FloatArray) -> FloatArray:
+    """Return the derivatives of P_k to x, P_k' = P_{k-2}' + (4k-2) P_{k-1}."""
+    slopes = np.zeros_like(values)
+    for k in range(1, values.shape[-1]):
+        slopes[..., k] = slopes[..., max(k - 2, 0)] + (4.0 * k - 2.0) * values[..., k - 1]
+    return slopes

@@ -35,7 +35,7 @@ class Beam:
     Raises
     ------
     ValueError
-        If a value is not finite and positive.
+        If a value is not finite and positive, or a product of them is too small or large.
     TypeError
         If a value is not a number.
 
@@ -56,6 +56,20 @@ class Beam:
         for field, unit in zip(fields(self), ("m", "m^2", "m^4", "Pa", "kg/m^3"), strict=True):
             object.__setattr__(
                 self, field.name, positive(field.name, getattr(self, field.name), unit)
+            )
+        self._require_scales()
+
+    def _require_scales(self) -> None:
+        """Refuse numbers whose products leave what a floating point number can hold."""
+        try:
+            scales = (self.mass, self.slenderness, self.frequency_scale, self.burst_speed)
+            within = all(0.0 < scale < math.inf for scale in scales)
+        except (OverflowError, ZeroDivisionError):
+            within = False
+        if not within:
+            raise ValueError(
+                f"{self!r} has a mass, slenderness or frequency beyond floating point numbers: "
+                f"choose units in which its numbers are nearer to 1"
             )
 
     @classmethod

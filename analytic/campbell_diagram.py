@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
 from .basis import FloatArray
 from .beam import Beam
+from .continuum import Continuum
 from .input_checks import finite_values, rotation_speed, whole_number
-from .modes import LinearModes, linear_modes
+from .modes import LinearModes, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
@@ -89,8 +90,9 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
 
+    wanted = count + _SPARE_MODES
+
     def modes_at(omega: float) -> LinearModes:
-        wanted = count + _SPARE_MODES
         return linear_modes(beam, omega, wanted, functions=max(20, 2 * wanted))
 
     here = modes_at(float(speeds[0]))
@@ -100,22 +102,32 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
     for low, high in pairwise(speeds.tolist()):
         there = modes_at(high)
         assurance = _assurance(here, there)[tracked]
-        following = np.asarray(optimize.linear_sum_assignment(-assurance)[1])
+        following = _followed(assurance)
         frequencies.append(there.frequencies[following])
         assurances.append(assurance[np.arange(count), following])
 
-        def detuning(omega: float, mode: int, order: int, start: LinearModes = here) -> float:
-            modes = modes_at(omega)
-            same = int(np.argmax(_assurance(start, modes)[mode]))
+        # What resolves the modes at both ends does so between them.
+        finer = max(here.model, there.model, key=lambda model: model.bending)
+
+        def detuning(
+            omega: float,
+            mode: int,
+            order: int,
+            start: LinearModes = here,
+            rows: NDArray[np.intp] = tracked,
+            model: Continuum = finer,
+        ) -> float:
+            modes = modes_on(model, beam, omega, wanted)
+            same = _followed(_assurance(start, modes)[rows])[mode]
             return float(modes.frequencies[same] - order * omega)
 
-        for column, mode in enumerate(tracked):
+        for column in range(count):
             for order in range(1, orders + 1):
                 before = frequencies[-2][column] - order * low
                 after = frequencies[-1][column] - order * high
                 if before > 0.0 >= after or before < 0.0 <= after:
                     omega = optimize.brentq(
-                        detuning, low, high, args=(int(mode), order), xtol=1e-12, rtol=1e-13
+                        detuning, low, high, args=(column, order), xtol=1e-13 * high, rtol=1e-13
                     )
                     crossings.append(
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
@@ -130,8 +142,15 @@ def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) ->
     )
 
 
+def _followed(assurance: FloatArray) -> NDArray[np.intp]:
+    """Return the mode that continues each tracked one, all of them different."""
+    return np.asarray(optimize.linear_sum_assignment(-assurance)[1])
+
+
 def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
     """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
-    a = one.coordinates / np.linalg.norm(one.coordinates, axis=1, keepdims=True)
-    b = other.coordinates / np.linalg.norm(other.coordinates, axis=1, keepdims=True)
+    larger = max(one.model, other.model, key=lambda model: model.bending)
+    a, b = (modes.model.padded(modes.coordinates, larger) for modes in (one, other))
+    a = a / np.linalg.norm(a, axis=1, keepdims=True)
+    b = b / np.linalg.norm(b, axis=1, keepdims=True)
     return np.asarray((a @ b.T) ** 2)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .basis import FloatArray
-from .continuum import Continuum
+from .continuum import Continuum, finer_model
 from .harmonic_balance import NoOrbitError, PeriodicOrbit, solve
 from .modes import Modes
 
@@ -16,6 +16,9 @@ RESIDUAL_BOUND = 1e-4
 
 _JACOBI_BOUND = 2e-11  # the drift of the Jacobi integral at which the harmonics suffice
 _FEWEST_HARMONICS, _MOST_HARMONICS = 6, 48
+MOST_FUNCTIONS = 128
+"""For θ; enough for the smallest orbits up to w̄ = 1000."""
+_MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
 
@@ -39,6 +42,16 @@ def linear_orbit(
     )
 
 
+def steady_elongation(orbit: PeriodicOrbit) -> FloatArray:
+    """Return the coordinates of e (axial,) that the rotation alone gives the model."""
+    return orbit.model.split(orbit.model.steady_state(orbit.rate))[1]
+
+
+def meets_the_equations(orbit: PeriodicOrbit) -> bool:
+    """Return whether the functions suffice, by the residual on half as many again."""
+    return orbit.residual <= RESIDUAL_BOUND
+
+
 def followed(
     last: PeriodicOrbit, before: PeriodicOrbit | None, amplitude: float
 ) -> tuple[PeriodicOrbit, PeriodicOrbit | None]:
@@ -51,12 +64,11 @@ def followed(
     NoOrbitError
         If they would have to become too small, saying where and why.
     """
-    steady = last.model.split(last.model.steady_state(last.rate))[1]
     target = min(amplitude, _LARGEST_FACTOR * last.amplitude)
     halvings = 0
     while True:
         try:
-            found = _resolved(_predicted(last, before, target, steady), target)
+            found = _resolved(_predicted(last, before, target), target)
         except NoOrbitError as reason:
             halvings += 1
             if halvings > _HALVINGS:
@@ -66,21 +78,24 @@ def followed(
                 ) from None
             target = 0.5 * (last.amplitude + target)
             continue
-        last, before = found, last
+        if found.amplitude > last.amplitude:
+            before = last
+        last = found
         if target == amplitude:
             return last, before
         target = min(amplitude, _LARGEST_FACTOR * target)
 
 
 def _predicted(
-    last: PeriodicOrbit, before: PeriodicOrbit | None, amplitude: float, steady: FloatArray
+    last: PeriodicOrbit, before: PeriodicOrbit | None, amplitude: float
 ) -> PeriodicOrbit:
     """Return the guess: harmonic k as a^k, times a linear function of a² if two are known."""
-    guess = last.scaled(amplitude, steady)
+    guess = last.scaled(amplitude, steady_elongation(last))
     # Far below, the high harmonics of `before` are round-off.
     if before is None or not 0.0 < amplitude - last.amplitude < before.amplitude:
         return guess
-    other = before.scaled(amplitude, steady).with_harmonics(last.harmonics)
+    other = before.scaled(amplitude, steady_elongation(before))
+    other = other.with_harmonics(last.harmonics).with_functions(last.model)
     weight = (amplitude**2 - last.amplitude**2) / (last.amplitude**2 - before.amplitude**2)
     return replace(
         guess,
@@ -91,18 +106,28 @@ def _predicted(
 
 
 def _resolved(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
-    """Return the orbit near `guess` with as many harmonics as its Jacobi integral needs."""
+    """Return the orbit near `guess` with as many harmonics and functions as it needs.
+
+    Harmonics until the Jacobi integral is constant, functions until the residual is small.
+    """
     orbit = solve(guess, amplitude)
-    while orbit.jacobi_drift > _JACOBI_BOUND + orbit.jacobi_noise:
-        if orbit.harmonics >= _MOST_HARMONICS:
-            raise NoOrbitError(
+    while True:
+        if orbit.jacobi_drift > _JACOBI_BOUND + orbit.jacobi_noise:
+            reason = (
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
                 f"{orbit.jacobi_drift:.1e}"
             )
-        orbit = solve(orbit.with_harmonics(orbit.harmonics + 4), amplitude)
-    if orbit.residual > RESIDUAL_BOUND:
-        raise NoOrbitError(
-            f"the equations of motion are met to {orbit.residual:.1e} only, not to "
-            f"{RESIDUAL_BOUND:g} (more functions may help)"
-        )
-    return orbit
+            larger = orbit.with_harmonics(orbit.harmonics + 4)
+            too_many = larger.harmonics > _MOST_HARMONICS
+        elif not meets_the_equations(orbit):
+            reason = (
+                f"{orbit.model.bending} functions meet the equations of motion to "
+                f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
+            )
+            larger = orbit.with_functions(finer_model(orbit.model))
+            too_many = larger.model.bending > MOST_FUNCTIONS
+        else:
+            return orbit
+        if too_many or larger.harmonics * larger.model.size > _MOST_UNKNOWNS:
+            raise NoOrbitError(reason)
+        orbit = solve(larger, amplitude)

@@ -283,3 +283,10 @@ def continuum(
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
     return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia)
+
+
+def finer_model(model: Continuum) -> Continuum:
+    """Return the discretization with half as many functions again."""
+    bending = model.bending + model.bending // 2
+    axial = model.axial + model.axial // 2
+    return continuum(model.slenderness, bending, axial, model.rotary)

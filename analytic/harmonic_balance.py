@@ -17,7 +17,7 @@ import numpy as np
 from scipy import linalg
 
 from .basis import FloatArray
-from .continuum import Continuum, continuum
+from .continuum import Continuum, finer_model
 
 _NEWTON_STEPS = 15
 _CONVERGED = 1e-13  # of the coordinates of θ and of Ω
@@ -102,14 +102,9 @@ class PeriodicOrbit:
         At four times as many phases as harmonics and on half as many functions again as the
         orbit was computed with, so that it also sees what both truncations left out.
         """
-        model = self.model
-        finer = continuum(
-            model.slenderness,
-            model.bending + model.bending // 2,
-            model.axial + model.axial // 2,
-            model.rotary,
-        )
-        q, q_dot, q_ddot = (model.padded(c, finer) for c in self.coordinates(self._fine_phases))
+        finer = finer_model(self.model)
+        state = self.coordinates(self._fine_phases)
+        q, q_dot, q_ddot = (self.model.padded(c, finer) for c in state)
         defect = finer.residual(q, q_dot, q_ddot, self.rate)
         size = np.linalg.norm(q[:, : finer.bending], axis=-1).max()
         return float(np.linalg.norm(defect, axis=-1).max() / size)
@@ -137,6 +132,12 @@ class PeriodicOrbit:
         sines[:kept] = self.sines[:kept]
         cosines[: kept + 1] = self.cosines[: kept + 1]
         return replace(self, sines=sines, cosines=cosines)
+
+    def with_functions(self, model: Continuum) -> PeriodicOrbit:
+        """Return the same orbit in the larger basis of `model`."""
+        sines = np.pad(self.sines, ((0, 0), (0, model.bending - self.model.bending)))
+        cosines = np.pad(self.cosines, ((0, 0), (0, model.axial - self.model.axial)))
+        return replace(self, model=model, sines=sines, cosines=cosines)
 
     def scaled(self, amplitude: float, steady: FloatArray) -> PeriodicOrbit:
         """Return the orbit with harmonic k scaled as its leading order is, as amplitude^k.

@@ -8,9 +8,15 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+_BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
+_ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
 class RotbeamWarning(UserWarning):
@@ -18,12 +24,47 @@ class RotbeamWarning(UserWarning):
 
 
 def _number(name: str, value: object, unit: str) -> float:
+    value = _magnitude(name, value, unit)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {value!r}")
-    number = float(value)
+    number = _float(name, value, unit)
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
     return number
+
+
+def _float(name: str, value: Real, unit: str) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(
+            f"{name} must be below {np.finfo(float).max:.2g}{_unit(unit)}, the largest floating "
+            f"point number, got a number beyond it; choose larger units"
+        ) from None
+
+
+def _magnitude(name: str, value: object, unit: str) -> object:
+    """Return a quantity of a units library as its number in `unit`, anything else as it is."""
+    own = getattr(value, "units", getattr(value, "unit", None))
+    if own is None:
+        return value
+    if isinstance(own, str):  # a label, as xarray's arrays carry it, converts nothing
+        if own == (unit or "1"):
+            return np.asarray(value)[()]
+        raise ValueError(f"{name} must be{_in(unit or '1')}, got units {own!r}: convert it first")
+    text = str(own)
+    if unit == "rad/s" and not any(angle in text for angle in _ANGLES):
+        # Libraries take an angle for a plain number, so that 1 Hz would come out as 1 rad/s.
+        raise ValueError(f"{name} must be in rad/s, got {text}, which names no angle: convert it")
+    try:
+        converted = value.to(unit or "dimensionless")  # type: ignore[attr-defined]
+        bare: object = getattr(converted, "magnitude", getattr(converted, "value", None))
+    except Exception as reason:  # each library raises its own
+        raise ValueError(
+            f"{name} must be a quantity{_in(unit) or ' without a unit'}, got {text} ({reason}): "
+            f"give the number{_in(unit)} itself"
+        ) from None
+    return bare
 
 
 def _unit(unit: str) -> str:
@@ -51,6 +92,11 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
     return number
 
 
+def finite_number(name: str, value: object, unit: str = "") -> float:
+    """Return `value` as a float, refusing what is not a finite number."""
+    return _number(name, value, unit)
+
+
 def whole_number(name: str, value: object, least: int = 1) -> int:
     """Return `value` as an int, refusing what is not a whole number of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
@@ -71,18 +117,80 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
     )
 
 
-def finite_values(name: str, values: object, unit: str = "") -> NDArray[np.float64]:
+def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
+    """Return numbers as an array of their own shape, refusing what is not finite.
+
+    Quantities of a units library are converted to `unit`; masked arrays and bytes, which NumPy
+    would take for numbers, are refused.
+    """
+    values = _magnitude(name, values, unit)
+    if _is_masked(values):
+        raise TypeError(
+            f"{name} must be numbers{_in(unit)}, got a masked array: leave out what is masked, "
+            f"by .compressed()"
+        )
+    array = _numeric(_bare(name, values, unit))
+    if array is None:
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {values!r}")
+    if array.dtype.kind == "O":
+        # Integers beyond 64 bits; each is small enough for a float, or named.
+        array = np.reshape([_float(name, item, unit) for item in array.flat], array.shape)
+    array = np.asarray(array, dtype=np.float64)
+    finite = np.isfinite(array)
+    if not finite.all():
+        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
+    return array
+
+
+def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     """Return a number or a sequence of numbers as a 1-d array, refusing what is not finite."""
-    try:
-        array = np.atleast_1d(np.asarray(values))
-        if array.dtype.kind not in "fiu":
-            raise TypeError
-        array = array.astype(np.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got {values!r}") from None
+    array = np.atleast_1d(finite_array(name, values, unit))
     if array.ndim != 1 or array.size == 0:
         raise ValueError(f"{name} must be a sequence of numbers, got shape {array.shape}")
-    if not np.all(np.isfinite(array)):
-        first = array[~np.isfinite(array)][0]
-        raise ValueError(f"{name} must be finite, got {first}{_unit(unit)}")
     return array
+
+
+def points_of_beam(name: str, x: object, length: float) -> FloatArray:
+    """Return material points `x` [m], one or a sequence, over the `length`: (points,) in 0 .. 1.
+
+    Points beyond the ends by round-off are put on them, any others beyond are refused.
+    """
+    points = np.atleast_1d(finite_array(name, x, "m"))
+    if points.ndim != 1:
+        raise ValueError(f"{name} must be a sequence of points, got shape {points.shape}")
+    slack = _BEYOND_THE_ENDS * length
+    outside = (points < -slack) | (points > length + slack)
+    if outside.any():
+        raise ValueError(
+            f"{name} must lie on the beam, from 0 to its length of {length:g} m, got "
+            f"{points[outside][0]:g} m; {name} are distances from the clamp"
+        )
+    return np.clip(points / length, 0.0, 1.0)
+
+
+def _bare(name: str, values: object, unit: str) -> object:
+    """Return what NumPy would take for numbers and is; None for bytes, truth values and masks."""
+    if isinstance(values, (bool, np.bool_, bytes, bytearray, memoryview)) or _is_masked(values):
+        return None
+    if isinstance(values, (list, tuple)):
+        return [_bare(name, _magnitude(name, item, unit), unit) for item in values]
+    return values
+
+
+def _numeric(values: object) -> NDArray[Any] | None:
+    """Return an array of real numbers, None if the values are something else."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):  # ragged
+        return None
+    if array.dtype.kind == "O" and not all(_is_real(item) for item in array.flat):
+        return None
+    return array if array.dtype.kind in "fiuO" or array.size == 0 else None
+
+
+def _is_masked(value: object) -> bool:
+    return isinstance(value, np.ma.MaskedArray)
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)

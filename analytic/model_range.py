@@ -10,30 +10,76 @@ from numpy.typing import ArrayLike
 from .beam import Beam
 from .coriolis import rotating_frequencies
 from .input_checks import RotbeamWarning
+from .rotating_mode import MAX_W_BAR
 from .variants import Variant
 
 _PAPER_SPEED_RATIO = 2.0
 """The paper ends at 8 rad/s, about twice ω_n there, and expects higher modes beyond (Sec. 6)."""
 _RESONANCE_BAND = 0.1
+_NOTICEABLE_SHIFT = 2e-4
+"""Of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
+_NOTICEABLE_STRETCH = 2e-3
+"""Relative change of ω_n by the extension."""
+_FASTEST_ORBITS = 500.0
+"""w̄ up to which `periodic_orbits` has enough functions for slender beams."""
 
 
-def warn_beyond_range(beam: Beam, omega: float, variant: Variant, w_n: float) -> None:
-    """Warn where modes that `variant` leaves out matter, or those it eliminates are resonant."""
+def better_model(w_bar: float) -> str:
+    """Return what goes further than a one-mode model at w̄, as the end of a sentence."""
+    if w_bar <= MAX_W_BAR:
+        return "take FrM"
+    if w_bar <= _FASTEST_ORBITS:
+        return "take periodic_orbits"
+    return "rotate slower"
+
+
+def warn_beyond_range(
+    beam: Beam, omega: float, variant: Variant, w_n: float, lambda_omega: float
+) -> None:
+    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant."""
     scale = beam.frequency_scale
-    if variant.coriolis:
-        warn_if_resonant(w_n * scale, rotating_frequencies(omega / scale)[1:] * scale)
+    w_bar = omega / scale
+    if omega >= beam.burst_speed:
+        warnings.warn(
+            f"omega = {omega:g} rad/s is above {beam.burst_speed:.6g} rad/s, at which the rotation "
+            f"stretches this beam without bound: {variant.name} does not know of it and oscillates "
+            f"about a steady state that the beam does not have; rotate slower",
+            RotbeamWarning,
+            stacklevel=3,
+        )
+    elif variant.coriolis:
+        _warn_if_extended(beam, w_bar, lambda_omega)
+        warn_if_resonant(w_n * scale, rotating_frequencies(w_bar)[1:] * scale)
     elif omega > _PAPER_SPEED_RATIO * beam.omega_0:
-        # The rotating beam's first frequency is never below ω0, so it is needed only here.
-        first, second = rotating_frequencies(omega / scale, 2) * scale
-        if omega > _PAPER_SPEED_RATIO * first:
+        # The rotating beam's first frequency is never below ω0, so it is needed only here. Beyond
+        # what its basis resolves, the values there are lower bounds, of the ratio as well.
+        at = min(w_bar, _FASTEST_ORBITS)
+        first, second = rotating_frequencies(at, 2) * scale
+        if at * scale > _PAPER_SPEED_RATIO * first:
+            more, above = ("more than ", "above ") if w_bar > at else ("", "")
             warnings.warn(
-                f"omega = {omega:g} rad/s is {omega / first:.2f} times the rotating beam's first "
-                f"frequency ({first:.4g} rad/s): beyond {_PAPER_SPEED_RATIO:g}, where the paper "
-                f"ends, the second mode ({second:.4g} rad/s), which {variant.name} leaves out, "
-                f"matters; take FrM",
+                f"omega = {omega:g} rad/s is {more}{at * scale / first:.2f} times the rotating "
+                f"beam's first frequency ({above}{first:.4g} rad/s): beyond "
+                f"{_PAPER_SPEED_RATIO:g}, where the paper ends, the second mode ({above}"
+                f"{second:.4g} rad/s), which {variant.name} leaves out, matters; "
+                f"{better_model(w_bar)}",
                 RotbeamWarning,
                 stacklevel=3,
             )
+
+
+def _warn_if_extended(beam: Beam, w_bar: float, lambda_omega: float) -> None:
+    """Warn where the extension, which FrM leaves out, changes λ_ω or ω_n noticeably."""
+    mu = beam.slenderness
+    shift, stretch = 4.0 * mu, mu * w_bar**2
+    if shift > _NOTICEABLE_SHIFT or stretch > _NOTICEABLE_STRETCH:
+        warnings.warn(
+            f"FrM is inextensible, but this beam has the slenderness μ = I/(AL²) = {mu:.2g}: its "
+            f"λ_ω is higher than FrM's {lambda_omega:.4f} by about 4μ = {shift:.1e}, and its ω_n "
+            f"lower by about μ w_bar² = {stretch:.1e} of it; take periodic_orbits",
+            RotbeamWarning,
+            stacklevel=4,
+        )
 
 
 def warn_if_resonant(omega_n: float, others: ArrayLike) -> None:

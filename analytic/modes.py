@@ -11,8 +11,12 @@ from scipy import linalg
 
 from .basis import FloatArray
 from .beam import Beam, require_steady_state, warn_if_rpm
-from .continuum import ComplexArray, Continuum, continuum
-from .input_checks import rotation_speed, whole_number
+from .continuum import ComplexArray, Continuum, continuum, finer_model
+from .input_checks import points_of_beam, rotation_speed, whole_number
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
+_SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +56,7 @@ class LinearModes:
         return self._displacement(x).real
 
     def _displacement(self, x: ArrayLike) -> ComplexArray:
-        at = np.atleast_1d(np.asarray(x, dtype=np.float64)) / self.beam.length
+        at = points_of_beam("x", x, self.beam.length)
         return self.model.integrated(self._slopes, at).T
 
 
@@ -83,29 +87,63 @@ def linear_modes(
     rotary_inertia : bool
         Give the cross-sections their inertia against rotation.
     functions : int
-        Number of functions for the tangent's angle; half as many modes are resolved.
+        Least number of functions for the tangent's angle, at most 256; half as many modes are
+        resolved. They grow by half until half as many again change no frequency by 1e-9.
 
     Raises
     ------
     ValueError
         If `omega` is negative, not finite, or tears the beam; if `count` is beyond what the
-        functions resolve.
+        functions resolve; if 256 functions do not settle the frequencies, as beyond about
+        w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp becomes too thin, and within 1 % of
+        the burst.
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)
     warn_if_rpm(beam, omega)
-    model = resolved_model(beam, count, inextensible, rotary_inertia, functions)
-    rate = steady_rate(beam, omega, model)
-    modes = solve_modes(model, rate)
-    coordinates = modes.coordinates[:count]
+    model, modes = _settled_modes(beam, omega, count, inextensible, rotary_inertia, functions)
+    return _in_units(beam, omega, count, model, modes)
+
+
+def modes_on(model: Continuum, beam: Beam, omega: float, count: int) -> LinearModes:
+    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    return _in_units(beam, omega, count, model, solve_modes(model, steady_rate(beam, omega, model)))
+
+
+def _in_units(beam: Beam, omega: float, count: int, model: Continuum, modes: Modes) -> LinearModes:
     return LinearModes(
         beam=beam,
         omega=omega,
         frequencies=modes.frequencies[:count] * beam.frequency_scale,
-        coordinates=coordinates,
+        coordinates=modes.coordinates[:count],
         model=model,
         _slopes=modes.slopes[:count],
     )
+
+
+def _settled_modes(
+    beam: Beam, omega: float, count: int, inextensible: bool, rotary_inertia: bool, functions: int
+) -> tuple[Continuum, Modes]:
+    """Return the discretization that a finer one confirms, and its modes.
+
+    Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
+    """
+    model = resolved_model(beam, count, inextensible, rotary_inertia, functions)
+    rate = steady_rate(beam, omega, model)
+    modes = solve_modes(model, rate)
+    while True:
+        finer = finer_model(model)
+        confirmed = solve_modes(finer, rate)
+        change = np.abs(modes.frequencies[:count] / confirmed.frequencies[:count] - 1.0).max()
+        if change <= _SETTLED:
+            return model, modes
+        if finer.bending > MOST_FUNCTIONS:
+            raise ValueError(
+                f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {rate:.4g}, "
+                f"have not settled to {_SETTLED:g} with {model.bending} functions: half as many "
+                f"again change them by {change:.1e}; rotate slower"
+            )
+        model, modes = finer, confirmed
 
 
 def resolved_model(
@@ -113,6 +151,11 @@ def resolved_model(
 ) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
     functions = whole_number("functions", functions, least=4)
+    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
+        raise ValueError(
+            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
+            f"modes, got functions={functions} for mode {mode}: ask for less"
+        )
     if mode > functions // 2:
         raise ValueError(
             f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "

@@ -18,11 +18,18 @@ from . import first_integral
 from .beam import Beam, warn_if_rpm
 from .coriolis import coriolis_coupling
 from .energies import energy_coefficients
-from .input_checks import RotbeamWarning, not_negative, rotation_speed, whole_number
-from .model_range import warn_beyond_range
+from .input_checks import (
+    RotbeamWarning,
+    finite_array,
+    finite_number,
+    not_negative,
+    rotation_speed,
+    whole_number,
+)
+from .model_range import better_model, warn_beyond_range
 from .rotating_mode import RotatingMode
 from .shapes import CantileverMode
-from .variants import VARIANTS, Variant
+from .variants import Variant, variant_named
 
 FloatArray = NDArray[np.float64]
 
@@ -138,9 +145,8 @@ class ReducedModel:
         phase : float
             φ0 of Eq. 65 [rad].
         """
-        psi = self.frequency(not_negative("a0", a0)) * _finite("t", t) + float(
-            _finite("phase", phase)
-        )
+        a0 = not_negative("a0", a0)
+        psi = self.frequency(a0) * finite_array("t", t, "s") + finite_number("phase", phase, "rad")
         return np.asarray(a0 * np.cos(psi) - self.lambda_x * a0**3 * np.cos(3.0 * psi))
 
     def orbit(self, a0: float, n: int = 200) -> tuple[FloatArray, FloatArray]:
@@ -170,7 +176,7 @@ class ReducedModel:
 
     def _amplitudes(self, a: ArrayLike, largest: float, beyond: str) -> FloatArray:
         """Return `a` as floats; refuse negative ones, those above 1, and from `largest` on."""
-        amplitude = _finite("amplitude", a)
+        amplitude = finite_array("amplitude", a)
         if amplitude.size == 0:
             return amplitude
         low, high = float(amplitude.min()), float(amplitude.max())
@@ -185,7 +191,7 @@ class ReducedModel:
         if high > _PAPER_AMPLITUDE:
             warnings.warn(
                 f"amplitude {high:g} is above {_PAPER_AMPLITUDE:g}, the paper's own bound for the "
-                f"reduced models; periodic_orbits has none",
+                f"reduced models; periodic_orbits goes on for as long as it finds an orbit",
                 RotbeamWarning,
                 stacklevel=3,
             )
@@ -214,7 +220,8 @@ def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> R
     -----
     RotbeamWarning
         Where the model is used beyond its range: ω above 2ω_n in a model without the other modes,
-        2ω_n near another mode in one with them, ω so large that it may be meant in rpm.
+        2ω_n near another mode in one with them, a beam so stocky or fast that FrM's want of
+        extension shows, ω above the burst speed, or so large that it may be meant in rpm.
 
     Examples
     --------
@@ -224,12 +231,10 @@ def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> R
     """
     omega = rotation_speed(omega)
     if isinstance(variant, str):
-        if variant not in VARIANTS:
-            raise ValueError(f"variant must be one of {', '.join(VARIANTS)}, got {variant!r}")
-        variant = VARIANTS[variant]
+        variant = variant_named(variant)
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
-    warn_beyond_range(beam, omega, variant, model.w_n)
+    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
     return model
 
 
@@ -248,7 +253,7 @@ def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
     if square <= 0.0:
         raise ValueError(
             f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
-            f"EI/(mL³) there, so lower omega or take another variant"
+            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
         )
     coupling = (
         coriolis_coupling(shape) if variant.coriolis and isinstance(shape, RotatingMode) else None
@@ -262,14 +267,3 @@ def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
         g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
         tip_coupling=coupling.tip if coupling else 0.0,
     )
-
-
-def _finite(name: str, values: ArrayLike) -> FloatArray:
-    array = np.asarray(values)
-    if array.dtype.kind not in "iuf" and array.size:
-        raise TypeError(f"{name} must hold numbers, got {values!r}")
-    array = np.asarray(array, dtype=np.float64)
-    finite = np.isfinite(array)
-    if not finite.all():
-        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}")
-    return array

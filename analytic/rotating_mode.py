@@ -18,7 +18,7 @@ from .shapes import PolynomialShape
 
 FloatArray = NDArray[np.float64]
 
-_MAX_W_BAR = 30.0
+MAX_W_BAR = 30.0
 """Both series grow like exp(w̄/√2): up to here w̄_n keeps 3e-7, at 40 only 3e-4."""
 _MAX_DEGREE = 150
 """At w̄ = 30 the series has converged at degree 100."""
@@ -77,8 +77,10 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
     )
 
 
-def rotating_mode(w_bar: float) -> RotatingMode:
+def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
     """Return the first rotating mode, Eq. 87, at the degree at which the series has converged.
+
+    Or at another `degree`, to see what the paper's does.
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.
@@ -88,7 +90,7 @@ def rotating_mode(w_bar: float) -> RotatingMode:
     ValueError
         If `w_bar` is so large that the series does not resolve the mode in double precision.
     """
-    degree = converged_degree(w_bar)
+    degree = degree or converged_degree(w_bar)
     w_n = rotating_frequency(w_bar, degree)
     v_2, v_3 = (frobenius_series(r, w_bar, w_n, degree) for r in (2, 3))
     (moment_2, _), (moment_3, _) = _tip(v_2), _tip(v_3)
@@ -98,10 +100,11 @@ def rotating_mode(w_bar: float) -> RotatingMode:
 
 def converged_degree(w_bar: float) -> int:
     """Return the degree beyond which the terms of v₂ and v₃ at the tip are round-off."""
-    if w_bar > _MAX_W_BAR:
+    if w_bar > MAX_W_BAR:
         raise ValueError(
             f"the power series of the rotating mode keeps its digits up to w_bar = ω/√(EI/mL³) = "
-            f"{_MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take linear_modes instead"
+            f"{MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take linear_modes "
+            f"for the frequency and periodic_orbits for the backbone"
         )
     k = np.arange(_MAX_DEGREE + 1.0)
     # Third derivatives converge last, and at the upper bound for w̄_n the terms are the largest.

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from .beam import Beam
 from .reduced import model_at
-from .variants import VARIANTS, Variant
+from .variants import Variant, variant_named
 
 _HIGHEST_SPEED_RATIO = 4.0
 
@@ -15,10 +15,11 @@ _HIGHEST_SPEED_RATIO = 4.0
 def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     """Return the speed ratio Ω = ω/ω0 at which the model turns from hardening to softening.
 
-    The exact beam does so near Ω = 1.0219. None where λ_ω does not rise through zero up to Ω = 4:
-    such a model softens, or hardens, at every speed of interest.
+    FrM, and with it the exact inextensible beam, does so at Ω = 1.02190; the exact extensible one
+    a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None where λ_ω does not rise
+    through zero up to Ω = 4: such a model softens, or hardens, at every speed of interest.
     """
-    setting = VARIANTS[variant] if isinstance(variant, str) else variant
+    setting = variant_named(variant) if isinstance(variant, str) else variant
 
     def lambda_omega(speed_ratio: float) -> float:
         return model_at(beam, speed_ratio * beam.omega_0, setting).lambda_omega

@@ -14,7 +14,7 @@ from .basis import FloatArray
 from .beam import Beam, warn_if_rpm
 from .collocation import radau
 from .continuum import ComplexArray, Continuum, continuum
-from .input_checks import finite_values, positive
+from .input_checks import finite_values, points_of_beam, positive
 from .modes import steady_rate
 from .spin_up import SpinUp
 
@@ -23,6 +23,9 @@ _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement 
 _STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
+_MOST_STEPS = 100_000  # of one solution; some minutes
+_MOST_POSITIONS = 20_000_000  # times by points; 1 GB
+_ROUND_OFF = 1e-13  # of the tip's position over the length
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,13 +91,13 @@ def spin_up_response(
     rotary_inertia : bool
         Give the cross-sections their inertia against rotation.
     points : array_like
-        Material points [m] whose positions are wanted as well, to draw the beam.
+        Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
 
     Raises
     ------
     ValueError
-        If the times are not ascending from 0 on, the tolerance below 1e-11, or the final speed
-        leaves no steady state.
+        If the times are not ascending from 0 on or take more than 100000 steps, the tolerance is
+        below 1e-11, a point is beyond the beam, or the final speed leaves no steady state.
     RuntimeError
         If the tolerance is not reached.
     """
@@ -108,14 +111,17 @@ def spin_up_response(
         )
     warn_if_rpm(beam, spin_up.omega)
     rotary = beam.slenderness if rotary_inertia else 0.0
-    along = np.asarray(points, dtype=np.float64) / beam.length
-    coarser, error = None, math.inf
+    along = points_of_beam("points", points, beam.length)
+    _require_feasible(beam, spin_up, time, along)
+    coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
         functions = _FUNCTIONS + _MORE_FUNCTIONS * level
         model = continuum(beam.slenderness, functions, functions // 2, rotary)
-        rate = steady_rate(beam, spin_up.omega, model)
-        longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level
-        grid = _grid(spin_up, float(time[-1]), longest / beam.frequency_scale)
+        steady_rate(beam, spin_up.omega, model)
+        corners, counts = _steps(beam, spin_up, float(time[-1]), level)
+        if sum(counts) > _MOST_STEPS:
+            break
+        grid = _grid(corners, counts)
         finer = _integrated(beam, spin_up, model, grid, time, along)
         if finer is None:
             coarser = None
@@ -140,24 +146,61 @@ def spin_up_response(
                 )
         coarser = finer
     raise RuntimeError(
-        f"the response does not settle to {tolerance:g}: the finest two solutions differ by "
-        f"{error:.1e} of the largest deflection; ask for less or for a shorter time"
+        f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
     )
 
 
-def _grid(spin_up: SpinUp, end: float, longest: float) -> FloatArray:
-    """Return the ends of the steps [s]; one is the end of the ramp, where Eq. 1 has a kink."""
+def _what_to_try(error: float, size: float, end: float) -> str:
+    """Return the end of the sentence on two solutions that differ by `error` times `size`."""
+    if math.isinf(error):
+        return f"Newton's method fails before t = {end:g} s; take a longer ramp"
+    if error * size < _ROUND_OFF:
+        return (
+            f"until t = {end:g} s the beam deflects by {size:.1e} of its length only, which "
+            f"round-off drowns; ask for later times as well"
+        )
+    return (
+        f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
+        f"tolerance={2.0 * error:.0e} or a longer ramp"
+    )
+
+
+def _require_feasible(beam: Beam, spin_up: SpinUp, time: FloatArray, along: FloatArray) -> None:
+    """Refuse what would take more time or memory than there is, before it starts."""
+    end = float(time[-1])
+    steps = sum(_steps(beam, spin_up, end, level=1)[1])  # two solutions are the least
+    if steps > _MOST_STEPS:
+        raise ValueError(
+            f"times up to {end:g} s take {steps:.3g} steps, more than the {_MOST_STEPS:.3g} "
+            f"at most; ask for times up to {0.9 * end * _MOST_STEPS / steps:.3g} s"
+        )
+    if time.size * along.size > _MOST_POSITIONS:
+        raise ValueError(
+            f"{time.size} times by {along.size} points are more positions than the "
+            f"{_MOST_POSITIONS} that are kept; ask for fewer points, or none"
+        )
+
+
+def _steps(beam: Beam, spin_up: SpinUp, end: float, level: int) -> tuple[list[float], list[int]]:
+    """Return the corners of the motion [s] and the steps between them.
+
+    A corner is the end of the ramp, where Eq. 1 has a kink.
+    """
+    rate = spin_up.omega / beam.frequency_scale
+    longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level / beam.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]
     if end > spin_up.ramp_time:
         corners.append(end)
     # A short ramp still has to be seen as the smooth curve it is.
-    longest_in_ramp = min(longest, spin_up.ramp_time / 4.0)
-    parts = [
-        np.linspace(a, b, math.ceil((b - a) / step) + 1)[1:]
-        for (a, b), step in zip(pairwise(corners), (longest_in_ramp, longest), strict=False)
-        if b > a
-    ]
-    return np.concatenate(([0.0], *parts))
+    lengths = (min(longest, spin_up.ramp_time / 4.0), longest)
+    parts = zip(pairwise(corners), lengths, strict=False)
+    return corners, [math.ceil((b - a) / step) for (a, b), step in parts]
+
+
+def _grid(corners: list[float], counts: list[int]) -> FloatArray:
+    """Return the ends of the steps [s]."""
+    parts = zip(pairwise(corners), counts, strict=True)
+    return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
 
 
 def _integrated(
@@ -203,7 +246,7 @@ def _integrated(
         if found is None:
             return None
         acceleration, previous = found, h
-        inside = (time > start) & (time <= end)
+        inside = slice(*np.searchsorted(time, (start, end), side="right"))
         at = (time[inside] - start) / (end - start)
         velocities = q_dot + h * method.integral(at) @ acceleration
         positions = (

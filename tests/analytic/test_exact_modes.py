@@ -120,7 +120,7 @@ def test_a_speed_that_tears_the_beam_is_refused(beam):
     soft = Beam.from_stiffness(
         length=1.0, axial_stiffness=100.0, bending_stiffness=1.0, mass_per_length=1.0
     )
-    linear_modes(soft, 15.7)
+    linear_modes(soft, 15.5)
     with pytest.raises(ValueError, match=r"stretched without bound at 15\.708 rad/s"):
         linear_modes(soft, 15.71)
 

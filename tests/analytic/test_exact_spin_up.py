@@ -113,6 +113,31 @@ def test_late_oscillation_has_the_amplitude_measured(beam):
     assert 0.5 * np.ptp(response.q) / beam.length == pytest.approx(0.32020, abs=5e-3)
 
 
+def test_times_may_repeat_and_stand_still(beam):
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    once = spin_up_response(beam, spin_up, [0.5, 1.0], tolerance=1e-5)
+    twice = spin_up_response(beam, spin_up, [0.0, 0.5, 0.5, 1.0, 1.0], tolerance=1e-5)
+    assert twice.q.tolist() == [0.0, *np.repeat(once.q, 2)]
+    assert spin_up_response(beam, spin_up, [0.0, 0.0]).q.tolist() == [0.0, 0.0]
+
+
+def test_a_ramp_far_shorter_than_the_period_is_a_blow(beam):
+    """The beam keeps its place for an instant: the clamp's turn is what the tip lags behind."""
+    spin_up, time = SpinUp(omega=0.1, ramp_time=1e-4), 0.02
+    response = spin_up_response(beam, spin_up, [time], tolerance=1e-3)
+    # Bending waves have reached √(√(EI/ρA) t) = 0.13 of the length from the clamp.
+    assert response.q[0] == pytest.approx(-beam.length * spin_up.angle(time), rel=1e-3)
+
+
+def test_a_slow_spin_up_is_that_of_a_faster_one_scaled(beam):
+    """Linear in ω where nothing but the Euler force counts, down to 1e-9 rad/s."""
+    slow, slower = (
+        spin_up_response(beam, SpinUp(omega=omega, ramp_time=3.0), [4.0], tolerance=1e-5).q[0]
+        for omega in (1e-4, 1e-9)
+    )
+    assert slower / 1e-9 == pytest.approx(slow / 1e-4, rel=1e-5)
+
+
 def test_no_rotation_no_motion(beam):
     response = spin_up_response(beam, SpinUp(omega=0.0, ramp_time=1.0), [0.0, 2.0])
     assert response.q == pytest.approx(0.0, abs=0.0)
@@ -125,6 +150,8 @@ def test_no_rotation_no_motion(beam):
         ([-1.0, 1.0], 1e-8, "ascend from 0 s on"),
         ([2.0, 1.0], 1e-8, "ascend from 0 s on"),
         ([1.0, np.nan], 1e-8, "times must be finite"),
+        ([], 1e-8, "times must be a sequence of numbers"),
+        ([1e12], 1e-8, "steps, more than the 1e\\+05 at most"),
         ([1.0], 1e-14, "at least 1e-11"),
         ([1.0], -1.0, "tolerance must be positive"),
     ],

@@ -52,7 +52,7 @@ def test_one_bad_amplitude_among_many():
 
 @pytest.mark.parametrize("value", ["0.1", True, [0.1, None], 1j])
 def test_amplitude_is_a_number(value):
-    with pytest.raises(TypeError, match="amplitude must hold numbers"):
+    with pytest.raises(TypeError, match="amplitude must be numbers"):
         reduced_model(BEAM, 4.0).frequency(value)
 
 

@@ -6,6 +6,7 @@ from numpy.polynomial import Polynomial
 from scipy.optimize import brentq
 
 from analytic import Beam, paper_table, reduced_model
+from analytic.beam import BETA_1
 from analytic.coriolis import rotating_frequencies
 from analytic.rotating_mode import (
     converged_degree,
@@ -13,6 +14,7 @@ from analytic.rotating_mode import (
     rotating_frequency,
     rotating_mode,
 )
+from analytic.tables import PRINTED_BETA, half_unit, table_5_by_the_print
 
 BEAM = Beam.reference()
 
@@ -40,6 +42,24 @@ def test_print_within_the_rounding_of_its_constants():
     assert len(rows) == 12
     for row in rows:
         assert abs(float(row.derived) - float(row.printed)) <= bound[row.quantity.split()[0]]
+
+
+def test_the_papers_degree_and_a_rounded_beta_explain_two_thirds_of_the_print():
+    met = {PRINTED_BETA: 0, BETA_1: 0}
+    for omega in (2.0, 4.0, 6.0, 8.0):
+        printed = [row.printed for row in paper_table(5).rows if f"at {omega:g} " in row.quantity]
+        for beta in met:
+            for text, value in zip(printed, table_5_by_the_print(omega, beta), strict=True):
+                met[beta] += abs(value - float(text)) <= half_unit(text)
+    assert met == {PRINTED_BETA: 8, BETA_1: 2}
+
+
+def test_notes_of_table_5_tell_which_entries_the_papers_degree_meets():
+    notes = [row.note for row in paper_table(5).rows]
+    # Two agree as they are, six more with degree 36 and the rounded β, four not even then.
+    assert notes.count("") == 2
+    assert sum("; met with its degree 36 and β = 1.8751" in note for note in notes) == 6
+    assert sum("; not met either with its degree 36" in note for note in notes) == 4
 
 
 @pytest.mark.parametrize(

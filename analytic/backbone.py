@@ -1,0 +1,186 @@
+"""The exact backbone: what the periodic orbits of the exact beam at one speed answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .basis import FloatArray
+from .beam import Beam
+from .continuum import ComplexArray
+from .floquet import floquet_multipliers, is_stable
+from .harmonic_balance import PeriodicOrbit
+from .input_checks import (
+    finite_array,
+    finite_number,
+    finite_values,
+    points_of_beam,
+    whole_number,
+)
+
+
+class AmplitudeNotReachedError(RuntimeError):
+    """An amplitude was not reached; `backbone` holds the orbits that were, None if none was."""
+
+    def __init__(self, message: str, backbone: Backbone | None = None) -> None:
+        super().__init__(message)
+        self.backbone = backbone
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeamState:
+    """State of the beam at material points, in the rotating frame: r = (x + u, v); SI units.
+
+    Attributes
+    ----------
+    u, v : ndarray (points,)
+        Displacements along and across the undeformed axis [m].
+    u_slope, v_slope : ndarray (points,)
+        Their derivatives to x, u' and v' [-].
+    u_dot, v_dot, u_slope_dot, v_slope_dot : ndarray (points,)
+        The rates of all four as seen in the rotating frame [m/s, 1/s].
+    """
+
+    u: FloatArray
+    v: FloatArray
+    u_slope: FloatArray
+    v_slope: FloatArray
+    u_dot: FloatArray
+    v_dot: FloatArray
+    u_slope_dot: FloatArray
+    v_slope_dot: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Backbone:
+    """Periodic orbits of the exact beam at one speed; made by `periodic_orbits`.
+
+    Time and phase start where the beam is straight and q rises, in every method.
+
+    Attributes
+    ----------
+    beam : Beam
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        The mode from which the orbits grow, from 1.
+    omega_n : float
+        Its linear frequency ω_n [rad/s].
+    amplitude : ndarray (orbits,)
+        Peak |q|/L.
+    frequency : ndarray (orbits,)
+        ω_NL [rad/s].
+    lambda_omega : float
+        λ_ω of ω_NL = ω_n (1 - λ_ω a²) as a → 0.
+    lambda_omega_error : float
+        What the extrapolation to a = 0 changed: an upper estimate of its error.
+    harmonics : ndarray (orbits, H)
+        Sine coefficients 1 to H of q/L.
+    residual : ndarray (orbits,)
+        Largest residual of the equations of motion in the energy norm, relative to the bending.
+    jacobi_drift : ndarray (orbits,)
+        Change of the Jacobi integral along the orbit, relative to the largest kinetic energy.
+    """
+
+    beam: Beam
+    omega: float
+    mode: int
+    omega_n: float
+    amplitude: FloatArray
+    frequency: FloatArray
+    lambda_omega: float
+    lambda_omega_error: float
+    harmonics: FloatArray = field(repr=False)
+    residual: FloatArray = field(repr=False)
+    jacobi_drift: FloatArray = field(repr=False)
+    _orbits: tuple[PeriodicOrbit, ...] = field(repr=False)
+
+    @property
+    def first_harmonic(self) -> FloatArray:
+        """First harmonic of q/L, (orbits,)."""
+        return self.harmonics[:, 0]
+
+    @cached_property
+    def peak_time(self) -> FloatArray:
+        """Time at which q is greatest [s], (orbits,); there the reduced models start theirs."""
+        return np.array([orbit.peak_phase for orbit in self._orbits]) / self.frequency
+
+    def _orbit(self, i: int) -> PeriodicOrbit:
+        count = len(self._orbits)
+        if not -count <= i < count:
+            raise IndexError(f"orbit {i} is none of the {count} of this backbone, 0 to {count - 1}")
+        return self._orbits[i]
+
+    def response(self, t: ArrayLike, i: int, phase: float = 0.0) -> FloatArray:
+        """Return q/L of orbit `i` at the times `t` [s], starting at `phase` [rad]."""
+        orbit, times = self._orbit(i), finite_array("t", t, "s")
+        phases = self.frequency[i] * times.ravel() + finite_number("phase", phase, "rad")
+        return orbit.tip(phases).reshape(times.shape)
+
+    def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
+        """Return x = q/L and dx/dτ, τ = t √(EI/mL³), at `n` + 1 instants of one period."""
+        n = whole_number("n", n)
+        orbit = self._orbit(i)
+        q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n + 1))
+        return orbit.model.tip(q).imag, orbit.model.tip_rate(q, q_dot).imag
+
+    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
+        """Return the state of orbit `i` at the material points `x` [m], to start a code from.
+
+        Points beyond the beam, from 0 to L, are refused.
+        """
+        orbit, length = self._orbit(i), self.beam.length
+        at, phase = points_of_beam("x", x, length), finite_number("phase", phase, "rad")
+        q, q_dot, _ = (c[0] for c in orbit.coordinates(np.array([phase])))
+        model, per_second = orbit.model, self.beam.frequency_scale
+        slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
+        z = length * model.integrated(model.slope(q), at)
+        z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
+        return BeamState(
+            u=z.real - length * at,
+            v=z.imag,
+            u_slope=slope.real - 1.0,
+            v_slope=slope.imag,
+            u_dot=z_dot.real,
+            v_dot=z_dot.imag,
+            u_slope_dot=slope_rate.real,
+            v_slope_dot=slope_rate.imag,
+        )
+
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
+
+        Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
+        deflected beam, as one draws it.
+        """
+        orbit, length = self._orbit(i), self.beam.length
+        at = points_of_beam("x", x, length)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        z = length * orbit.model.integrated(orbit.model.slope(q), at)
+        return z.real, z.imag
+
+    @cached_property
+    def multipliers(self) -> ComplexArray:
+        """Floquet multipliers (orbits, 8) of largest modulus; computed when first asked for."""
+        return np.array([floquet_multipliers(orbit) for orbit in self._orbits])
+
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether the orbits are stable against small disturbances in the plane, (orbits,).
+
+        No Floquet multiplier lies outside the unit circle among those of the modes that the
+        integration over a period resolves, about the lowest four; it damps the higher ones, so
+        that their instability would not be seen, nor is motion out of the plane considered.
+        """
+        return np.array([is_stable(multipliers) for multipliers in self.multipliers])
+
+    def __str__(self) -> str:
+        return (
+            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
+            f"omega_n = {self.omega_n:.8f} rad/s, lambda_omega = {self.lambda_omega:.6f}, "
+            f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
+            f"residual at most {self.residual.max():.1e}"
+        )

@@ -1,0 +1,129 @@
+"""Fast rotation: the layer at the clamp is resolved, or the answer refused."""
+
+import numpy as np
+import pytest
+from scipy import linalg
+
+from analytic import Beam, campbell, linear_modes, periodic_orbits
+from analytic.basis import gauss_points, transverse_basis
+from analytic.input_checks import RotbeamWarning
+
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore:{text}:analytic.input_checks.RotbeamWarning")
+    for text in (".*rpm", "internal resonance")
+]
+
+
+def unit_beam(slenderness):
+    """EI = ρA = L = 1, so that ω is w̄."""
+    return Beam.from_stiffness(
+        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
+    )
+
+
+def deflection_frequencies(rate, count=160):
+    """Inextensible modes by a Galerkin basis for v: nothing of the solver under test."""
+    x, weights = gauss_points(count + 4)
+    phi = transverse_basis(count, x)
+    tension = 0.5 * rate**2 * (1.0 - x**2) * weights
+    mass = phi.value.T @ (weights[:, None] * phi.value)
+    stiffness = phi.curvature.T @ (weights[:, None] * phi.curvature) - rate**2 * mass
+    stiffness += phi.slope.T @ (tension[:, None] * phi.slope)
+    return 1.0 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True)[:-4:-1])
+
+
+@pytest.mark.parametrize("rate", [150.0, 1000.0, 1500.0])
+def test_inextensible_modes_have_settled(rate):
+    found = linear_modes(unit_beam(1e-10), rate, inextensible=True).frequencies
+    # Twenty functions are 2.7e-4, 34 % and 58 % off in the first.
+    assert found == pytest.approx(deflection_frequencies(rate), rel=1e-8)
+
+
+@pytest.mark.parametrize("rate", [150.0, 400.0])
+def test_extensible_modes_have_settled(rate):
+    beam = unit_beam(1e-10)
+    found = linear_modes(beam, rate)
+    finer = linear_modes(beam, rate, functions=2 * found.model.bending)
+    assert found.frequencies == pytest.approx(finer.frequencies, rel=1e-9)
+    # Softer than without extension by about μw̄² of the frequency.
+    stiff = linear_modes(beam, rate, inextensible=True).frequencies[0]
+    assert 1.0 - found.frequencies[0] / stiff == pytest.approx(1e-10 * rate**2, rel=0.05)
+
+
+@pytest.mark.parametrize("count", [10, 20])
+def test_high_modes_at_rest_have_settled(beam, count):
+    found = linear_modes(beam, 0.0, count, inextensible=True, functions=2 * count)
+    # cos β cosh β = -1 has β = (k - ½)π to round-off.
+    beta = (count - 0.5) * np.pi
+    assert found.frequencies[-1] / beam.frequency_scale == pytest.approx(beta**2, rel=1e-9)
+
+
+def test_campbell_diagram_has_settled(beam):
+    speeds = np.array([100.0, 150.0]) * beam.frequency_scale
+    diagram = campbell(beam, speeds, 2)
+    for omega, row in zip(speeds, diagram.frequencies, strict=True):
+        finer = linear_modes(beam, omega, 2, functions=90).frequencies
+        assert row == pytest.approx(finer, rel=1e-9)
+    # The bases at both speeds differ in size; the shapes do hardly.
+    assert diagram.mac.min() > 0.8
+
+
+def test_a_crossing_is_found_in_any_unit_of_time():
+    slow = campbell(unit_beam(1e-6), np.linspace(0.0, 8.0, 3), 1, 4).crossings
+    beam = Beam.from_stiffness(
+        length=1.0, axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1e24
+    )
+    fast = campbell(beam, np.linspace(0.0, 8.0, 3) * 1e-12, 1, 4).crossings
+    assert [c.omega * 1e12 for c in fast] == pytest.approx([c.omega for c in slow], rel=1e-9)
+
+
+def test_beyond_the_most_functions_it_says_how_far_it_holds():
+    with pytest.raises(ValueError, match=r"w_bar = .* = 1e\+05, have not settled .* rotate slower"):
+        linear_modes(unit_beam(1e-12), 1e5, 1, inextensible=True, functions=200)
+
+
+def test_too_many_functions_are_refused_at_once(beam):
+    with pytest.raises(ValueError, match="at most 256 functions"):
+        linear_modes(beam, 1.0, functions=10**6)
+    with pytest.raises(ValueError, match="resolve 128 modes, got functions=20 for mode 500"):
+        linear_modes(beam, 1.0, 500)
+
+
+def test_default_answers_of_the_paper_are_those_of_twenty_functions(beam):
+    for omega in (0.0, 2.0, 4.0, 6.0, 8.0, 12.0):
+        assert linear_modes(beam, omega).model.bending == 20
+
+
+@pytest.mark.parametrize(
+    ("slenderness", "omega", "amplitude"),
+    [(1.758e-6, 36.257, 0.3), (1e-4, 14.5, 0.3), (1e-3, 12.1, 0.24), (1e-2, 12.0, 0.3)],
+)
+def test_functions_of_an_orbit_grow_as_it_needs_them(slenderness, omega, amplitude):
+    found = periodic_orbits(unit_beam(slenderness), omega, [amplitude])
+    finer = periodic_orbits(unit_beam(slenderness), omega, [amplitude], functions=36)
+    assert found.residual.max() <= 1e-4
+    # The square of the residual, 1e-8.
+    ratio = found.frequency / found.omega_n
+    assert ratio == pytest.approx(finer.frequency / finer.omega_n, rel=1e-8)
+    assert found.lambda_omega == pytest.approx(finer.lambda_omega, abs=1e-6)
+
+
+def test_more_functions_than_orbits_grow_to_still_take_more_harmonics(beam, monkeypatch):
+    monkeypatch.setattr("analytic.continuation.MOST_FUNCTIONS", 16)
+    many = periodic_orbits(beam, 6.0, [0.3], functions=20)
+    few = periodic_orbits(beam, 6.0, [0.3])
+    assert many.frequency == pytest.approx(few.frequency, rel=1e-8)
+
+
+def test_very_fast_orbits():
+    found = periodic_orbits(unit_beam(1e-10), 250.0, [0.1])
+    linear = linear_modes(unit_beam(1e-10), 250.0, 1).frequencies[0]
+    assert found.omega_n == pytest.approx(linear, rel=1e-8)
+    # Extrapolated to a = 0 with 120 functions, at μ = 1e-8.
+    assert found.lambda_omega == pytest.approx(0.0163, abs=1e-4)
+
+
+def test_rpm_warning_is_the_only_one(beam):
+    with pytest.warns(RotbeamWarning, match="rpm") as caught:
+        linear_modes(beam, 100.0)
+    assert len(caught) == 1

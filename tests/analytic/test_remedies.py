@@ -1,0 +1,232 @@
+"""What the sentences advise is done: the complaint is gone then, or it is another."""
+
+import math
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+from analytic import (
+    AmplitudeNotReachedError,
+    Beam,
+    SpinUp,
+    Variant,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    spin_up_response,
+)
+from analytic.input_checks import RotbeamWarning, finite_array
+
+
+def unit_beam(slenderness):
+    """EI = ρA = L = 1, so that ω is w̄."""
+    return Beam.from_stiffness(
+        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
+    )
+
+
+def complaint(function, *arguments, **options):
+    """The sentence of an error, or of the last warning."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            function(*arguments, **options)
+        except (ValueError, RuntimeError, TypeError) as error:
+            return str(error)
+    return str(caught[-1].message) if caught else ""
+
+
+@pytest.mark.parametrize(
+    ("omega", "advice"),
+    [(10.0, "take FrM"), (30.0, "take periodic_orbits"), (1000.0, "rotate slower")],
+)
+def test_one_mode_is_not_enough(omega, advice):
+    beam = unit_beam(1e-10)
+    speed = omega / 0.827424257935
+    assert complaint(reduced_model, beam, speed, "CI").endswith(advice)
+    if advice == "take FrM":
+        assert complaint(reduced_model, beam, speed, "FrM") == ""
+    elif advice == "take periodic_orbits":
+        assert "rpm" in complaint(periodic_orbits, beam, speed, [0.05])  # that, and nothing else
+    else:
+        assert complaint(reduced_model, beam, 0.4 * speed, "CI").endswith("take periodic_orbits")
+
+
+def test_what_frm_refuses_linear_modes_and_periodic_orbits_answer():
+    beam = unit_beam(1e-8)
+    said = complaint(reduced_model, beam, 31.0, "FrM")
+    assert "take linear_modes for the frequency and periodic_orbits for the backbone" in said
+    assert complaint(linear_modes, beam, 31.0) == complaint(periodic_orbits, beam, 31.0, [0.05])
+    assert complaint(reduced_model, beam, 29.0, "FrM") == ""  # lower omega
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_no_oscillation(beam):
+    linear = Variant(name="linear", shape="cantilever", axial="none")
+    said = complaint(reduced_model, beam, 3.0, linear)
+    assert "lower omega, or take FrM" in said
+    assert reduced_model(beam, 3.0, "FrM").omega_n > 0.0
+    assert reduced_model(beam, 2.5, linear).omega_n > 0.0
+    assert "or take periodic_orbits" in complaint(reduced_model, beam, 30.0, linear)
+    assert periodic_orbits(beam, 30.0, [0.05]).omega_n > 0.0
+
+
+def test_a_stocky_beam():
+    beam = unit_beam(1e-3)
+    assert complaint(reduced_model, beam, 1.0, "FrM").endswith("take periodic_orbits")
+    assert complaint(periodic_orbits, beam, 1.0, [0.05]) == ""
+
+
+def test_burst(beam):
+    assert complaint(reduced_model, unit_beam(1e-2), 16.0, "CI").endswith("rotate slower")
+    assert "without bound" not in complaint(reduced_model, unit_beam(1e-2), 15.0, "CI")
+    said = complaint(linear_modes, beam, 1000.0)
+    assert "rotate slower or raise the axial stiffness" in said
+    assert "without bound" not in complaint(linear_modes, beam, 100.0)
+    stiff = Beam.from_stiffness(
+        length=beam.length,
+        axial_stiffness=100.0 * beam.axial_stiffness,
+        bending_stiffness=beam.bending_stiffness,
+        mass_per_length=beam.mass_per_length,
+    )
+    assert "without bound" not in complaint(linear_modes, stiff, 1000.0)
+
+
+def test_rpm(beam):
+    said = complaint(linear_modes, beam, 60.0)
+    omega = float(re.search(r"60 rpm are ([0-9.]+) rad/s", said)[1])
+    assert complaint(linear_modes, beam, omega) == ""
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("method", ["frequency", "exact_frequency"])
+def test_largest_amplitude(beam, method):
+    model = reduced_model(beam, 11.0, "FrI")
+    said = complaint(getattr(model, method), 0.9999)
+    largest = float(re.search(r"keep it below ([0-9.]+)", said)[1])
+    assert getattr(model, method)(largest * (1.0 - 1e-5)) > 0.0
+
+
+def test_large_amplitudes(beam):
+    model = reduced_model(beam, 6.0, "FrM")
+    assert "periodic_orbits goes on" in complaint(model.frequency, 0.3)
+    assert complaint(periodic_orbits, beam, 6.0, [0.3]) == ""
+
+
+def test_functions_and_modes(beam):
+    functions = int(
+        re.search(r"ask for functions=(\d+)", complaint(linear_modes, beam, 1.0, 12))[1]
+    )
+    assert complaint(linear_modes, beam, 1.0, 12, functions=functions) == ""
+    assert complaint(linear_modes, beam, 1.0, functions=257).endswith("ask for less")
+    assert complaint(linear_modes, beam, 1.0, functions=100) == ""
+
+
+def test_unsettled_frequencies():
+    beam = unit_beam(1e-12)
+    options = {"count": 1, "inextensible": True, "functions": 150}
+    assert complaint(linear_modes, beam, 2e4, **options).endswith("rotate slower")
+    assert "settled" not in complaint(linear_modes, beam, 2e3, **options)
+
+
+def test_amplitude_not_reached(beam, monkeypatch):
+    monkeypatch.setattr("analytic.continuation._MOST_HARMONICS", 12)
+    with pytest.raises(AmplitudeNotReachedError, match="smaller amplitudes, or take") as caught:
+        periodic_orbits(beam, 6.0, [0.1, 0.6])
+    assert caught.value.backbone.amplitude.tolist() == [0.1]
+    reached = float(re.search(r"last amplitude reached is ([0-9.]+)", str(caught.value))[1])
+    assert complaint(periodic_orbits, beam, 6.0, [0.99 * reached]) == ""
+
+
+def test_orbit_too_small(beam):
+    assert "take linear_modes" in complaint(periodic_orbits, beam, 6.0, [1e-14])
+    assert complaint(linear_modes, beam, 6.0) == ""
+
+
+def test_orbits_too_fast(beam, monkeypatch):
+    monkeypatch.setattr("analytic.periodic.MOST_FUNCTIONS", 16)
+    assert complaint(periodic_orbits, beam, 80.0, [0.05]).endswith("rotate slower")
+    assert complaint(periodic_orbits, beam, 8.0, [0.05]) == ""
+
+
+def test_spin_up_tolerance(beam, monkeypatch):
+    monkeypatch.setattr("analytic.transient._REFINEMENTS", 2)
+    jerk, times = SpinUp(omega=2.0, ramp_time=0.3), [0.5]
+    said = complaint(spin_up_response, beam, jerk, times, tolerance=1e-10)
+    tolerance = float(re.search(r"take tolerance=([0-9.e+-]+) or a longer ramp", said)[1])
+    assert complaint(spin_up_response, beam, jerk, times, tolerance=tolerance) == ""
+    assert "at least 1e-11" in complaint(spin_up_response, beam, jerk, times, tolerance=1e-13)
+
+
+def test_spin_up_before_anything_moves(beam):
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    said = complaint(spin_up_response, beam, spin_up, [1e-4])
+    assert said.endswith("ask for later times as well")
+    assert complaint(spin_up_response, beam, spin_up, [1e-4, 0.5], tolerance=1e-6) == ""
+
+
+def test_spin_up_too_long(beam, monkeypatch):
+    spin_up = SpinUp(omega=1.0, ramp_time=1.0)
+    assert "1e+05 at most" in complaint(spin_up_response, beam, spin_up, [1e12])
+    monkeypatch.setattr("analytic.transient._MOST_STEPS", 30)
+    said = complaint(spin_up_response, beam, spin_up, [100.0], tolerance=1e-4)
+    end = float(re.search(r"ask for times up to ([0-9.e+-]+) s", said)[1])
+    assert complaint(spin_up_response, beam, spin_up, [end], tolerance=1e-2) == ""
+
+
+def test_spin_up_ramp_too_short(beam):
+    said = complaint(spin_up_response, beam, SpinUp(omega=6.0, ramp_time=1e-300), [0.1])
+    assert said.endswith("take a longer ramp")
+    ramp = SpinUp(omega=6.0, ramp_time=0.5)
+    assert complaint(spin_up_response, beam, ramp, [0.1], tolerance=1e-4) == ""
+
+
+def test_spin_up_too_many_positions(beam):
+    spin_up, times = SpinUp(omega=1.0, ramp_time=1.0), np.linspace(0.0, 0.1, 100_001)
+    points = np.linspace(0.0, 8.0, 201)
+    said = complaint(spin_up_response, beam, spin_up, times, points=points, tolerance=1e-3)
+    assert said.endswith("ask for fewer points, or none")
+    assert complaint(spin_up_response, beam, spin_up, times[::100], tolerance=1e-3) == ""
+
+
+def test_masked_values():
+    masked = np.ma.array([1.0, 2.0], mask=[False, True])
+    assert "by .compressed()" in complaint(finite_array, "x", masked)
+    assert finite_array("x", masked.compressed()).tolist() == [1.0]
+
+
+def test_units_of_a_beam():
+    tiny = {"length": 1e-120, "area": 1.0, "second_moment": 1.0}
+    assert "choose units" in complaint(Beam, **tiny, youngs_modulus=1.0, density=1.0)
+    assert complaint(Beam, **{**tiny, "length": 1.0}, youngs_modulus=1.0, density=1.0) == ""
+
+
+def test_coriolis_coupling_about_the_rotating_mode():
+    setting = {"name": "own", "axial": "consistent", "coriolis": True}
+    assert complaint(Variant, **setting, shape="cantilever").endswith('take shape "rotating"')
+    assert complaint(Variant, **setting, shape="rotating") == ""
+
+
+def test_integers_beyond_floats_in_larger_units():
+    given = {"area": 1.0, "second_moment": 1.0, "youngs_modulus": 1.0, "density": 1.0}
+    assert "choose larger units" in complaint(Beam, length=10**310, **given)
+    assert complaint(Beam, length=10**3, **given) == ""
+
+
+def test_turning_the_other_way(beam):
+    assert "change the sign of q" in complaint(reduced_model, beam, -4.0)
+    assert complaint(reduced_model, beam, 4.0) == ""
+
+
+def test_a_negative_amplitude_is_a_phase(beam):
+    model = reduced_model(beam, 4.0)
+    assert "the phase, not the sign" in complaint(model.frequency, -0.1)
+    start = model.response(0.0, 0.1)
+    assert model.response(0.0, 0.1, phase=math.pi) == pytest.approx(-start)
+
+
+def test_every_warning_of_the_models_is_of_one_kind(beam):
+    with pytest.warns(RotbeamWarning):
+        reduced_model(beam, 30.0, "CI")
