@@ -94,6 +94,10 @@ class Fit:
         height = float(gradient[: self.coefficients.size] @ self.coefficients)
         return self._known(height, gradient)
 
+    def uncertainty(self) -> float:
+        """Return the product of both errors, by which fits are compared."""
+        return self.frequency().error * self.half_peak_to_peak().error
+
     def _turn(self, sign: float) -> float:
         """Phase ωt [rad] at which sign times the series is largest, by Newton from a fine grid."""
         grid = np.linspace(0.0, 2.0 * np.pi, 40 * HARMONICS, endpoint=False)
@@ -136,7 +140,7 @@ _ORDERS = np.arange(1.0, HARMONICS + 1.0)
 
 
 def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
-    """Fit a series of fundamental near `guess`, and as many tones as make ω better known.
+    """Fit a series of fundamental near `guess`, and as many tones as make ω and the height better known.
 
     Parameters
     ----------
@@ -155,7 +159,7 @@ def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
             break
         tones = np.append(fit.tones, _loudest(time, fit.remainder()))
         fit = _descend(time, x, weights, fit.fundamental, tones)
-        better = fit.frequency().error < best.frequency().error
+        better = fit.uncertainty() < best.uncertainty()
         best, failures = (fit, 0) if better else (best, failures + 1)
     return _descend(time, x, weights, best.fundamental, best.tones, most=20, enough=1e-9)
 
