@@ -1,40 +1,51 @@
-"""The steady oscillation of a run: amplitude, frequency and how well the latter is known."""
+"""The steady oscillation of a run: amplitude and frequency, and how well they are known."""
 
 from __future__ import annotations
 
+import math
+import warnings
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy import optimize, signal
+
+from analytic import Beam, linear_modes
+from analytic.input_checks import RotbeamWarning, not_negative, positive
+
+from .tones import fit_signal
 
 FloatArray = NDArray[np.float64]
 
-HARMONICS = 5
-"""Harmonics fitted; the sixth, at most 1e-4 of the first, is close to the second bending mode."""
+SAMPLES = 20
+"""Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
+
+_BEAM = ("length", "area", "second_moment", "youngs_modulus", "density")
 
 
 @dataclass(frozen=True, kw_only=True)
 class SteadyOscillation:
     """Periodic part of the tip displacement after the spin-up.
 
-    q(t) ≈ offset + L Σ_k [c_k cos(k ω_NL t) + s_k sin(k ω_NL t)], t from the window's start.
+    q(t)/L ≈ offset + Σ_k [c_k cos(k ω_NL t) + s_k sin(k ω_NL t)], t from the window's start.
 
     Attributes
     ----------
     amplitude : float
-        Half peak to peak of q over L, averaged over the cycles [-].
+        Half peak to peak of the periodic part of q over L [-].
+    amplitude_error : float
+        Error of `amplitude`, the estimator's alone: neither mesh nor step are in it [-].
     first_harmonic : float
         Amplitude of the first harmonic over L [-]; up to 7 % apart from `amplitude`.
     frequency : float
         Nonlinear frequency ω_NL [rad/s].
     frequency_error : float
-        Largest change of ω_NL among estimators that weight the window differently [rad/s].
+        Error of `frequency`, the estimator's alone: neither mesh nor step are in it [rad/s].
     offset : float
-        Mean of q over L [-]; zero by symmetry.
+        Mean of the periodic part of q over L [-]; zero by symmetry.
     residual : float
-        Root mean square of what the fit leaves, over L [-]: the second bending mode.
+        Root mean square of q less its periodic part, over L [-]: the other bending modes.
     cycles : int
         Whole cycles in the window.
     harmonics : ndarray of shape (HARMONICS,)
@@ -42,6 +53,7 @@ class SteadyOscillation:
     """
 
     amplitude: float
+    amplitude_error: float
     first_harmonic: float
     frequency: float
     frequency_error: float
@@ -54,119 +66,201 @@ class SteadyOscillation:
 def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """Measure the oscillation of q from the end of the ramp to the end of the run.
 
-    The frequency is the one at which a Fourier series fits q best over the whole cycles of the
-    window, in the least squares weighted by Hann's window, which all but silences the second
-    bending mode. The unweighted fit, over all cycles and over half a cycle less at either end,
-    hears it each time differently: the largest difference is the error bar, which covered the
-    true error in 19 of 20 synthetic signals.
+    A Fourier series and, for the other modes, free tones are fitted to q, frequencies included, by
+    least squares weighted with Hann's window (`rotbeam_exu.tones`). The errors bound what the
+    remainder of the fit could have done, were its phases the least lucky. Time may be in any
+    unit, evenly sampled or not.
 
     Parameters
     ----------
     run : Dataset
-        As made by `simulate`; needs `q` over `time` and the attributes ramp_time and beam_length.
+        As made by `simulate`, or any with `q` over `time` and the attributes ramp_time and
+        beam_length. If it holds the rest of the beam and `omega` as `simulate` writes them, the
+        frequency must be near the beam's natural frequency.
 
     Raises
     ------
+    TypeError
+        If `run` is not a Dataset.
     ValueError
-        If the window holds fewer than two cycles; the sentence says how long a run would do, or
-        if the tip does not oscillate.
+        If something is missing, not finite or out of order; if the tip does not oscillate; if the
+        window holds fewer than two cycles, or fewer than 20 samples a cycle; if the frequency is
+        not within half and twice ω_n. The sentence says what would do.
     """
-    time = run["time"].to_numpy()
-    window = time >= run.attrs["ramp_time"]
-    time = time[window] - time[window][0]
-    x = run["q"].to_numpy()[window] / run.attrs["beam_length"]
-    guess = _frequency_guess(time, x, float(run.attrs["ramp_time"]))
-    cycles = int((time[-1] + 1e-9) * guess / (2.0 * np.pi))
-    if cycles < 2:
-        enough = run.attrs["ramp_time"] + 2.5 * 2.0 * np.pi / guess
-        raise ValueError(
-            f"the steady window of {time[-1]:.3g} s holds {cycles} whole cycles of "
-            f"{guess:.4g} rad/s, two are needed: run for {enough:.3g} s or longer"
-        )
-    whole = time <= cycles * 2.0 * np.pi / guess
-    time, x = time[whole], x[whole]
-    taper = signal.windows.hann(x.size, sym=True)
-    frequency = _best_frequency(time, x, taper, guess)
-    coefficients, fitted = _fourier_fit(time, x, taper, frequency)
-    harmonics = np.hypot(coefficients[1::2], coefficients[2::2])
+    time, x, ramp_time = _steady_part(run)
+    omega_n = _natural_frequency(run)
+    window = float(time[-1])
+    if omega_n is not None:
+        # The nonlinear frequency may be lower, by a few percent.
+        _check_samples(time, 0.9 * omega_n, "of the beam's slowest oscillation")
+    guess = _frequency_guess(time, x, ramp_time, omega_n)
+    _check_samples(time, guess, "found")
+    # More than some fifty samples a period of so smooth a signal cost time and add nothing.
+    every = max(1, int(_samples(time, guess) // 50))
+    time, x, window = time[::every], x[::every], float(time[::every][-1])
+    height = float(np.ptp(x))
+    fit = fit_signal(time / window, x / height, guess * window)
+    frequency, amplitude = fit.frequency(), fit.half_peak_to_peak()
+    _check_frequency(frequency.value / window, omega_n)
+    _check_cycles(window, frequency.value / window, ramp_time)
+    harmonics = height * np.hypot(fit.cosines, fit.sines)
     return SteadyOscillation(
-        amplitude=_half_peak_to_peak(time, x, frequency),
+        amplitude=height * amplitude.value,
+        amplitude_error=height * amplitude.error,
         first_harmonic=float(harmonics[0]),
-        frequency=frequency,
-        frequency_error=_frequency_error(time, x, frequency),
-        offset=float(coefficients[0]),
-        residual=float(np.sqrt(np.mean((x - fitted) ** 2))),
-        cycles=cycles,
+        frequency=frequency.value / window,
+        frequency_error=frequency.error / window,
+        offset=height * float(fit.coefficients[0]),
+        residual=height * float(np.sqrt(np.mean((fit.x - fit.periodic()) ** 2))),
+        cycles=_cycles(window, frequency.value / window),
         harmonics=harmonics,
     )
 
 
-def _frequency_guess(time: FloatArray, x: FloatArray, ramp_time: float) -> float:
-    """Frequency [rad/s] from the interpolated rising zero crossings, or their half periods."""
+def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
+    """Return time from the end of the ramp, q/L, and the ramp time, of what is fit to measure."""
+    _check_form(run)
+    length = positive("the attribute beam_length", run.attrs["beam_length"])
+    ramp_time = not_negative("the attribute ramp_time", run.attrs["ramp_time"])
+    time, q = run["time"].to_numpy().astype(np.float64), run["q"].to_numpy().astype(np.float64)
+    for name, values in (("time", time), ("q", q)):
+        bad = np.flatnonzero(~np.isfinite(values))
+        if bad.size:
+            raise ValueError(
+                f"{name} is not finite in {bad.size} of {values.size} samples, first in number "
+                f"{bad[0]}: leave them out, as run.isel(time=np.isfinite(run[{name!r}]).values)"
+            )
+    back = np.flatnonzero(np.diff(time) <= 0.0)
+    if back.size:
+        k = int(back[0])
+        raise ValueError(
+            f"time must increase, but sample {k + 1} is at {time[k + 1]:g} after {time[k]:g}: "
+            "take run.sortby('time').drop_duplicates('time')"
+        )
+    # Half a spacing would do; round-off in the times must not move the window by a sample.
+    slack = 1e-6 * float(np.diff(time).min()) if time.size > 1 else 0.0
+    steady = time >= ramp_time - slack
+    if steady.sum() < SAMPLES:
+        last = f", the last at {time[-1]:g} s" if time.size else ""
+        raise ValueError(
+            f"q has {steady.sum()} samples after the ramp, which ends at {ramp_time:g} s{last}; "
+            f"{2 * SAMPLES} at least are needed: run for longer, or sample more often"
+        )
+    return time[steady] - time[steady][0], q[steady] / length, ramp_time
+
+
+def _check_form(run: xr.Dataset) -> None:
+    """Refuse what is not a Dataset with q over time, in one sentence that names what is missing."""
+    if not isinstance(run, xr.Dataset):
+        raise TypeError(
+            f"steady_oscillation takes a Dataset, got {type(run).__name__}: "
+            "make one by xarray.Dataset({'q': ('time', q)}, {'time': time}, "
+            "{'ramp_time': ..., 'beam_length': ...})"
+        )
+    missing = [name for name in ("time", "q") if name not in run.variables]
+    missing += [
+        f"attribute {name}" for name in ("ramp_time", "beam_length") if name not in run.attrs
+    ]
+    if missing:
+        raise ValueError(
+            f"the run has no {' and no '.join(missing)}: give q over time, and "
+            "run.attrs ramp_time (0 if there is none) and beam_length"
+        )
+    if run["q"].dims != ("time",) or run["time"].dims != ("time",):
+        dims = ", ".join(map(str, run["q"].dims))
+        raise ValueError(
+            f"q must run over time alone, it has the dimensions {dims}"
+            ": choose one run by run.isel or run.sel"
+        )
+    for name in ("time", "q"):
+        if run[name].dtype.kind not in "fiu":
+            raise ValueError(f"{name} must hold real numbers, not {run[name].dtype}")
+
+
+def _natural_frequency(run: xr.Dataset) -> float | None:
+    """Return ω_n of the exact beam of a run; None if the run does not say which beam it is."""
+    names = [f"beam_{name}" for name in _BEAM]
+    if not all(name in run.attrs for name in (*names, "omega")):
+        return None
+    beam = Beam(**{name: float(run.attrs[f"beam_{name}"]) for name in _BEAM})
+    return _exact_frequency(beam, abs(float(run.attrs["omega"])))
+
+
+@lru_cache(maxsize=64)
+def _exact_frequency(beam: Beam, omega: float) -> float | None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)  # said when the run was made
+        try:
+            return float(linear_modes(beam, omega, 1).frequencies[0])
+        except ValueError:
+            return None  # so fast that theory has no answer to compare with
+
+
+def _frequency_guess(
+    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None
+) -> float:
+    """Frequency from the zero crossings between samples well above and well below the middle."""
+    height = float(np.ptp(x))
+    if height <= 1e-12:
+        raise ValueError(
+            f"the tip does not oscillate: after the ramp q stays within {height:.1g} of the "
+            "length: take an omega other than zero, or a shorter ramp"
+        )
     centered = x - 0.5 * (x.max() + x.min())
-    before = np.flatnonzero(np.signbit(centered[:-1]) != np.signbit(centered[1:]))
-    if before.size < 2:
+    # What is within a tenth of the height from the middle, noise or another mode, decides nothing.
+    clear = np.flatnonzero(np.abs(centered) > 0.1 * height)
+    turns = np.flatnonzero(np.diff(np.sign(centered[clear])))
+    if turns.size < 2:
+        enough = 6.0 * math.pi / omega_n if omega_n else 4.0 * float(time[-1])
         raise ValueError(
             f"the tip does not oscillate within the {time[-1]:.3g} s after the ramp: "
-            f"run for {ramp_time + 4.0 * time[-1]:.3g} s or longer"
+            + (
+                f"run for {ramp_time + enough:.3g} s or longer"
+                if time[-1] < enough
+                else "q drifts, which no longer run will mend; see what the run's verdict says"
+            )
         )
-    share = centered[before] / (centered[before] - centered[before + 1])
-    crossings = time[before] + share * (time[before + 1] - time[before])
-    return float(np.pi * (before.size - 1) / (crossings[-1] - crossings[0]))
+    before, after = clear[turns], clear[turns + 1]
+    share = centered[before] / (centered[before] - centered[after])
+    crossings = time[before] + share * (time[after] - time[before])
+    return float(np.pi * (turns.size - 1) / (crossings[-1] - crossings[0]))
 
 
-def _fourier_fit(
-    time: FloatArray, x: FloatArray, weights: FloatArray, frequency: float
-) -> tuple[FloatArray, FloatArray]:
-    """Weighted least squares coefficients (1 + 2 HARMONICS,) and the fitted series."""
-    phases = np.outer(time, frequency * np.arange(1, HARMONICS + 1))
-    columns = np.ones((time.size, 2 * HARMONICS + 1))
-    columns[:, 1::2], columns[:, 2::2] = np.cos(phases), np.sin(phases)
-    root = np.sqrt(weights)
-    solution = np.linalg.lstsq(root[:, None] * columns, root * x, rcond=None)[0]
-    coefficients = np.asarray(solution, dtype=np.float64)
-    return coefficients, np.asarray(columns @ coefficients, dtype=np.float64)
+def _cycles(window: float, frequency: float) -> int:
+    return int(window * frequency / (2.0 * math.pi) + 1e-9)
 
 
-def _best_frequency(time: FloatArray, x: FloatArray, weights: FloatArray, guess: float) -> float:
-    """Frequency [rad/s] near `guess` whose Fourier series leaves the least weighted residual."""
-
-    def misfit(frequency: float) -> float:
-        fitted = _fourier_fit(time, x, weights, frequency)[1]
-        return float(np.sum(weights * (x - fitted) ** 2))
-
-    # Within a quarter of the resolution of the window there is one minimum.
-    reach = 0.25 * 2.0 * np.pi / time[-1]
-    found = optimize.minimize_scalar(
-        misfit, bounds=(guess - reach, guess + reach), method="bounded", options={"xatol": 1e-9}
-    )
-    return float(found.x)
+def _check_cycles(window: float, frequency: float, ramp_time: float) -> None:
+    cycles = _cycles(window, frequency)
+    if cycles < 2:
+        raise ValueError(
+            f"the steady window of {window:.3g} s holds {cycles} whole cycles of "
+            f"{frequency:.4g} rad/s, two are needed: run for "
+            f"{ramp_time + 5.0 * math.pi / frequency:.3g} s or longer"
+        )
 
 
-def _frequency_error(time: FloatArray, x: FloatArray, frequency: float) -> float:
-    """Largest difference [rad/s] among unweighted fits, and to the tapered one."""
-    half = int(np.pi / frequency / (time[1] - time[0]))
-    flat, later, earlier = (
-        _best_frequency(time[part] - time[part][0], x[part], np.ones_like(x[part]), frequency)
-        for part in (slice(None), slice(half, None), slice(None, -half))
-    )
-    return max(abs(flat - other) for other in (frequency, later, earlier))
+def _samples(time: FloatArray, frequency: float) -> float:
+    """Return the samples a period where they are farthest apart."""
+    return 2.0 * math.pi / (frequency * float(np.diff(time).max()))
 
 
-def _half_peak_to_peak(time: FloatArray, x: FloatArray, frequency: float) -> float:
-    """Average over the cycles of half peak to peak, peaks refined by a parabola."""
-    halves = []
-    cycle = (time * frequency / (2.0 * np.pi)).astype(int)
-    for k in range(int(cycle[-1]) + 1):
-        inside = np.flatnonzero(cycle == k)
-        if inside.size and (inside[-1] - inside[0]) * (time[1] - time[0]) * frequency > 6.0:
-            halves.append(0.5 * (_peak(x, inside, 1.0) + _peak(x, inside, -1.0)))
-    return float(np.mean(halves))
+def _check_samples(time: FloatArray, frequency: float, whose: str) -> None:
+    """Refuse samples so far apart that the oscillation could be a faster one in disguise."""
+    samples = _samples(time, frequency)
+    if samples < 0.99 * SAMPLES:
+        raise ValueError(
+            f"the samples are up to {np.diff(time).max():.3g} s apart, {samples:.3g} a period of "
+            f"the {frequency:.4g} rad/s {whose}: what they show may be a faster oscillation in "
+            f"disguise; {SAMPLES} a period are needed, sample every "
+            f"{2.0 * math.pi / frequency / (1.2 * SAMPLES):.2g} s or less"
+        )
 
 
-def _peak(x: FloatArray, inside: NDArray[np.intp], sign: float) -> float:
-    """Largest value of sign·x among the indices, by the parabola through it and its neighbors."""
-    top = int(np.clip(inside[np.argmax(sign * x[inside])], 1, x.size - 2))
-    left, mid, right = sign * x[top - 1 : top + 2]
-    bend = left - 2.0 * mid + right
-    return float(mid - (right - left) ** 2 / (8.0 * bend)) if bend < 0.0 else float(mid)
+def _check_frequency(frequency: float, omega_n: float | None) -> None:
+    if omega_n is not None and not 0.5 <= frequency / omega_n <= 2.0:
+        raise ValueError(
+            f"the frequency found, {frequency:.4g} rad/s, is {frequency / omega_n:.3g} times the "
+            f"beam's natural frequency, {omega_n:.4g} rad/s: the element, its mesh or the step are "
+            "wrong, or the run's attributes are of another beam"
+        )

@@ -40,7 +40,9 @@ def figure_15(
         `q_bar` = q/L and `q_dot_bar` = q̇/(ω0 L) [-] over (model, phase), the models, "exact" and
         "finite element", each from its greatest deflection; `period` [s] over model. Sec. 6 calls
         q̇/(ω0 L) by the name of the displacement; it is the velocity. A model whose frequency is
-        off does not close. Attributes state the amplitude, and each model has it as its peak.
+        off does not close: `gap` [-], from start to end. `distance` [-], of the farthest of its
+        points from the finite element orbit, whenever that is there. Both are in units of that
+        orbit's half axes. Attributes state the amplitude, and each model has it as its peak.
     """
     beam = beam or Beam.reference()
     run = simulate(beam, SpinUp(omega=omega, ramp_time=ramp_time), **options)
@@ -69,6 +71,8 @@ def figure_15(
     orbits["exact"] = (x, x_rate / beam.omega_0)
     periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
     names = ["finite element", *MODELS, "exact"]
+    half_axes = np.array([np.abs(v).max() for v in orbits["finite element"]])
+    paths = {name: np.stack(orbit, axis=-1) / half_axes for name, orbit in orbits.items()}
     return xr.Dataset(
         {
             "q_bar": (
@@ -80,6 +84,16 @@ def figure_15(
                 ("model", "phase"),
                 np.array([orbits[name][1] for name in names]),
                 {"units": "1", "long_name": "tip velocity q̇/(ω₀L)"},
+            ),
+            "gap": (
+                "model",
+                [float(np.linalg.norm(paths[name][-1] - paths[name][0])) for name in names],
+                {"units": "1", "long_name": "gap from start to end over the half axes"},
+            ),
+            "distance": (
+                "model",
+                [_distance(paths[name], paths["finite element"]) for name in names],
+                {"units": "1", "long_name": "distance from the FE orbit over its half axes"},
             ),
             "period": (
                 "model",
@@ -99,6 +113,12 @@ def figure_15(
             "element": run.attrs["element"],
         },
     )
+
+
+def _distance(path: FloatArray, other: FloatArray) -> float:
+    """Return the largest distance of a point of `path` from the nearest of `other`, (n, 2) each."""
+    apart = np.linalg.norm(path[:, None] - other[None], axis=2)
+    return float(apart.min(axis=1).max())
 
 
 def first_harmonic_of_peak(model: ReducedModel, peak: float) -> float:

@@ -14,23 +14,23 @@ from .style import COLUMN, COLUMNS, CYCLE, MODEL_LINES, STYLE, label, new_figure
 
 
 def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the finite element points and their parabolas, amplitude upwards as in the paper."""
+    """Draw the finite element points and fitted curves, amplitude upwards as in the paper."""
     ax = ax or new_figure(COLUMN, 3.0)[1]
     with mpl.rc_context(STYLE):
         for omega, color, marker in zip(data["omega"], CYCLE, "osD^", strict=False):
             here = data.sel(omega=omega)
-            inside = here["a"] <= 1.05 * float(here["amplitude"].max())
-            ax.plot(here["fit"][inside], here["a"][inside], color=color)
+            ax.plot(here["fit"], here["a"], color=color)
             ax.errorbar(
                 here["ratio"],
                 here["amplitude"],
                 xerr=here["ratio_error"],
+                yerr=here["amplitude_error"],
                 color=color,
                 marker=marker,
                 ms=3.5,
                 mfc="white",
                 ls="none",
-                label=f"ω = {float(omega):g} rad/s",
+                label=f"ω = {float(omega):g} rad/s: $λ_ω$ = {float(here['lambda_omega']):.4f}",
             )
         ax.axvline(1.0, color="0.7", lw=0.5)
         ax.set(xlabel=label(data["ratio"]), ylabel=label(data["amplitude"]), ylim=(0.0, 0.88))
@@ -65,6 +65,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                     points["ratio"],
                     points["amplitude"],
                     xerr=points["ratio_error"],
+                    yerr=points["amplitude_error"],
                     ls="none",
                     marker=marker,
                     ms=4.5 if mesh == "paper" else 2.5,

@@ -19,7 +19,7 @@ COLUMN = 3.5
 COLUMNS = 7.2
 """Width of two columns [in]."""
 
-# Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the truth.
+# Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the exact beam.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
     "#0072B2",
     "#E69F00",
@@ -40,7 +40,7 @@ MODEL_LINES: dict[str, dict[str, Any]] = {
     "FrM": {"color": BLUE, "ls": "-"},
     "exact": {"color": "black", "ls": "-", "lw": 0.7},
 }
-"""One line per model in every figure; black is the truth."""
+"""One line per model in every figure; black is the exact beam."""
 
 STYLE: Any = {
     "font.size": 8.0,

@@ -135,6 +135,42 @@ def test_captions_name_every_figure_with_data():
     assert sorted(CAPTIONS) == [3, 4, 5, *range(8, 16)]
 
 
+def test_figure_15_shows_where_each_orbit_ends():
+    import xarray as xr
+
+    phase = np.linspace(0.0, 1.0, 201)
+    names = ["finite element", "CI", "FrI", "exact"]
+    turns = 2.0 * np.pi * np.outer([1.0, 1.01, 0.95, 1.0], phase)
+    data = xr.Dataset(
+        {
+            "q_bar": (("model", "phase"), 0.3 * np.cos(turns)),
+            "q_dot_bar": (("model", "phase"), -0.4 * np.sin(turns)),
+        },
+        {"model": names, "phase": phase},
+        {"omega": 6.0, "amplitude": 0.3, "elements": 16},
+    )
+    ax = figures.figure_15(data)
+    (inset,) = ax.child_axes
+    for panel in (ax, inset):
+        ends = {
+            (float(line.get_xdata()[0]), float(line.get_ydata()[0])): line.get_color()
+            for line in panel.lines
+            if len(line.get_xdata()) == 1
+        }
+        assert len(ends) == 3
+        assert ends[(float(data["q_bar"][2, -1]), float(data["q_dot_bar"][2, -1]))] == "#E69F00"
+    # Open ends are seen in the inset: it holds them.
+    low, high = inset.get_ylim()
+    assert low < float(data["q_dot_bar"][2, -1]) < high
+
+
+def test_captions_call_no_curve_the_truth():
+    for caption in CAPTIONS.values():
+        assert "truth" not in caption
+    assert "lacks" in CAPTIONS[14]
+    assert "excess" not in CAPTIONS[14]
+
+
 @pytest.mark.parametrize("number", ["7", "16", "x", "-3"])
 def test_unknown_figures_are_refused(number, capsys):
     with pytest.raises(SystemExit) as stop:

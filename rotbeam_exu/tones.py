@@ -1,0 +1,265 @@
+"""A sampled signal as a Fourier series and free tones, and how far its remainder could mislead.
+
+x(t) ≈ c₀ + Σ_k [c_k cos(kωt) + s_k sin(kωt)] + Σ_j [c_j cos(ν_j t) + s_j sin(ν_j t)]: the series is
+the periodic oscillation of fundamental ω, the tones are what other modes add, wherever they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+HARMONICS = 9
+"""Harmonics of the series; the tenth is the highest that 20 samples a period could tell."""
+
+_TONES = 8
+"""Free tones at most: a second bending mode and its sidebands ν ± mω, of which seven count."""
+
+_ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Known:
+    """A number and the largest change that the remainder could have brought about."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fit:
+    """Least-squares fit of a series and tones, at its minimum.
+
+    Attributes
+    ----------
+    time, x, weights : ndarray of shape (samples,)
+        The signal, and the weight of each sample.
+    fundamental : float
+        ω [rad per unit of time].
+    tones : ndarray of shape (J,)
+        ν_j [rad per unit of time].
+    coefficients : ndarray of shape (1 + 2 (HARMONICS + J),)
+        c₀, the cosines of harmonics and tones, then their sines.
+    """
+
+    time: FloatArray
+    x: FloatArray
+    weights: FloatArray
+    fundamental: float
+    tones: FloatArray
+    coefficients: FloatArray
+
+    @property
+    def cosines(self) -> FloatArray:
+        """Cosine coefficients of the harmonics, shape (HARMONICS,)."""
+        return self.coefficients[1 : HARMONICS + 1]
+
+    @property
+    def sines(self) -> FloatArray:
+        """Sine coefficients of the harmonics, shape (HARMONICS,)."""
+        start = 1 + HARMONICS + self.tones.size
+        return self.coefficients[start : start + HARMONICS]
+
+    def periodic(self) -> FloatArray:
+        """Return the series without the tones, over time."""
+        phases = np.outer(self.time, self.fundamental * _ORDERS)
+        return np.asarray(
+            self.coefficients[0] + np.cos(phases) @ self.cosines + np.sin(phases) @ self.sines
+        )
+
+    def remainder(self) -> FloatArray:
+        """Return what neither series nor tones explain, over time."""
+        columns = _columns(self.time, self.fundamental, self.tones)
+        return np.asarray(self.x - columns @ self.coefficients)
+
+    def frequency(self) -> Known:
+        """Return ω and its error."""
+        gradient = np.zeros(self.coefficients.size + 1 + self.tones.size)
+        gradient[self.coefficients.size] = 1.0
+        return self._known(self.fundamental, gradient)
+
+    def half_peak_to_peak(self) -> Known:
+        """Return half the height of the series, from its lowest to its highest, and its error."""
+        top, bottom = (self._turn(sign) for sign in (1.0, -1.0))
+        gradient = np.zeros(self.coefficients.size + 1 + self.tones.size)
+        start = 1 + HARMONICS + self.tones.size
+        gradient[1 : HARMONICS + 1] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
+        gradient[start : start + HARMONICS] = 0.5 * (
+            np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS)
+        )
+        height = float(gradient[: self.coefficients.size] @ self.coefficients)
+        return self._known(height, gradient)
+
+    def uncertainty(self) -> float:
+        """Return the product of both errors, by which fits are compared."""
+        return self.frequency().error * self.half_peak_to_peak().error
+
+    def _turn(self, sign: float) -> float:
+        """Phase ωt [rad] at which sign times the series is largest, by Newton from a fine grid."""
+        grid = np.linspace(0.0, 2.0 * np.pi, 40 * HARMONICS, endpoint=False)
+        phases = np.outer(grid, _ORDERS)
+        series = np.cos(phases) @ self.cosines + np.sin(phases) @ self.sines
+        phase = float(grid[np.argmax(sign * series)])
+        for _ in range(3):  # from 1/40 of the shortest wave: quadratic, hence round-off
+            c, s = np.cos(phase * _ORDERS), np.sin(phase * _ORDERS)
+            slope = float(_ORDERS @ (self.sines * c - self.cosines * s))
+            bend = -float(_ORDERS**2 @ (self.cosines * c + self.sines * s))
+            if sign * bend >= 0.0:
+                break
+            phase -= slope / bend
+        return phase
+
+    def _known(self, value: float, gradient: FloatArray) -> Known:
+        """Attach an error to a number that changes with the parameters by `gradient`.
+
+        The number moves with the samples by g·δx, g the influence function of the fit. The
+        remainder r is orthogonal to g, but what it is part of need not be: |g·δx| is bounded by
+        Σ |ĝ| |r̂| over the discrete frequencies, r with the least lucky phases.
+        """
+        tangent = self._tangent()
+        root = np.sqrt(self.weights)[:, None]
+        inverse = np.linalg.pinv(np.linalg.qr(root * tangent, mode="r"), rcond=1e-12)
+        influence = self.weights * (tangent @ (inverse @ (inverse.T @ gradient)))
+        samples = 2 * self.x.size
+        spectra = (np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder()))
+        bound = 2.0 / samples * float(np.prod(list(spectra), axis=0).sum())
+        return Known(value=value, error=bound + _ROUND_OFF * abs(value))
+
+    def _tangent(self) -> FloatArray:
+        """Return the derivatives of the model by coefficients, ω and ν, (samples, all)."""
+        columns = _columns(self.time, self.fundamental, self.tones)
+        slopes = _slopes(self.time, columns, self.coefficients)
+        return np.hstack([columns, slopes])
+
+
+_ORDERS = np.arange(1.0, HARMONICS + 1.0)
+
+
+def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
+    """Fit a series of fundamental near `guess`, and as many tones as make ω and the height better known.
+
+    Parameters
+    ----------
+    time, x : ndarray of shape (samples,)
+        Increasing times from 0 to 1, evenly spaced or not, and the signal, of the order of one.
+    guess : float
+        ω [rad per unit of time], to a third of a turn over the window.
+    """
+    # Hann's window all but silences what is more than two turns away from a tone.
+    weights = np.sin(np.pi * time) ** 2 * np.gradient(time)
+    best = fit = _descend(time, x, weights, guess, np.zeros(0))
+    failures = 0
+    room = (2 * time.size // 3 - best.coefficients.size) // 3
+    for _ in range(min(_TONES, room)):
+        if best.frequency().error < 2.0 * _ROUND_OFF * best.fundamental or failures == 2:
+            break
+        tones = np.append(fit.tones, _loudest(time, fit.remainder()))
+        fit = _descend(time, x, weights, fit.fundamental, tones)
+        better = fit.uncertainty() < best.uncertainty()
+        best, failures = (fit, 0) if better else (best, failures + 1)
+    return _descend(time, x, weights, best.fundamental, best.tones, most=20, enough=1e-9)
+
+
+def _descend(
+    time: FloatArray,
+    x: FloatArray,
+    weights: FloatArray,
+    fundamental: float,
+    tones: FloatArray,
+    *,
+    most: int = 8,
+    enough: float = 1e-3,
+) -> Fit:
+    """Gauss-Newton's method on the frequencies; the coefficients are linear and follow.
+
+    It ends after `most` steps, or when one gains less than `enough` of the misfit.
+    """
+    rates = np.append(fundamental, tones)
+    coefficients, misfit = _linear(time, x, weights, rates)
+    for _ in range(most):
+        step = _newton_step(time, x, weights, rates, coefficients)
+        # Beyond a tenth of a turn over the window the linearization means nothing.
+        step /= max(1.0, float(np.abs(step).max()) / 0.6)
+        for _ in range(5):
+            trial, trial_misfit = _linear(time, x, weights, rates + step)
+            if trial_misfit < misfit:
+                break
+            step /= 2.0
+        else:
+            break  # at the minimum, to round-off
+        gain = 1.0 - trial_misfit / misfit
+        rates, coefficients, misfit = rates + step, trial, trial_misfit
+        if gain < enough:
+            break
+    return Fit(
+        time=time,
+        x=x,
+        weights=weights,
+        fundamental=float(rates[0]),
+        tones=rates[1:],
+        coefficients=coefficients,
+    )
+
+
+def _linear(
+    time: FloatArray, x: FloatArray, weights: FloatArray, rates: FloatArray
+) -> tuple[FloatArray, float]:
+    """Weighted least-squares coefficients at given frequencies, and their misfit."""
+    columns = _columns(time, rates[0], rates[1:])
+    coefficients = _solve(columns, x, weights)
+    return coefficients, float(weights @ (x - columns @ coefficients) ** 2)
+
+
+def _newton_step(
+    time: FloatArray,
+    x: FloatArray,
+    weights: FloatArray,
+    rates: FloatArray,
+    coefficients: FloatArray,
+) -> FloatArray:
+    """Change of the frequencies that the linearized model asks for, coefficients free."""
+    columns = _columns(time, rates[0], rates[1:])
+    tangent = np.hstack([columns, _slopes(time, columns, coefficients)])
+    change = _solve(tangent, x - columns @ coefficients, weights)
+    return change[coefficients.size :]
+
+
+def _solve(columns: FloatArray, x: FloatArray, weights: FloatArray) -> FloatArray:
+    """Weighted least squares by the small triangle of a QR factorization, rank revealed by SVD."""
+    root = np.sqrt(weights)[:, None]
+    weighted = np.hstack([root * columns, root * x[:, None]])
+    triangle = np.asarray(np.linalg.qr(weighted, mode="r"))
+    size = columns.shape[1]
+    scale = np.linalg.norm(triangle[:, :size], axis=0)
+    scale[scale == 0.0] = 1.0
+    solution = np.linalg.lstsq(triangle[:, :size] / scale, triangle[:, size], rcond=1e-13)[0]
+    return np.asarray(solution / scale, dtype=np.float64)
+
+
+def _columns(time: FloatArray, fundamental: float, tones: FloatArray) -> FloatArray:
+    """One, the cosines and the sines of harmonics and tones, shape (samples, coefficients)."""
+    phases = np.outer(time, np.concatenate([fundamental * _ORDERS, tones]))
+    return np.hstack([np.ones((time.size, 1)), np.cos(phases), np.sin(phases)])
+
+
+def _slopes(time: FloatArray, columns: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Return the derivatives of the model by ω and the ν, shape (samples, 1 + J)."""
+    half = columns.shape[1] // 2
+    cosines, sines = columns[:, 1 : half + 1], columns[:, half + 1 :]
+    slopes = time[:, None] * (
+        cosines * coefficients[half + 1 :] - sines * coefficients[1 : half + 1]
+    )
+    series = slopes[:, :HARMONICS] @ _ORDERS
+    return np.hstack([series[:, None], slopes[:, HARMONICS:]])
+
+
+def _loudest(time: FloatArray, remainder: FloatArray) -> float:
+    """Frequency [rad per unit of time] of the remainder's largest peak, to 1/8 turn."""
+    even = np.linspace(0.0, 1.0, time.size)
+    tapered = np.interp(even, time, remainder) * np.sin(np.pi * even) ** 2
+    spectrum = np.abs(np.fft.rfft(tapered, 8 * (time.size - 1)))
+    return float(2.0 * np.pi * np.argmax(spectrum) / 8.0)
