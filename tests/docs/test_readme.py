@@ -1,13 +1,20 @@
 """What the README claims."""
 
+import csv
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray as xr
 
-from analytic import periodic_orbits, reduced_model
+from analytic import Beam, SpinUp, periodic_orbits, reduced_model, spin_up_response
+from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu.elements import Ancf3, Cable, Exact, Substructures
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+FLAT = " ".join(README.split())
 
 
 def test_the_lambda_table_is_computed(beam):
@@ -41,6 +48,146 @@ def test_the_toml_block_is_the_reference_beam(beam, tmp_path):
     block = re.search(r"```toml\n(.*?)```", README, re.DOTALL).group(1)
     (tmp_path / "beam.toml").write_text(block, encoding="utf-8")
     assert load_beam(tmp_path / "beam.toml") == beam
+
+
+def golden_points(mesh):
+    """Amplitude, and ω_NL over the mesh's own ω_n, of the 24 spin-ups, by speed."""
+    golden = ROOT / "tests" / "comparison" / "golden" / "figure_14-amplitude.csv"
+    with golden.open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["mesh"] == mesh]
+    for omega in (2.0, 4.0, 6.0, 8.0):
+        here = [row for row in rows if float(row["omega [rad/s]"]) == omega]
+        yield omega, *(np.array([float(row[k]) for row in here]) for k in ("amplitude", "ratio"))
+
+
+@pytest.mark.parametrize(
+    ("mesh", "elements", "claimed"), [("converged", 64, 1e-6), ("paper", 16, 6e-5)]
+)
+def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claimed):
+    """ω_NL of the finite elements in Figure 14 against the exact one at the same amplitude."""
+    assert "Of the paper's 24 spin-ups 21 stay below a = 0.6." in FLAT
+    assert "agree with the exact ω_NL to 1e-6; the defaults, 16 elements at 1 ms, to 6e-5" in FLAT
+    errors = []
+    for omega, amplitude, ratio in golden_points(mesh):
+        inside = amplitude < 0.6
+        omega_n = natural_frequencies(beam, omega, elements=elements, count=1)[0]
+        exact = periodic_orbits(beam, omega, amplitude[inside])
+        errors.extend(ratio[inside] * omega_n / exact.frequency - 1.0)
+    assert len(errors) == 21
+    assert 0.8 * claimed < np.abs(errors).max() < claimed
+
+
+def shares(element, spin_up, q_too=True):
+    """Errors of ω_NL and q(t) of 16 elements at 1 ms, from its mesh and from its step.
+
+    The error of the step is of second order: a third of what 2 ms changes.
+    """
+    beam, runs = Beam.reference(), {}
+    for step in (2e-3, 1e-3):
+        run = simulate(beam, spin_up, element=element, elements=16, step=step)
+        steady = steady_oscillation(run)
+        orbit = periodic_orbits(beam, spin_up.omega, [steady.amplitude])
+        runs[step] = (run, steady.frequency / orbit.frequency[0] - 1.0)
+    (coarse, off_coarse), (fine, off_fine) = runs.values()
+    of_step = (off_coarse - off_fine) / 3.0
+    coarse, fine = xr.align(coarse["q"], fine["q"], join="inner")
+    change = (coarse - fine) / 3.0
+    exact = spin_up_response(beam, spin_up, fine["time"].to_numpy(), tolerance=1e-6).q
+    largest = np.abs(exact).max()
+    return (off_fine - of_step, of_step), (
+        float(np.abs(fine - change - exact).max() / largest),
+        float(np.abs(change).max() / largest),
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("row", "element"),
+    [
+        ("`cable`", Cable()),
+        ("`exact`", Exact()),
+        ("`exact`, `nodes=3`", Exact(nodes=3)),
+        ("`ancf3`", Ancf3()),
+        ("`ancf3`, `law=coupled`", Ancf3(law="coupled")),
+        ("`substructures`", Substructures()),
+    ],
+)
+def test_mesh_and_step_stand_apart_in_the_table_of_formulations(row, element):
+    cells = re.search(rf"^\| {re.escape(row)} \|(.*)\|$", README, re.MULTILINE).group(1).split("|")
+    frequency, history = ([float(n) for n in cells[k].split(",")] for k in (4, 5))
+    found_frequency, found_history = shares(element, SpinUp(omega=6.0, ramp_time=3.0))
+    # Two digits are shown.
+    assert found_frequency == pytest.approx(frequency, rel=0.05)
+    assert found_history == pytest.approx(history, rel=0.05)
+
+
+@pytest.mark.slow
+def test_mesh_and_step_at_the_worst_of_the_spin_ups():
+    assert "the mesh has up to +9e-5 and the step up to -3.3e-5" in FLAT
+    (of_mesh, of_step), _ = shares(Cable(), SpinUp(omega=8.0, ramp_time=2.5))
+    assert of_mesh == pytest.approx(9e-5, rel=0.05)
+    assert of_step == pytest.approx(-3.3e-5, rel=0.05)
+
+
+def test_to_leading_order_is_said_of_the_inextensible_beam():
+    assert "higher by 4 to 5 times μ = I/(AL²): 1e-5 for this beam" in FLAT
+    assert "up to ω̄ = 30 (25 rad/s here)" in FLAT
+    beam = Beam.reference()
+    for omega in (2.0, 4.0, 6.0, 8.0):
+        by_orbits = [
+            periodic_orbits(beam, omega, [0.05], inextensible=rigid).lambda_omega
+            for rigid in (False, True)
+        ]
+        assert 3.9 < (by_orbits[0] - by_orbits[1]) / beam.slenderness < 5.4
+        assert reduced_model(beam, omega, "FrM").lambda_omega == pytest.approx(
+            by_orbits[1], abs=2e-8
+        )
+    with pytest.raises(ValueError, match="up to w_bar"):
+        reduced_model(beam, 25.0, "FrM")
+    assert reduced_model(beam, 24.8, "FrM").lambda_omega > 0.0
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("omega", [4.0, 6.0])
+def test_fre_beats_frm_from_about_a_half_on(beam, omega):
+    orbits = periodic_orbits(beam, omega, [0.4, 0.6])
+    off = {
+        name: np.abs(
+            model.frequency(orbits.first_harmonic) / model.omega_n
+            - orbits.frequency / orbits.omega_n
+        )
+        for name, model in ((n, reduced_model(beam, omega, n)) for n in ("FrE", "FrM"))
+    }
+    assert off["FrM"][0] < 0.5 * off["FrE"][0]
+    assert off["FrE"][1] < off["FrM"][1]
+
+
+def test_fre_is_within_6_to_29_percent(beam):
+    off = [
+        reduced_model(beam, omega, "FrE").lambda_omega
+        / periodic_orbits(beam, omega, [0.05]).lambda_omega
+        - 1.0
+        for omega in (2.0, 4.0, 6.0, 8.0)
+    ]
+    assert [round(100.0 * abs(value)) for value in off] == [6, 19, 20, 29]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize(("omega", "reached"), [(2.0, 0.63), (4.0, 0.72), (6.0, 0.80), (8.0, 0.83)])
+def test_the_exact_backbone_reaches_as_far_as_said(beam, omega, reached):
+    assert "to a = 0.63 at 2 rad/s, 0.72 at 4, 0.80 at 6 and 0.83 at 8" in FLAT
+    orbit = periodic_orbits(beam, omega, [reached])
+    assert orbit.residual[0] < 1e-4
+    # It ends: what it cannot resolve it refuses.
+    with pytest.raises(RuntimeError, match="no orbit"):
+        periodic_orbits(beam, omega, [reached + 0.05])
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_peak_and_first_harmonic_are_5_percent_apart(beam):
+    orbit = periodic_orbits(beam, 6.0, [0.75])
+    assert orbit.first_harmonic[0] / 0.75 - 1.0 == pytest.approx(0.05, abs=0.005)
 
 
 @pytest.mark.parametrize("link", re.findall(r"\]\(((?!http)[^)#]+)\)", README))
