@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import Beam, SpinUp, periodic_orbits, reduced_model, spin_up_response
+from analytic import (
+    Beam,
+    SpinUp,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    spin_up_response,
+)
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.elements import Ancf3, Cable, Exact, Substructures
 
@@ -77,26 +84,30 @@ def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claim
     assert 0.8 * claimed < np.abs(errors).max() < claimed
 
 
-def shares(element, spin_up, q_too=True):
-    """Errors of ω_NL and q(t) of 16 elements at 1 ms, from its mesh and from its step.
+def shares(element, spin_up):
+    """Error of the amplitude, and those of ω_NL and q(t) from the mesh and from the step.
 
-    The error of the step is of second order: a third of what 2 ms changes.
+    Of 16 elements at 1 ms. The error of the step is of second order: a third of what 2 ms changes.
     """
-    beam, runs = Beam.reference(), {}
+    beam, steady, off, q = Beam.reference(), {}, {}, {}
     for step in (2e-3, 1e-3):
         run = simulate(beam, spin_up, element=element, elements=16, step=step)
-        steady = steady_oscillation(run)
-        orbit = periodic_orbits(beam, spin_up.omega, [steady.amplitude])
-        runs[step] = (run, steady.frequency / orbit.frequency[0] - 1.0)
-    (coarse, off_coarse), (fine, off_fine) = runs.values()
-    of_step = (off_coarse - off_fine) / 3.0
-    coarse, fine = xr.align(coarse["q"], fine["q"], join="inner")
+        steady[step], q[step] = steady_oscillation(run), run["q"]
+        orbit = periodic_orbits(beam, spin_up.omega, [steady[step].amplitude])
+        off[step] = steady[step].frequency / orbit.frequency[0] - 1.0
+    of_step = (off[2e-3] - off[1e-3]) / 3.0
+    coarse, fine = xr.align(q[2e-3], q[1e-3], join="inner")
     change = (coarse - fine) / 3.0
-    exact = spin_up_response(beam, spin_up, fine["time"].to_numpy(), tolerance=1e-6).q
-    largest = np.abs(exact).max()
-    return (off_fine - of_step, of_step), (
-        float(np.abs(fine - change - exact).max() / largest),
-        float(np.abs(change).max() / largest),
+    exact = fine.copy(
+        data=spin_up_response(beam, spin_up, fine["time"].to_numpy(), tolerance=1e-6).q
+    )
+    attrs = {"ramp_time": spin_up.ramp_time, "beam_length": beam.length}
+    wanted = steady_oscillation(exact.to_dataset(name="q").assign_attrs(attrs)).amplitude
+    largest = float(np.abs(exact).max())
+    return (
+        abs(steady[1e-3].amplitude / wanted - 1.0),
+        (off[1e-3] - of_step, of_step),
+        [float(np.abs(error).max()) / largest for error in (fine - change - exact, change)],
     )
 
 
@@ -112,19 +123,27 @@ def shares(element, spin_up, q_too=True):
         ("`substructures`", Substructures()),
     ],
 )
-def test_mesh_and_step_stand_apart_in_the_table_of_formulations(row, element):
+def test_mesh_and_step_stand_apart_in_the_table_of_formulations(beam, row, element):
     cells = re.search(rf"^\| {re.escape(row)} \|(.*)\|$", README, re.MULTILINE).group(1).split("|")
-    frequency, history = ([float(n) for n in cells[k].split(",")] for k in (4, 5))
-    found_frequency, found_history = shares(element, SpinUp(omega=6.0, ramp_time=3.0))
+    omega_n, amplitude, frequency, history = ([float(n) for n in c.split(",")] for c in cells[2:6])
+    found = shares(element, SpinUp(omega=6.0, ramp_time=3.0))
     # Two digits are shown.
-    assert found_frequency == pytest.approx(frequency, rel=0.05)
-    assert found_history == pytest.approx(history, rel=0.05)
+    assert found[0] == pytest.approx(amplitude[0], rel=0.05)
+    assert found[1] == pytest.approx(frequency, rel=0.05)
+    assert found[2] == pytest.approx(history, rel=0.05)
+    linear = [
+        natural_frequencies(beam, omega, element=element, elements=16, count=1)[0]
+        / linear_modes(beam, omega, 1).frequencies[0]
+        - 1.0
+        for omega in (0.0, 2.0, 4.0, 6.0, 8.0)
+    ]
+    assert np.abs(linear).max() == pytest.approx(omega_n[0], rel=0.05)
 
 
 @pytest.mark.slow
 def test_mesh_and_step_at_the_worst_of_the_spin_ups():
     assert "the mesh has up to +9e-5 and the step up to -3.3e-5" in FLAT
-    (of_mesh, of_step), _ = shares(Cable(), SpinUp(omega=8.0, ramp_time=2.5))
+    _, (of_mesh, of_step), _ = shares(Cable(), SpinUp(omega=8.0, ramp_time=2.5))
     assert of_mesh == pytest.approx(9e-5, rel=0.05)
     assert of_step == pytest.approx(-3.3e-5, rel=0.05)
 
