@@ -15,8 +15,8 @@ ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
 # Pages that run finite elements in number, long exact spin-ups, or a cluster of processes.
-SLOW = ("index", "validation", "theory/comparison", "theory/continuum", "theory/finite_element",
-        "howto/sweeps")  # fmt: skip
+SLOW = ("index", "gotchas", "validation", "theory/comparison", "theory/continuum",
+        "theory/finite_element", "howto/sweeps")  # fmt: skip
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
 
 

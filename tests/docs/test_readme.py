@@ -1,13 +1,27 @@
 """What the README claims."""
 
+import csv
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray as xr
 
-from analytic import periodic_orbits, reduced_model
+from analytic import (
+    Beam,
+    SpinUp,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    spin_up_response,
+)
+from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu.elements import Ancf3, Cable, Exact, Substructures
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+FLAT = " ".join(README.split())
 
 
 def test_the_lambda_table_is_computed(beam):
@@ -41,6 +55,163 @@ def test_the_toml_block_is_the_reference_beam(beam, tmp_path):
     block = re.search(r"```toml\n(.*?)```", README, re.DOTALL).group(1)
     (tmp_path / "beam.toml").write_text(block, encoding="utf-8")
     assert load_beam(tmp_path / "beam.toml") == beam
+
+
+def golden_points(mesh):
+    """Amplitude, and ω_NL over the mesh's own ω_n, of the 24 spin-ups, by speed."""
+    golden = ROOT / "tests" / "comparison" / "golden" / "figure_14-amplitude.csv"
+    with golden.open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["mesh"] == mesh]
+    for omega in (2.0, 4.0, 6.0, 8.0):
+        here = [row for row in rows if float(row["omega [rad/s]"]) == omega]
+        yield omega, *(np.array([float(row[k]) for row in here]) for k in ("amplitude", "ratio"))
+
+
+@pytest.mark.parametrize(
+    ("mesh", "elements", "claimed"), [("converged", 64, 1e-6), ("paper", 16, 6e-5)]
+)
+def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claimed):
+    """ω_NL of the finite elements in Figure 14 against the exact one at the same amplitude."""
+    assert "Of the paper's 24 spin-ups 21 stay below a = 0.6." in FLAT
+    assert "agree with the exact ω_NL to 1e-6; the defaults, 16 elements at 1 ms, to 6e-5" in FLAT
+    errors = []
+    for omega, amplitude, ratio in golden_points(mesh):
+        inside = amplitude < 0.6
+        omega_n = natural_frequencies(beam, omega, elements=elements, count=1)[0]
+        exact = periodic_orbits(beam, omega, amplitude[inside])
+        errors.extend(ratio[inside] * omega_n / exact.frequency - 1.0)
+        # As Figure 14 draws them, each over the ω_n of its own mesh.
+        assert np.abs(ratio[inside] - exact.frequency / exact.omega_n).max() < claimed
+    assert len(errors) == 21
+    assert 0.8 * claimed < np.abs(errors).max() < claimed
+
+
+def shares(element, spin_up):
+    """Error of the amplitude, and those of ω_NL and q(t) from the mesh and from the step.
+
+    Of 16 elements at 1 ms. The error of the step is of second order: a third of what 2 ms changes.
+    """
+    beam, steady, off, q = Beam.reference(), {}, {}, {}
+    for step in (2e-3, 1e-3):
+        run = simulate(beam, spin_up, element=element, elements=16, step=step)
+        steady[step], q[step] = steady_oscillation(run), run["q"]
+        orbit = periodic_orbits(beam, spin_up.omega, [steady[step].amplitude])
+        off[step] = steady[step].frequency / orbit.frequency[0] - 1.0
+    of_step = (off[2e-3] - off[1e-3]) / 3.0
+    coarse, fine = xr.align(q[2e-3], q[1e-3], join="inner")
+    change = (coarse - fine) / 3.0
+    exact = fine.copy(
+        data=spin_up_response(beam, spin_up, fine["time"].to_numpy(), tolerance=1e-6).q
+    )
+    attrs = {"ramp_time": spin_up.ramp_time, "beam_length": beam.length}
+    wanted = steady_oscillation(exact.to_dataset(name="q").assign_attrs(attrs)).amplitude
+    largest = float(np.abs(exact).max())
+    return (
+        abs(steady[1e-3].amplitude / wanted - 1.0),
+        (off[1e-3] - of_step, of_step),
+        [float(np.abs(error).max()) / largest for error in (fine - change - exact, change)],
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("row", "element"),
+    [
+        ("`cable`", Cable()),
+        ("`exact`", Exact()),
+        ("`exact`, `nodes=3`", Exact(nodes=3)),
+        ("`ancf3`", Ancf3()),
+        ("`ancf3`, `law=coupled`", Ancf3(law="coupled")),
+        ("`substructures`", Substructures()),
+    ],
+)
+def test_mesh_and_step_stand_apart_in_the_table_of_formulations(beam, row, element):
+    cells = re.search(rf"^\| {re.escape(row)} \|(.*)\|$", README, re.MULTILINE).group(1).split("|")
+    omega_n, amplitude, frequency, history = ([float(n) for n in c.split(",")] for c in cells[2:6])
+    found = shares(element, SpinUp(omega=6.0, ramp_time=3.0))
+    # Two digits are shown.
+    assert found[0] == pytest.approx(amplitude[0], rel=0.05)
+    assert found[1] == pytest.approx(frequency, rel=0.05)
+    assert found[2] == pytest.approx(history, rel=0.05)
+    linear = [
+        natural_frequencies(beam, omega, element=element, elements=16, count=1)[0]
+        / linear_modes(beam, omega, 1).frequencies[0]
+        - 1.0
+        for omega in (0.0, 2.0, 4.0, 6.0, 8.0)
+    ]
+    assert np.abs(linear).max() == pytest.approx(omega_n[0], rel=0.05)
+
+
+@pytest.mark.slow
+def test_mesh_and_step_at_the_worst_of_the_spin_ups():
+    assert "the mesh has up to +9e-5 and the step up to -3.3e-5" in FLAT
+    _, (of_mesh, of_step), _ = shares(Cable(), SpinUp(omega=8.0, ramp_time=2.5))
+    assert of_mesh == pytest.approx(9e-5, rel=0.05)
+    assert of_step == pytest.approx(-3.3e-5, rel=0.05)
+
+
+def test_to_leading_order_is_said_of_the_inextensible_beam():
+    assert "higher by 4 to 5 times μ = I/(AL²): 1e-5 for this beam" in FLAT
+    assert "up to ω̄ = 30 (25 rad/s here)" in FLAT
+    beam = Beam.reference()
+    for omega in (2.0, 4.0, 6.0, 8.0):
+        by_orbits = [
+            periodic_orbits(beam, omega, [0.05], inextensible=rigid).lambda_omega
+            for rigid in (False, True)
+        ]
+        assert 3.9 < (by_orbits[0] - by_orbits[1]) / beam.slenderness < 5.4
+        assert reduced_model(beam, omega, "FrM").lambda_omega == pytest.approx(
+            by_orbits[1], abs=2e-8
+        )
+    with pytest.raises(ValueError, match="up to w_bar"):
+        reduced_model(beam, 25.0, "FrM")
+    assert reduced_model(beam, 24.8, "FrM").lambda_omega > 0.0
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("omega", [4.0, 6.0])
+def test_fre_beats_frm_from_about_a_half_on(beam, omega):
+    orbits = periodic_orbits(beam, omega, [0.4, 0.6])
+    off = {
+        name: np.abs(
+            model.frequency(orbits.first_harmonic) / model.omega_n
+            - orbits.frequency / orbits.omega_n
+        )
+        for name, model in ((n, reduced_model(beam, omega, n)) for n in ("FrE", "FrM"))
+    }
+    assert off["FrM"][0] < 0.5 * off["FrE"][0]
+    assert off["FrE"][1] < off["FrM"][1]
+
+
+def test_fre_is_within_6_to_29_percent(beam):
+    off = [
+        reduced_model(beam, omega, "FrE").lambda_omega
+        / periodic_orbits(beam, omega, [0.05]).lambda_omega
+        - 1.0
+        for omega in (2.0, 4.0, 6.0, 8.0)
+    ]
+    assert [round(100.0 * abs(value)) for value in off] == [6, 19, 20, 29]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize(("omega", "reached"), [(2.0, 0.63), (4.0, 0.72), (6.0, 0.80), (8.0, 0.83)])
+def test_the_exact_backbone_reaches_as_far_as_said(beam, omega, reached):
+    said = "= 0.63 at 2 rad/s, 0.72 at 4, 0.80 at 6 and 0.83 at 8"
+    assert said in FLAT
+    trust = (ROOT / "docs/theory/trust.md").read_text(encoding="utf-8").replace("$", "")
+    assert said in " ".join(trust.split())
+    orbit = periodic_orbits(beam, omega, [reached])
+    assert orbit.residual[0] < 1e-4
+    # It ends: what it cannot resolve it refuses.
+    with pytest.raises(RuntimeError, match="no orbit"):
+        periodic_orbits(beam, omega, [reached + 0.05])
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_peak_and_first_harmonic_are_5_percent_apart(beam):
+    orbit = periodic_orbits(beam, 6.0, [0.75])
+    assert orbit.first_harmonic[0] / 0.75 - 1.0 == pytest.approx(0.05, abs=0.005)
 
 
 @pytest.mark.parametrize("link", re.findall(r"\]\(((?!http)[^)#]+)\)", README))
