@@ -21,7 +21,7 @@ Format = Literal["table", "csv"]
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
 
-_SPELLED = {"×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-",
+_SPELLED = {"λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-",
             "·": "*", "√": "sqrt "}  # fmt: skip
 _NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
 
@@ -84,18 +84,21 @@ def print_columns(
     least = [max(map(_longest_word, (name, *readable[name]))) for name in names]
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    for part in _parts(least, console.width):
+    room = console.width
+    for part in _parts(least, room):
         widths = _widths(
             [max(map(cell_len, (names[i], *readable[names[i]]))) for i in part],
             [least[i] for i in part],
-            console.width,
+            room,
         )
         table = Table(box=frame)
         for i, width in zip(part, widths, strict=True):
             table.add_column(names[i], width=width, justify="right" if numeric[i] else "left")
         for row in zip(*(readable[names[i]] for i in part), strict=True):
             table.add_row(*row)
-        console.print(table, soft_wrap=False, width=max(console.width, _total(widths)), crop=False)
+        # Two columns at least: a longer line is better than half a number.
+        console.width = max(room, _total(widths))
+        console.print(table, soft_wrap=False)
 
 
 def _cell(cell: str | float) -> str:
