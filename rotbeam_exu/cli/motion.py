@@ -81,6 +81,8 @@ def chosen_motion(
             duration = _whole_steps(duration, step) * step
     else:
         duration = positive("duration", duration, "s")
+        if step is not None:
+            _require_whole_steps(duration, step)
     if step is None:
         step = duration / _whole_steps(duration, fine)
     return Motion(spin_up=spin_up, duration=duration, step=step)
@@ -95,6 +97,17 @@ def slower_than_paper(beam: Beam) -> float:
 def _whole_steps(duration: float, step: float) -> int:
     """How many steps cover a duration; what is whole but for round-off is not rounded up."""
     return max(1, math.ceil(duration / step * (1.0 - 1e-12)))
+
+
+def _require_whole_steps(duration: float, step: float) -> None:
+    """Refuse a duration that is no whole number of steps, with one and the other that fit."""
+    steps = round(duration / step)
+    if abs(steps * step - duration) > 1e-9 * duration:
+        more = _whole_steps(duration, step)
+        raise ValueError(
+            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step "
+            f"of {duration / more:.12g} s or a duration of {more * step:.12g} s"
+        )
 
 
 def _rounded(value: float, digits: int, *, up: bool = False) -> float:

@@ -21,8 +21,10 @@ Format = Literal["table", "csv"]
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
 
-_SPELLED = {"λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-",
-            "·": "*", "√": "sqrt "}  # fmt: skip
+_SPELLED = {
+    "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
+    "–": "-", "·": "*", "√": "sqrt ",
+}  # fmt: skip
 _NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
 
 
