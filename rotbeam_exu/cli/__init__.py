@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import difflib
+import math
+import os
 import sys
 import warnings
 from collections.abc import Sequence
 
 import cyclopts
-from rich.console import Console
+from rich.text import Text
 
 from analytic.input_checks import RotbeamWarning
 
 from .. import __version__
+from .output import new_console, spell_what_cannot_be_encoded
 
 app = cyclopts.App(
     name="rotbeam",
@@ -35,30 +39,80 @@ for _command in (
 ):
     app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))
 
+_SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
+"""Options that are none, and what one of their units is in rad/s."""
+
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; bad input is one sentence and exit code 2, a failed run is 1."""
-    errors = Console(stderr=True, highlight=False, soft_wrap=True)
+    arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
+    spell_what_cannot_be_encoded()
+    errors = new_console(stderr=True)
+    said: set[str] = set()
+
+    def say(title: str, style: str, text: str) -> None:
+        errors.print(Text.assemble((title, style), " ", " ".join(text.split())))
 
     def one_line(message: Warning | str, *_: object) -> None:
-        errors.print(f"[yellow]warning:[/] {message}")
+        # Several of our functions may notice the same.
+        if str(message) not in said:
+            said.add(str(message))
+            say("warning:", "yellow", str(message))
+
+    def stop(text: str, code: int) -> None:
+        say("rotbeam:", "red", text)
+        sys.exit(code)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", RotbeamWarning)
         warnings.showwarning = one_line  # type: ignore[assignment]
         try:
             app(arguments, exit_on_error=False, print_error=False)
-        except (cyclopts.CycloptsError, ValueError, TypeError, OSError, ImportError) as error:
-            errors.print(f"[red]rotbeam:[/] {_sentence(error)}", markup=True)
-            sys.exit(2)
-        except RuntimeError as error:
-            errors.print(f"[red]rotbeam:[/] {_sentence(error)}")
+            sys.stdout.flush()
+        except BrokenPipeError:
+            # Who reads has read enough, as `head` does; the exit must not flush into it again.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)
-        except KeyboardInterrupt:
-            errors.print("[red]rotbeam:[/] interrupted; nothing was written")
-            sys.exit(130)
+        except cyclopts.UnknownOptionError as error:
+            stop(_unknown_option(error, arguments), 2)
+        except OverflowError as error:
+            stop(f"a number is too large to compute with ({error})", 2)
+        except (cyclopts.CycloptsError, ValueError, TypeError, OSError, ImportError) as error:
+            stop(str(error), 2)
+        except MemoryError as error:
+            stop(f"there is not enough memory ({error}): take fewer or shorter", 1)
+        except RuntimeError as error:
+            stop(str(error), 1)
+        except KeyboardInterrupt as interrupt:
+            stop(f"interrupted; {interrupt}" if interrupt.args and str(interrupt) else
+                 "interrupted; nothing was written", 130)  # fmt: skip
 
 
-def _sentence(error: BaseException) -> str:
-    """Return the text of an error as one line, safe to print as markup."""
-    return " ".join(str(error).split()).replace("[", "\\[")
+def _unknown_option(error: cyclopts.UnknownOptionError, arguments: Sequence[str]) -> str:
+    """Name a similar option only if it is similar, and a speed in rad/s if it was one in rpm."""
+    given = str(error.token.keyword or error.token.value).partition("=")[0]
+    name = given.lstrip("-").lower()
+    if name in _SPEED_UNITS:
+        return f"there is no option {given}: {_in_radians(given, name, arguments)}"
+    known = {
+        option.lstrip("-")
+        for argument in error.argument_collection or ()
+        for option in argument.names
+    }
+    close = [option for option in sorted(known) if name and option.startswith(name)]
+    close += difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.75)
+    if name == "speed" and "omega" in known:
+        close = ["omega"]
+    hint = f"did you mean --{close[0]}?" if close else "--help lists what there is"
+    return f"there is no option {given}; {hint}"
+
+
+def _in_radians(given: str, name: str, arguments: Sequence[str]) -> str:
+    """Say how to give a rotation speed that was given in another unit."""
+    at = next(i for i, text in enumerate(arguments) if text.split("=")[0] == given)
+    value = arguments[at].partition("=")[2] or "".join(arguments[at + 1 : at + 2])
+    try:
+        speed = f"{float(value) * _SPEED_UNITS[name]:.6g}"
+    except ValueError:
+        return f"speeds are in rad/s, and 1 {name} is {_SPEED_UNITS[name]:.6g} rad/s"
+    return f"speeds are in rad/s, and {value} {name} are --omega {speed}"

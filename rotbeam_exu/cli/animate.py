@@ -2,31 +2,44 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
 from rich.progress import Progress
 
-from analytic import Beam, SpinUp, spin_up_response
+from analytic import Beam, spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..config import load_beam
 from ..storage import whole_file, writable_folder
+from .cost import require_affordable
+from .motion import chosen_motion, chosen_times, slower_than_paper
+from .options import Whole
+from .output import new_console
+from .targets import Force, refuse_to_replace_unread
+
+_PICTURE = 640 * 520 * 4
+"""Bytes of a picture; all are kept until the file is written."""
+
+_SECONDS_PER_PICTURE = 0.02
 
 
 def animate(
     *,
-    omega: float = 6.0,
-    ramp_time: float = 3.0,
-    duration: float = 12.0,
-    rate: int = 20,
+    omega: float | None = None,
+    ramp_time: float | None = None,
+    duration: float | None = None,
+    rate: Whole = 20,
+    slow_motion: float | None = None,
     config: Path | None = None,
     out: Path | None = None,
+    force: Force = False,
 ) -> None:
     """Write the beam's spin-up as GIF or MP4: inertial and rotating view, and q over time.
 
-    The response is that of the exact beam, in real time and to scale.
+    The response is that of the exact beam, to scale; a beam faster than the paper's is shown as
+    many times slower.
 
     Parameters
     ----------
@@ -37,24 +50,45 @@ def animate(
     duration
         End of the motion [s].
     rate
-        Pictures a second.
+        Pictures a second of the film.
+    slow_motion
+        Seconds of the film per second of the motion.
     config
         TOML file with the beam; without it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
+    force
+        Replace a file that is there.
     """
     whole_number("rate", rate)
-    duration = positive("duration", duration, "s")
     beam = Beam.reference() if config is None else load_beam(config)
-    spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-    target = out or Path(f"spin-up-omega-{omega:g}-ramp-{ramp_time:g}.gif")
+    spin_up = chosen_motion(beam, omega=omega, ramp_time=ramp_time).spin_up
+    if duration is None:
+        duration = max(chosen_times(beam, 12.0)[0], 2.0 * spin_up.ramp_time)
+    duration = positive("duration", duration, "s")
+    slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
+    slower = slower if slow_motion is None else positive("slow_motion", slow_motion)
+    pictures = duration * slower * rate
+    if pictures < 1.0:
+        raise ValueError(
+            f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
+            f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
+        )
+    require_affordable(
+        f"{pictures:.3g} pictures",
+        memory=_PICTURE * pictures,
+        seconds=_SECONDS_PER_PICTURE * pictures,
+        remedy="take a shorter duration, a lower rate or less slow motion",
+    )
+    target = out or Path(f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}.gif")
     writable_folder(target.parent)
 
     from ..figures import animation  # noqa: PLC0415  (matplotlib is the slowest import)
 
     animation.check_format(target)
-    console = Console(highlight=False, soft_wrap=True)
-    times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / rate)
+    refuse_to_replace_unread(target, force)
+    console = new_console()
+    times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("integrating", total=None)
         response = spin_up_response(
@@ -65,4 +99,8 @@ def animate(
             animation.save_animation(
                 response, partial, rate=rate, progress=lambda n: bar.update(task, completed=n)
             )
-    console.print(f"{target}, {target.stat().st_size / 1e6:.1f} MB, {times[-1]:g} s")
+    console.print(
+        f"{target}, {target.stat().st_size / 1e6:.1f} MB, "
+        f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
+        + ("" if slower == 1.0 else f", {slower:g} times slower")
+    )

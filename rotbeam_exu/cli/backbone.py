@@ -11,7 +11,11 @@ from cyclopts import Parameter
 from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
 
 from ..config import load_beam
+from .cost import require_affordable
+from .options import Whole
 from .output import Format, print_columns
+
+_SECONDS_PER_ORBIT = 0.05
 
 
 def backbone(
@@ -21,6 +25,7 @@ def backbone(
     variant: str = "FrE",
     all_variants: Annotated[bool, Parameter(negative=())] = False,
     exact: Annotated[bool, Parameter(negative=())] = False,
+    functions: Whole = 16,
     config: Path | None = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
@@ -38,12 +43,21 @@ def backbone(
         Every variant, one below the other.
     exact
         Add the exact backbone, by harmonic balance on the exact beam.
+    functions
+        Functions that resolve the exact beam along its length.
     config
         TOML file with the beam; without it, the paper's beam.
     form
         A table for the reader, or CSV with all digits.
     """
     beam = Beam.reference() if config is None else load_beam(config)
+    if exact:
+        require_affordable(
+            f"{len(amplitude)} exact orbits with {functions} functions",
+            memory=8.0 * (16.0 * functions) ** 2,
+            seconds=_SECONDS_PER_ORBIT * len(amplitude) * (functions / 16.0) ** 2,
+            remedy="take fewer",
+        )
     names = list(VARIANTS) if all_variants else [variant]
     models = [reduced_model(beam, omega, name) for name in names]
     perturbed = np.concatenate([model.frequency(amplitude) for model in models])
@@ -60,7 +74,7 @@ def backbone(
         ).tolist(),
     }
     if exact:
-        truth = periodic_orbits(beam, omega, amplitude)
+        truth = periodic_orbits(beam, omega, amplitude, functions=functions)
         columns["exact beam [rad/s]"] = truth.frequency.tolist() * len(models)
         title = f"{title}\n{truth}"
     print_columns(columns, form, title=title)

@@ -5,20 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
 from .. import comparison
 from ..storage import save, save_tables, writable_folder
-from .output import print_columns
+from .options import Jobs
+from .output import new_console, print_columns
 from .sweep import counter
+from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
 
 
 def compare(
     *,
     amplitude: float = 0.1,
-    jobs: int | None = None,
+    jobs: Jobs = None,
     cache: Path = Path("results/cache"),
     out: Path = Path("results"),
+    force: Force = False,
 ) -> None:
     """Write the data of Figures 14 and 15 and the error budgets; print the budgets.
 
@@ -32,11 +33,15 @@ def compare(
         Folder with one file per finished spin-up.
     out
         Folder for the results.
+    force
+        Replace a budget at another amplitude.
     """
     folder = writable_folder(out)
-    console = Console(highlight=False, soft_wrap=True)
+    console = new_console()
     models = comparison.model_budget(amplitudes=(amplitude,))
-    with counter(console, "spin-ups") as progress:
+    refuse_to_replace(models, folder / "budget_models.nc", force=force)
+    spin_ups = f"finished spin-ups are kept in the cache {cache}"
+    with telling_what_is_kept(lambda: spin_ups), counter(console, "spin-ups") as progress:
         options: dict[str, Any] = {"jobs": jobs, "cache": cache, "progress": progress}
         data = {
             "figure_14": comparison.figure_14(**options),
@@ -75,4 +80,4 @@ def compare(
         "table",
         title="16 elements, 1 ms: distance from the exact ω_NL/ω_n at the same amplitude",
     )
-    console.print("written " + ", ".join(str(path) for path in written))
+    console.print("written " + listed(written))

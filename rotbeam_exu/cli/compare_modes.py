@@ -7,19 +7,26 @@ import sys
 from typing import Literal
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
 from analytic import Beam, Campbell, campbell
+from analytic.input_checks import rotation_speed, whole_number
+
+from .cost import require_affordable
+from .options import Whole
+from .output import print_columns
+
+_SECONDS_PER_SPEED = 1e-3
+_SECONDS_PER_LINE = 5e-3
+"""And per mode squared: what finds the crossings; both from below."""
 
 
 def compare_modes(
     *,
     omega_min: float = 0.0,
     omega_max: float = 12.0,
-    points: int = 13,
-    count: int = 3,
-    orders: int = 10,
+    points: Whole = 13,
+    count: Whole = 3,
+    orders: Whole = 10,
     format: Literal["table", "csv"] = "table",  # noqa: A002  the name of the option
 ) -> None:
     """Print in-plane frequencies against the speed, and where they cross the lines k omega.
@@ -41,6 +48,16 @@ def compare_modes(
     """
     if points < 2:
         raise ValueError(f"points must be at least 2, got {points}")
+    whole_number("count", count)
+    whole_number("orders", orders)
+    rotation_speed(omega_min, "omega_min")
+    rotation_speed(omega_max, "omega_max")
+    require_affordable(
+        f"{points} speeds, {count} modes and {orders} lines",
+        memory=8.0 * (points * (count + 20.0) * 40.0 + 16.0 * count**2),
+        seconds=_SECONDS_PER_SPEED * points + _SECONDS_PER_LINE * orders * count**2,
+        remedy="take fewer",
+    )
     diagram = campbell(Beam.reference(), np.linspace(omega_min, omega_max, points), count, orders)
     if format == "csv":
         _print_csv(diagram)
@@ -63,22 +80,24 @@ def _print_csv(diagram: Campbell) -> None:
 
 
 def _print_tables(diagram: Campbell) -> None:
-    console = Console()
-    table = Table(title="In-plane frequencies [rad/s]")
-    table.add_column("omega [rad/s]", justify="right")
-    for mode in range(1, diagram.frequencies.shape[1] + 1):
-        table.add_column(f"mode {mode}", justify="right")
-    for omega, row in zip(diagram.omegas, diagram.frequencies, strict=True):
-        table.add_row(f"{omega:.4g}", *(f"{frequency:.6f}" for frequency in row))
-    console.print(table)
-    crossings = Table(title="Crossings with the lines k omega")
-    for name in ("mode", "k", "omega [rad/s]", "frequency [rad/s]"):
-        crossings.add_column(name, justify="right")
-    for crossing in diagram.crossings:
-        crossings.add_row(
-            str(crossing.mode),
-            str(crossing.order),
-            f"{crossing.omega:.6f}",
-            f"{crossing.frequency:.6f}",
-        )
-    console.print(crossings)
+    print_columns(
+        {
+            "omega [rad/s]": [f"{omega:.4g}" for omega in diagram.omegas],
+            **{
+                f"mode {mode}": [f"{frequency:.6f}" for frequency in column]
+                for mode, column in enumerate(diagram.frequencies.T, start=1)
+            },
+        },
+        "table",
+        title="In-plane frequencies [rad/s]",
+    )
+    print_columns(
+        {
+            "mode": [str(crossing.mode) for crossing in diagram.crossings],
+            "k": [str(crossing.order) for crossing in diagram.crossings],
+            "omega [rad/s]": [f"{crossing.omega:.6f}" for crossing in diagram.crossings],
+            "frequency [rad/s]": [f"{crossing.frequency:.6f}" for crossing in diagram.crossings],
+        },
+        "table",
+        title="Crossings with the lines k omega",
+    )

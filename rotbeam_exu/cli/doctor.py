@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import time
 
-from rich.console import Console
-
 from analytic import Beam, SpinUp
 
 from ..simulation import simulate, versions
+from .output import new_console
 
 
 def doctor() -> None:
     """Print the versions in use and run one short spin-up with all its checks."""
-    console = Console(highlight=False, soft_wrap=True)
+    console = new_console()
     for name, version in versions().items():
         console.print(f"{name:<14}{version}")
     started = time.perf_counter()

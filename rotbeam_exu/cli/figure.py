@@ -11,15 +11,19 @@ from rich.console import Console
 from .. import comparison, figures
 from ..figures.captions import CAPTIONS
 from ..storage import save, save_tables, whole_file, writable_folder
+from .options import Jobs
+from .output import new_console
 from .sweep import counter
+from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
 
 
 def figure(
     number: str,
     *,
-    jobs: int | None = None,
+    jobs: Jobs = None,
     cache: Path = Path("results/cache"),
     out: Path = Path("results"),
+    force: Force = False,
 ) -> None:
     """Make a figure of the paper: netCDF, CSV, PNG, PDF and a caption.
 
@@ -33,6 +37,8 @@ def figure(
         Folder with one file per finished spin-up.
     out
         Folder for the results.
+    force
+        Replace data that are not this figure's.
     """
     wanted = list(CAPTIONS) if number == "all" else [int(number)] if number.isdecimal() else []
     if not wanted or wanted[0] not in CAPTIONS:
@@ -41,18 +47,31 @@ def figure(
             f"{', '.join(map(str, CAPTIONS))} and all"
         )
     folder = writable_folder(out)
-    console = Console(highlight=False, soft_wrap=True)
-    for n in wanted:
-        make = getattr(comparison, f"figure_{n}")
-        with counter(console, f"figure {n}") as progress:
-            sweeps = "options" in inspect.signature(make).parameters and n != 15
-            data = make(**({"jobs": jobs, "cache": cache, "progress": progress} if sweeps else {}))
-        name = folder / f"figure_{n}"
-        written = [save(data, name.with_suffix(".nc"))]
-        written += save_tables(data, name.with_suffix(".csv"))
-        axes = getattr(figures, f"figure_{n}")(data)
-        written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
-        caption = name.with_suffix(".txt")
-        with whole_file(caption) as partial:
-            partial.write_text(f"Figure {n}. {CAPTIONS[n]}\n", encoding="utf-8")
-        console.print(f"figure {n}: " + ", ".join(str(path) for path in [*written, caption]))
+    console = new_console()
+    done: list[Path] = []
+    spin_ups = f"finished spin-ups are kept in the cache {cache}"
+    with telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])])):
+        for n in wanted:
+            done += _made(n, folder, console, jobs=jobs, cache=cache, force=force)
+
+
+def _made(
+    n: int, folder: Path, console: Console, *, jobs: int | None, cache: Path, force: bool
+) -> list[Path]:
+    """Make one figure and return its files."""
+    make = getattr(comparison, f"figure_{n}")
+    with counter(console, f"figure {n}") as progress:
+        sweeps = "options" in inspect.signature(make).parameters and n != 15
+        data = make(**({"jobs": jobs, "cache": cache, "progress": progress} if sweeps else {}))
+    name = folder / f"figure_{n}"
+    refuse_to_replace(data, name.with_suffix(".nc"), force=force)
+    written = [save(data, name.with_suffix(".nc"))]
+    written += save_tables(data, name.with_suffix(".csv"))
+    axes = getattr(figures, f"figure_{n}")(data)
+    written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
+    caption = name.with_suffix(".txt")
+    with whole_file(caption) as partial:
+        partial.write_text(f"Figure {n}. {CAPTIONS[n]}\n", encoding="utf-8")
+    written.append(caption)
+    console.print(f"figure {n}: {listed(written)}")
+    return written

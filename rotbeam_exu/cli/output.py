@@ -1,33 +1,149 @@
-"""Printing a table of columns, for a reader or as CSV."""
+"""Printing: text that any terminal can show, and a table of columns, for a reader or as CSV."""
 
 from __future__ import annotations
 
+import codecs
 import csv
+import io
 import sys
+import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
+from rich import box
+from rich.cells import cell_len
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 Format = Literal["table", "csv"]
 
+_FRAME = 3
+"""Columns of the terminal that a column of a table takes beside its text."""
+
+_SPELLED = {
+    "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
+    "–": "-", "·": "*", "√": "sqrt ",
+}  # fmt: skip
+_NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
+
+
+def new_console(*, stderr: bool = False) -> Console:
+    """Return a console that prints text as it is: no [markup], no :emoji:, no line broken."""
+    return Console(stderr=stderr, highlight=False, soft_wrap=True, markup=False, emoji=False)
+
+
+def spell_what_cannot_be_encoded() -> None:
+    """Let standard output and error spell a letter they cannot encode, as omega for ω."""
+    codecs.register_error("spelled", _spell)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="spelled")
+
+
+def _spell(error: UnicodeError) -> tuple[str, int]:
+    """Replace letters by what they are called, or by '?': the handler of an encoding error."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+
+
+def _in_ascii(letter: str) -> str:
+    if letter in _SPELLED:
+        return _SPELLED[letter]
+    name = unicodedata.name(letter, "").split()
+    if name[:1] == ["GREEK"]:
+        spoken = next((word for word in name if word not in _NO_NAME), "?").lower()
+        return spoken.capitalize() if "CAPITAL" in name else spoken
+    plain = unicodedata.normalize("NFKD", letter).encode("ascii", "ignore").decode()
+    return plain or "?"
+
 
 def print_columns(
-    columns: Mapping[str, Sequence[str | float]], form: Format, title: str = ""
+    columns: Mapping[str, Sequence[str | float]],
+    form: Format,
+    title: str = "",
+    frame: box.Box = box.HEAVY_HEAD,
 ) -> None:
-    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table."""
-    rows = list(zip(*columns.values(), strict=True))
+    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
+
+    Where a terminal is too narrow for the table, it comes in parts that repeat the first column;
+    lines are broken between words only, never in a number.
+    """
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
         writer.writerow(columns)
-        writer.writerows(rows)
+        writer.writerows(zip(*columns.values(), strict=True))
         return
-    table = Table(title=escape(title) or None)
-    for name, cells in columns.items():
-        numeric = bool(cells) and isinstance(cells[0], float)
-        table.add_column(escape(name), justify="right" if numeric else "left", overflow="fold")
-    for row in rows:
-        table.add_row(*(f"{cell:.7g}" if isinstance(cell, float) else escape(cell) for cell in row))
-    Console().print(table)
+    console = new_console()
+    # Spelled before the widths are known, for what is spelled is longer.
+    readable = {
+        _encodable(name, console): [_encodable(_cell(cell), console) for cell in cells]
+        for name, cells in columns.items()
+    }
+    numeric = [all(map(_is_number, cells)) for cells in readable.values()]
+    names = list(readable)
+    least = [max(map(_longest_word, (name, *readable[name]))) for name in names]
+    if title:
+        console.print(Text(title, style="italic"), soft_wrap=False)
+    room = console.width
+    for part in _parts(least, room):
+        widths = _widths(
+            [max(map(cell_len, (names[i], *readable[names[i]]))) for i in part],
+            [least[i] for i in part],
+            room,
+        )
+        table = Table(box=frame)
+        for i, width in zip(part, widths, strict=True):
+            table.add_column(names[i], width=width, justify="right" if numeric[i] else "left")
+        for row in zip(*(readable[names[i]] for i in part), strict=True):
+            table.add_row(*row)
+        # Two columns at least: a longer line is better than half a number.
+        console.width = max(room, _total(widths))
+        console.print(table, soft_wrap=False)
+
+
+def _cell(cell: str | float) -> str:
+    return f"{cell:.7g}" if isinstance(cell, float) else str(cell)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text.rstrip("! "))
+    except ValueError:
+        return text in {"", "-", "failed"}
+    return True
+
+
+def _encodable(text: str, console: Console) -> str:
+    codecs.register_error("spelled", _spell)
+    return text.encode(console.encoding, "spelled").decode(console.encoding)
+
+
+def _longest_word(text: str) -> int:
+    return max(map(cell_len, text.split()), default=1)
+
+
+def _total(widths: Sequence[int]) -> int:
+    return sum(widths) + _FRAME * len(widths) + 1
+
+
+def _parts(least: Sequence[int], room: int) -> list[list[int]]:
+    """Return the columns of each table, so that its longest words fit; the first is in each."""
+    parts = [[0]]
+    for column in range(1, len(least)):
+        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
+            parts.append([0])
+        parts[-1].append(column)
+    return parts
+
+
+def _widths(natural: Sequence[int], least: Sequence[int], room: int) -> list[int]:
+    """Return the width of each column: its longest word, and of what is left as much as it can."""
+    spare = max(room - _total(least), 0)
+    widths = []
+    for wanted, needed in zip(natural, least, strict=True):
+        more = min(wanted - needed, spare)
+        widths.append(needed + more)
+        spare -= more
+    return widths

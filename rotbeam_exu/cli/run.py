@@ -2,35 +2,44 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
+import xarray as xr
 from rich.console import Console
 from rich.progress import Progress
 
-from analytic import Beam, SpinUp
+from analytic import Beam
+from analytic.input_checks import RotbeamWarning
 
+from ..cases import Case
 from ..config import load_beam
 from ..linearization import natural_frequencies
-from ..oscillation import steady_oscillation
+from ..oscillation import SteadyOscillation, steady_oscillation
 from ..simulation import simulate
 from ..solver import Frame
 from ..storage import save, writable_folder
-from ..verdict import energy_drift
-from .options import chosen_formulation
+from ..verdict import SimulationError, energy_drift
+from .assessment import Assessment, assess
+from .motion import chosen_motion, refuse_rest
+from .options import Whole, chosen_formulation, label
+from .output import new_console
+from .targets import Force, free_name, listed, refuse_to_replace, telling_what_is_kept
 
 
 def run(
     *,
-    omega: float = 6.0,
-    ramp_time: float = 3.0,
-    elements: int = 16,
-    step: float = 1e-3,
-    duration: float = 15.0,
+    omega: float | None = None,
+    ramp_time: float | None = None,
+    elements: Whole = 16,
+    step: float | None = None,
+    duration: float | None = None,
     element: str = "cable",
     option: list[str] | None = None,
     frame: Frame = "inertial",
     config: Path | None = None,
     out: Path = Path("results"),
+    force: Force = False,
 ) -> None:
     """Spin a beam up in Exudyn, measure its steady oscillation, write data and figure.
 
@@ -56,65 +65,138 @@ def run(
         TOML file with the beam; without it, the paper's beam.
     out
         Folder for the results.
+    force
+        Replace a result of other inputs that has the same name.
     """
     beam = Beam.reference() if config is None else load_beam(config)
-    spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
+    motion = chosen_motion(beam, omega=omega, ramp_time=ramp_time, duration=duration, step=step)
+    refuse_rest(motion.spin_up.omega)
     model = chosen_formulation(element, option)
+    case = Case(
+        beam=beam,
+        spin_up=motion.spin_up,
+        element=model,
+        elements=elements,
+        duration=motion.duration,
+        step=motion.step,
+        frame=frame,
+    )
     folder = writable_folder(out)
-    console = Console(highlight=False, soft_wrap=True)
+    name = (
+        f"{label(element, option)}-{elements}"
+        f"-omega-{motion.spin_up.omega:g}-ramp-{motion.spin_up.ramp_time:g}"
+    )
+    refuse_to_replace(case.describe(), folder / f"{name}.nc", folder / f"{name}.csv", force=force)
+    console = new_console()
+    if config is not None:
+        _line(console, "motion", f"{motion} (where not given, the paper's, scaled by ω_0)")
+    written: list[Path] = []
+    with telling_what_is_kept(lambda: f"kept: {listed(written)}" if written else ""):
+        try:
+            data = _computed(case, console)
+        except SimulationError as error:
+            if error.run is None:
+                raise
+            failed = error.run.assign_attrs(verdict=f"failed: {error}")
+            written += _saved(failed, folder, free_name(failed, folder, f"{name}-failed"))
+            raise RuntimeError(
+                f"{error}; what was computed is in {written[0]}, marked failed"
+            ) from error
+        # What was computed is safe before anything else is tried with it.
+        written += _saved(data, folder, name)
+        try:
+            steady = steady_oscillation(data)
+        except ValueError as error:
+            raise RuntimeError(f"{error}; the run itself is in {written[0]}") from error
+
+        from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+
+        written += figures.save_figure(figures.spin_up(data)[0], folder / name)
+        omega_n = natural_frequencies(
+            beam, case.spin_up.omega, element=model, elements=elements, count=1
+        )[0]
+        assessment = assess(beam, case.spin_up.omega, float(omega_n), steady)
+    _print_inputs(console, case, ", ".join([element, *(option or [])]))
+    _print_results(console, data, steady, assessment)
+    _line(console, "written", listed(written))
+    for sentence in assessment.warnings(elements, case.step):
+        warnings.warn(sentence, RotbeamWarning, stacklevel=2)
+
+
+def _computed(case: Case, console: Console) -> xr.Dataset:
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("spinning up", total=1.0)
-        data = simulate(
-            beam,
-            spin_up,
-            element=model,
-            elements=elements,
-            duration=duration,
-            step=step,
-            frame=frame,
+        return simulate(
+            case.beam,
+            case.spin_up,
+            element=case.element,
+            elements=case.elements,
+            duration=case.duration,
+            step=case.step,
+            frame=case.frame,
             progress=lambda done: bar.update(task, completed=done),
         )
-    omega_n = natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0]
-    steady = steady_oscillation(data)
-    label = "-".join([element, *(text.replace("=", "-") for text in option or [])])
-    name = f"{label}-{elements}-omega-{omega:g}-ramp-{ramp_time:g}"
-    written = [save(data, folder / f"{name}.nc"), save(data, folder / f"{name}.csv")]
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
 
-    written += figures.save_figure(figures.spin_up(data)[0], folder / name)
+def _saved(data: xr.Dataset, folder: Path, name: str) -> list[Path]:
+    return [save(data, folder / f"{name}.nc"), save(data, folder / f"{name}.csv")]
 
-    def line(title: str, text: str) -> None:
-        console.print(f"{title:<22}{text}")
 
-    worst = max(
-        float(abs(data["direction_residual"]).max()),
-        float(data["clamp_residual"].max()) / beam.length,
-    )
-    line(
+def _line(console: Console, title: str, text: str) -> None:
+    console.print(f"{title:<22}{text}")
+
+
+def _print_inputs(console: Console, case: Case, element: str) -> None:
+    beam, spin_up = case.beam, case.spin_up
+    _line(
+        console,
         "beam",
         f"L = {beam.length:g} m, EI = {beam.bending_stiffness:.6g} N m², "
-        f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg",
+        f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg, "
+        f"ω_0 = {beam.omega_0:.6g} rad/s",
     )
-    line("spin-up", f"ω = {omega:g} rad/s in T = {ramp_time:g} s (Ω = {omega / beam.omega_0:.4f})")
-    line(
+    _line(
+        console,
+        "spin-up",
+        f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s "
+        f"(Ω = {spin_up.omega / beam.omega_0:.4f})",
+    )
+    _line(
+        console,
         "discretization",
-        f"{elements} × {', '.join([element, *(option or [])])}; {frame} frame, "
-        f"step {step:g} s, {duration:g} s",
+        f"{case.elements} × {element}; {case.frame} frame, "
+        f"step {case.step:g} s, {case.duration:g} s",
     )
-    line("natural frequency", f"ω_n = {omega_n:.6f} rad/s (mesh, steady rotation)")
-    line(
+
+
+def _print_results(
+    console: Console, data: xr.Dataset, steady: SteadyOscillation, found: Assessment
+) -> None:
+    _line(console, "natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)")
+    _line(
+        console,
         "steady amplitude",
         f"{steady.amplitude:.5f} L half peak to peak, first harmonic {steady.first_harmonic:.5f} L",
     )
-    line(
+    _line(
+        console,
         "steady frequency",
-        f"ω_NL = {steady.frequency:.6f} ± {steady.frequency_error:.1g} rad/s, "
-        f"ω_NL/ω_n = {steady.frequency / omega_n:.6f} over {steady.cycles} cycles",
+        f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
+        f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
+        f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
     )
-    line("constraint residual", f"{worst:.2g} (worst)")
+    for title, text in found.lines():
+        _line(console, title, text)
+    worst = max(
+        float(abs(data["direction_residual"]).max()),
+        float(data["clamp_residual"].max()) / data.attrs["beam_length"],
+    )
+    _line(console, "constraint residual", f"{worst:.2g} (worst)")
     drift, ripple = energy_drift(data)
-    line("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy")
-    line("wall time", f"{data.attrs['wall_time']:.2f} s")
-    line("verdict", data.attrs["verdict"])
-    line("written", ", ".join(str(path) for path in written))
+    _line(
+        console,
+        "energy drift",
+        f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy",
+    )
+    _line(console, "wall time", f"{data.attrs['wall_time']:.2f} s")
+    _line(console, "verdict", f"checks {data.attrs['verdict']}")

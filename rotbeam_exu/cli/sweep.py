@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from analytic import Beam
+from analytic import Beam, SpinUp
+from analytic.input_checks import positive, whole_number
 
+from ..cases import Case
 from ..cluster import dask_executor
 from ..comparison.backbones import PAPER_RAMP_TIMES
 from ..comparison.theory import PAPER_SPEEDS
@@ -21,23 +26,30 @@ from ..solver import Frame
 from ..storage import save, writable_folder
 from ..sweeps import failures
 from ..sweeps import sweep as run_sweep
-from .options import chosen_formulation
-from .output import print_columns
+from .cost import require_affordable
+from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, refuse_rest
+from .options import Jobs, Whole, chosen_formulation, label
+from .output import new_console, print_columns
+from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
 
-Values = Annotated[list[float], Parameter(consume_multiple=True)]
+Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
+
+_BYTES_PER_CASE = 2e3
+_SECONDS_PER_ELEMENT_STEP = 2e-6
+"""From below: a process manages less."""
 
 
 def sweep(
     *,
-    omega: Values = list(PAPER_SPEEDS),  # noqa: B006
-    ramp_time: Values = list(PAPER_RAMP_TIMES),  # noqa: B006
+    omega: Values = None,
+    ramp_time: Values = None,
     element: str = "cable",
     option: list[str] | None = None,
-    elements: int = 16,
-    step: float = 1e-3,
-    duration: float = 15.0,
+    elements: Whole = 16,
+    step: float | None = None,
+    duration: float | None = None,
     frame: Frame = "inertial",
-    jobs: int | None = None,
+    jobs: Jobs = None,
     executor: Literal["processes", "dask"] = "processes",
     scheduler: str | None = None,
     cache: Path = Path("results/cache"),
@@ -45,6 +57,7 @@ def sweep(
     history: Annotated[bool, Parameter(negative=())] = False,
     config: Path | None = None,
     out: Path = Path("results"),
+    force: Force = False,
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times; failed cases stay on record.
 
@@ -82,25 +95,67 @@ def sweep(
         TOML file with the beam; without it, the paper's beam.
     out
         Folder for the results.
+    force
+        Replace a table of another grid or of other inputs that has the same name.
     """
     beam = Beam.reference() if config is None else load_beam(config)
+    omegas = chosen_speeds(beam, *PAPER_SPEEDS) if omega is None else omega
+    ramp_times = chosen_times(beam, *PAPER_RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
+    refuse_rest(*omegas)
+    motion = _motion(beam, omegas, ramp_times, step, duration)
     model = chosen_formulation(element, option)
-    folder = writable_folder(out)
     part = _shard(shard)
+    workers = os.cpu_count() or 1 if jobs is None else whole_number("jobs", jobs)
     if executor == "dask" and scheduler is None:
         raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
-    console = Console(highlight=False, soft_wrap=True)
+    cases = len(omegas) * len(ramp_times) // part[1]
+    require_affordable(
+        f"a sweep of {cases} spin-ups",
+        memory=_BYTES_PER_CASE * len(omegas) * len(ramp_times),
+        seconds=_SECONDS_PER_ELEMENT_STEP * cases * elements * motion.duration / motion.step
+        / (workers if executor == "processes" else math.inf),
+        days=30.0,
+        remedy="take fewer speeds and ramp times, or parts of them with --shard",
+    )  # fmt: skip
+    folder = writable_folder(out)
+    name = f"sweep-{label(element, option)}-{elements}"
+    name += "" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}"
+    one = Case(
+        beam=beam, spin_up=motion.spin_up, element=model, elements=elements,
+        duration=motion.duration, step=motion.step, frame=frame,
+    )  # fmt: skip
+    grid = {"omega": omegas, "ramp_time": ramp_times}
+    refuse_to_replace({**one.describe(), **grid}, folder / f"{name}.nc", force=force)
+    console = new_console()
+    if config is not None:
+        console.print(
+            f"omega {_values(omegas)} rad/s, ramp-time {_values(ramp_times)} s, "
+            f"duration {motion.duration:g} s, step {motion.step:g} s "
+            "(where not given, the paper's, scaled by ω_0)"
+        )
+    finished = 0
+
+    def kept() -> str:
+        where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
+        return f"{where}; the same command goes on from there" if finished else ""
+
     pool, client = dask_executor(str(scheduler)) if executor == "dask" else (None, None)
     try:
-        with counter(console, "spin-ups") as progress:
+        with telling_what_is_kept(kept), counter(console, "spin-ups") as shown:
+
+            def progress(done: int, number: int) -> None:
+                nonlocal finished, cases
+                finished, cases = done, number
+                shown(done, number)
+
             result = run_sweep(
                 beam,
-                omegas=omega,
-                ramp_times=ramp_time,
+                omegas=omegas,
+                ramp_times=ramp_times,
                 element=model,
                 elements=elements,
-                duration=duration,
-                step=step,
+                duration=motion.duration,
+                step=motion.step,
                 frame=frame,
                 executor=pool,
                 jobs=jobs,
@@ -113,9 +168,37 @@ def sweep(
     finally:
         if client is not None:
             client.close()
-    name = f"sweep-{element}-{elements}" + ("" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}")
     measured = result.drop_dims("time", errors="ignore")
     written = [save(result, folder / f"{name}.nc"), save(measured, folder / f"{name}.csv")]
+    _print_result(console, measured)
+    console.print("written " + listed(written))
+    verdicts = measured["verdict"].to_numpy()
+    if not (verdicts == "passed").any() and (verdicts == "failed").any():
+        raise RuntimeError(f"no spin-up passed its checks; why is in {written[0]}")
+
+
+def _motion(
+    beam: Beam,
+    omegas: list[float],
+    ramp_times: list[float],
+    step: float | None,
+    duration: float | None,
+) -> Motion:
+    """Return duration and step for a whole grid: of the longest ramp and the shortest."""
+    for omega in omegas:
+        SpinUp(omega=omega, ramp_time=1.0)
+    checked = [positive("ramp_time", time, "s") for time in ramp_times]
+    longest, shortest = max(checked, default=None), min(checked, default=None)
+    if step is None:
+        step = chosen_motion(beam, ramp_time=shortest, duration=duration).step
+    return chosen_motion(beam, ramp_time=longest, duration=duration, step=step)
+
+
+def _values(values: list[float]) -> str:
+    return ", ".join(f"{value:g}" for value in values)
+
+
+def _print_result(console: Console, measured: xr.Dataset) -> None:
     rows = measured.to_dataframe().reset_index()
     columns: dict[str, Any] = {
         "ω [rad/s]": rows["omega"],
@@ -127,9 +210,8 @@ def sweep(
         "verdict": rows["verdict"],
     }
     print_columns({title: values.tolist() for title, values in columns.items()}, "table")
-    for cause, count in failures(result).items():
+    for cause, count in failures(measured).items():
         console.print(f"failed {count} ×: {cause} …")
-    console.print("written " + ", ".join(str(path) for path in written))
 
 
 def _shard(text: str) -> tuple[int, int]:

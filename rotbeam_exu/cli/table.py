@@ -8,10 +8,11 @@ from cyclopts import Parameter
 
 from analytic import paper_table
 
+from .options import Whole
 from .output import Format, print_columns
 
 
-def table(number: int, *, form: Annotated[Format, Parameter(name="--format")] = "table") -> None:
+def table(number: Whole, *, form: Annotated[Format, Parameter(name="--format")] = "table") -> None:
     """Print a table of the paper as printed and as derived, differences and errata marked.
 
     Parameters

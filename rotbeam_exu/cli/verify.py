@@ -8,7 +8,8 @@ from collections.abc import Iterable
 from rich import box
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
+
+from analytic.input_checks import positive
 
 from ..elements import FORMULATIONS, formulation
 from ..peers import PEERS, Entry, peer
@@ -21,6 +22,7 @@ from ..verification import (
     formulation_entry,
 )
 from ..verification import verify as judge
+from .output import new_console, print_columns
 
 
 def verify(*, element: list[str] | None = None, cost: bool = False, error: float = 1e-2) -> None:
@@ -36,9 +38,8 @@ def verify(*, element: list[str] | None = None, cost: bool = False, error: float
         That error, of q(t) over max|q|.
     """
     entries = entries_at_hand() if element is None else tuple(map(_entry, element))
-    console = Console(highlight=False, soft_wrap=True)
-    # A table that is cut off says nothing; where there is no terminal there is no width.
-    console.width = max(console.width, 110)
+    error = positive("error", error)
+    console = new_console()
     if cost:
         _print_costs(console, entries, error)
     else:
@@ -60,46 +61,46 @@ def _print_verdicts(console: Console, entries: tuple[Entry, ...]) -> None:
         "history": "q(t)", "order in step": "order h", "order in mesh": "order l",
         "cost": "time [s]",
     }  # fmt: skip
-    table = Table(box=box.SIMPLE, title="Errors against the exact beam, ω = 6 rad/s in T = 3 s")
-    for header in ("", "mesh", *headers.values(), "verdict"):
-        table.add_column(header, justify="left" if header in {"", "verdict"} else "right")
-    notes = []
+    rows, notes = [], []
     for entry in _tracked(console, entries):
         found = judge(entry)
-        table.add_row(
-            found.name,
-            f"{found.elements}",
-            *(_cell(found.measures[name]) for name in headers),
-            "passed" if found.passed else "falls short",
-        )
+        cells = (_cell(found.measures[name]) for name in headers)
+        verdict = "passed" if found.passed else "falls short"
+        rows.append([found.name, f"{found.elements}", *cells, verdict])
         sentences = dict.fromkeys(m.note for m in found.measures.values() if m.passed is False)
         notes += [f"{found.name}: {note}" for note in (*sentences, found.remark) if note]
-    table.add_row(
-        "threshold", "", *(f"{THRESHOLDS[n]:g}" if n in THRESHOLDS else "" for n in headers), ""
+    limits = (f"{THRESHOLDS[n]:g}" if n in THRESHOLDS else "" for n in headers)
+    rows.append(["threshold", "", *limits, ""])
+    _print_rows(
+        ["code", "mesh", *headers.values(), "verdict"],
+        rows,
+        "Errors against the exact beam, ω = 6 rad/s in T = 3 s",
     )
-    console.print(table)
     for note in notes:
-        console.print(note, markup=False)
+        console.print(note)
 
 
 def _print_costs(console: Console, entries: tuple[Entry, ...], error: float) -> None:
-    table = Table(
-        box=box.SIMPLE,
-        title=f"Wall time at an error of {error:g} of max|q|, ω = 6 rad/s in T = 3 s, 6 s",
-    )
-    for header in ("", *(f"{n} × {h:g} s" for n, h in LADDER), f"s at {error:g}"):
-        table.add_column(header, justify="right" if header else "left")
+    rows = []
     for entry in _tracked(console, entries):
         seconds, ladder = cost_at_error(entry, error)
         cells = (f"{e:.1e} {s:.2f} s" if math.isfinite(e) else "failed" for e, s in ladder)
-        table.add_row(
-            entry.name, *cells, f"{seconds:.2f}" if math.isfinite(seconds) else "not reached"
-        )
-    console.print(table)
+        reached = f"{seconds:.2f}" if math.isfinite(seconds) else "not reached"
+        rows.append([entry.name, *cells, reached])
+    _print_rows(
+        ["code", *(f"{n} × {h:g} s" for n, h in LADDER), f"s at {error:g}"],
+        rows,
+        f"Wall time at an error of {error:g} of max|q|, ω = 6 rad/s in T = 3 s, 6 s",
+    )
     console.print(
         "Each cell: error and wall time of one run, one after the other in this process; the last "
         "column interpolates time over error logarithmically."
     )
+
+
+def _print_rows(headers: list[str], rows: list[list[str]], title: str) -> None:
+    columns = dict(zip(headers, map(list, zip(*rows, strict=True)), strict=True))
+    print_columns(columns, "table", title=title, frame=box.SIMPLE)
 
 
 def _cell(measure: Measure) -> str:

@@ -11,11 +11,6 @@ SHORT = ("run", "--omega", "2", "--ramp-time", "1", "--elements", "2", "--durati
          "--step", "0.01")  # fmt: skip
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-
-
 def test_options_reach_the_element_and_the_file(tmp_path, capsys):
     options = ("--option", "law=coupled", "--option", "poisson_ratio=0.25")
     main([*SHORT, "--element", "ancf3", *options, "--out", str(tmp_path)])

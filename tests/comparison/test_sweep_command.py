@@ -21,7 +21,8 @@ def test_table_files_and_failures_by_cause(tmp_path, capsys):
     assert printed.count("passed") == 2
     data = load(tmp_path / "out" / "sweep-cable-2.nc")
     assert dict(data.sizes) == {"omega": 2, "ramp_time": 2, "time": 1801}
-    lines = (tmp_path / "out" / "sweep-cable-2.csv").read_text().splitlines()
+    text = (tmp_path / "out" / "sweep-cable-2.csv").read_text()
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
     assert lines[0].startswith("omega [rad/s],ramp_time [s],amplitude,")
     assert len(lines) == 5
 
@@ -44,6 +45,14 @@ def test_shards_share_a_cache(tmp_path, capsys):
         (["--shard", "two"], "shard must read k/n, as 1/4, got 'two'"),
         (["--omega", "4", "4"], "omegas holds 4 more than once"),
         (["--elements", "0"], "elements must be at least 1, got 0"),
+        (["--step", "nan"], "step must be finite, got nan s"),
+        (["--step", "inf"], "step must be finite, got inf s"),
+        (["--step", "-1"], "step must be positive, got -1.0 s"),
+        (["--duration", "nan"], "duration must be finite, got nan s"),
+        (["--omega", "0", "4"], "at omega = 0 rad/s the beam stays at rest"),
+        (["--ramp-time", "3", "-3"], "ramp_time must be positive, got -3.0 s"),
+        (["--jobs", "0"], "jobs must be at least 1, got 0"),
+        (["--step", "1e-12"], "a sweep of 1 spin-ups would take about"),
         (["--element", "brick"], "unknown element 'brick'"),
     ],
 )
@@ -63,3 +72,35 @@ def test_a_cache_of_another_version_exits_with_2(tmp_path, capsys):
         call(tmp_path, "--omega", "6", "--ramp-time", "3")
     assert stop.value.code == 2
     assert "has format 0, this version writes 1" in capsys.readouterr().err
+
+
+def test_a_sweep_of_which_nothing_passes_exits_with_1(tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        call(tmp_path, "--omega", "6", "--ramp-time", "3", "8.5", "--step", "0.5")
+    assert stop.value.code == 1
+    assert "no spin-up passed its checks; why is in" in capsys.readouterr().err
+
+
+def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, monkeypatch):
+    import rotbeam_exu.cli.sweep as job
+
+    asked = {}
+
+    def stop(beam, **options):
+        asked.update(options)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(job, "run_sweep", stop)
+    config = tmp_path / "reed.toml"
+    config.write_text(
+        "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
+        "youngs_modulus = 2.1e11\ndensity = 7850\n"
+    )
+    with pytest.raises(SystemExit):
+        main(["sweep", "--config", str(config), "--out", str(tmp_path)])
+    # ω_0 is 1050.4 rad/s, 361.06 times the paper's.
+    assert asked["omegas"] == [720.0, 1400.0, 2200.0, 2900.0]
+    assert asked["ramp_times"][0] == pytest.approx(3.375 / 361.06, rel=1e-3)
+    assert asked["duration"] == pytest.approx(0.042)
+    assert asked["step"] == 2e-6
+    assert "omega 720, 1400, 2200, 2900 rad/s" in capsys.readouterr().out

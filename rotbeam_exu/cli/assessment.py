@@ -1,0 +1,127 @@
+"""What a run's frequencies are worth: against the exact beam, mesh and step apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from analytic import Beam, linear_modes, periodic_orbits
+
+from ..oscillation import SteadyOscillation
+
+WORTH = 1e-2
+"""Share of the nonlinear effect that an error may reach before it is warned of."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assessment:
+    """Frequencies of a run beside those of the exact, extensible Bernoulli-Euler beam.
+
+    Attributes
+    ----------
+    omega_n, exact_omega_n : float
+        Natural frequency of the mesh and of the exact beam [rad/s].
+    frequency : float
+        Nonlinear frequency ω_NL of the run [rad/s].
+    exact_frequency : float or None
+        That of the exact beam's periodic orbit at the run's own amplitude [rad/s].
+    why_not : str
+        Why the exact orbit cannot be had, where it cannot.
+    """
+
+    omega_n: float
+    exact_omega_n: float
+    frequency: float
+    exact_frequency: float | None
+    why_not: str = ""
+
+    @property
+    def mesh_error(self) -> float:
+        """Relative error of ω_n: the mesh, for no step enters it."""
+        return self.omega_n / self.exact_omega_n - 1.0
+
+    @property
+    def error(self) -> float | None:
+        """Relative error of ω_NL at the run's own amplitude."""
+        return None if self.exact_frequency is None else self.frequency / self.exact_frequency - 1.0
+
+    @property
+    def step_error(self) -> float | None:
+        """What of the error of ω_NL is beyond that of ω_n: the step and the rest."""
+        return None if self.error is None else self.error - self.mesh_error
+
+    @property
+    def effect(self) -> float | None:
+        """The nonlinear effect of the exact beam, ω_NL/ω_n - 1."""
+        if self.exact_frequency is None:
+            return None
+        return self.exact_frequency / self.exact_omega_n - 1.0
+
+    def lines(self) -> list[tuple[str, str]]:
+        """Return what to print, as titles and texts."""
+        lines = [
+            (
+                "exact ω_n",
+                f"{self.exact_omega_n:.6f} rad/s (Bernoulli-Euler); "
+                f"error of the run's {self.mesh_error:+.1e}: the mesh",
+            )
+        ]
+        if self.exact_frequency is None:
+            return [*lines, ("exact ω_NL", f"cannot be had: {self.why_not}")]
+        return [
+            *lines,
+            (
+                "exact ω_NL",
+                f"{self.exact_frequency:.6f} rad/s at this amplitude (Bernoulli-Euler); "
+                f"error of the run's {self.error:+.1e}, "
+                f"beyond the mesh {self.step_error:+.1e}: the step and the rest",
+            ),
+            ("nonlinear effect", f"exact ω_NL/ω_n - 1 = {self.effect:+.3e}"),
+        ]
+
+    def warnings(self, elements: int, step: float) -> list[str]:
+        """Return a sentence for the mesh and the step, where its error hides the effect."""
+        if self.effect is None or self.step_error is None:
+            return []
+        return [
+            f"the error of {what}, {error:+.1e} of the frequency, is "
+            f"{abs(error / self.effect) if self.effect else float('inf'):.1%} of the nonlinear "
+            f"effect, {self.effect:+.1e}: {remedy}"
+            for what, error, remedy in (
+                ("the mesh", self.mesh_error, f"take more elements than {elements}"),
+                ("the step and the rest", self.step_error, f"take a smaller step than {step:g} s"),
+            )
+            if abs(error) > WORTH * abs(self.effect)
+        ]
+
+
+def assess(beam: Beam, omega: float, omega_n: float, steady: SteadyOscillation) -> Assessment:
+    """Compare a run's ω_n and ω_NL with the exact beam's, the latter at the run's own amplitude.
+
+    Parameters
+    ----------
+    beam : Beam
+    omega : float
+        Rotation speed ω [rad/s].
+    omega_n : float
+        Natural frequency of the run's mesh [rad/s].
+    steady : SteadyOscillation
+        What was measured of the run.
+
+    Notes
+    -----
+    The exact beam is `linear_modes` and `periodic_orbits` of `analytic`: geometrically exact,
+    extensible, without shear and rotary inertia. Elements that have these differ by 1e-4 in truth.
+    """
+    exact_frequency, why_not = None, ""
+    try:
+        orbit = periodic_orbits(beam, omega, [steady.amplitude])
+        exact_frequency = float(orbit.frequency[0])
+    except (RuntimeError, ValueError) as error:
+        why_not = str(error)
+    return Assessment(
+        omega_n=omega_n,
+        exact_omega_n=float(linear_modes(beam, omega, 1).frequencies[0]),
+        frequency=steady.frequency,
+        exact_frequency=exact_frequency,
+        why_not=why_not,
+    )

@@ -1,0 +1,125 @@
+"""The motion and the step of a run, chosen from the beam's own ω_0 where they are not given."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from analytic import Beam, SpinUp
+from analytic.input_checks import positive, rotation_speed
+
+_OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
+"""The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""
+
+_STEPS_PER_RAMP = 30
+"""Steps that a chosen step leaves at least in a ramp; `simulate` refuses fewer than 20."""
+
+_STEADY_PERIODS = 5.0
+"""Periods 2π/ω_0 that a chosen duration leaves at least after the ramp; two are measured."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """A spin-up, its end and the integrator's step [s]."""
+
+    spin_up: SpinUp
+    duration: float
+    step: float
+
+    def __str__(self) -> str:
+        return (
+            f"omega {self.spin_up.omega:g} rad/s, ramp-time {self.spin_up.ramp_time:g} s, "
+            f"duration {self.duration:g} s, step {self.step:g} s"
+        )
+
+
+def chosen_speeds(beam: Beam, *of_paper: float) -> list[float]:
+    """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits."""
+    return [_rounded(omega / slower_than_paper(beam), 2) for omega in of_paper]
+
+
+def chosen_times(beam: Beam, *of_paper: float, digits: int = 2) -> list[float]:
+    """Return times [s] of the paper's beam, scaled to the same ω_0 t, to two digits or more."""
+    return [_rounded(time * slower_than_paper(beam), digits) for time in of_paper]
+
+
+def refuse_rest(*speeds: float) -> None:
+    """Refuse a speed [rad/s] of zero, at which nothing will oscillate."""
+    if not all(speeds):
+        raise ValueError(
+            "at omega = 0 rad/s the beam stays at rest and nothing oscillates: take a speed above "
+            f"zero, as {_OMEGA:g} rad/s in the paper"
+        )
+
+
+def chosen_motion(
+    beam: Beam,
+    *,
+    omega: float | None = None,
+    ramp_time: float | None = None,
+    duration: float | None = None,
+    step: float | None = None,
+) -> Motion:
+    """Return the motion given, and for what is not given the paper's, scaled by ω_0.
+
+    Speeds go with ω_0 and times with 1/ω_0, to two digits; the step is the next of 1, 2, 5 times a
+    power of ten below, and at most a thirtieth of the ramp, so that the duration is a whole number
+    of steps. Of duration and step, one that is given is kept and the other fitted to it; a
+    duration that is chosen leaves five periods after the ramp.
+    """
+    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
+    ramp_time = chosen_times(beam, _RAMP_TIME)[0] if ramp_time is None else ramp_time
+    spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
+    step = None if step is None else positive("step", step, "s")
+    fine = _one_two_five(min(_STEP * slower_than_paper(beam), spin_up.ramp_time / _STEPS_PER_RAMP))
+    if duration is None:
+        enough = spin_up.ramp_time + _STEADY_PERIODS * 2.0 * math.pi / beam.omega_0
+        duration = chosen_times(beam, _DURATION)[0]
+        if duration < enough:
+            duration = _rounded(enough, 2, up=True)
+        if step is not None:
+            duration = _whole_steps(duration, step) * step
+    else:
+        duration = positive("duration", duration, "s")
+        if step is not None:
+            _require_whole_steps(duration, step)
+    if step is None:
+        step = duration / _whole_steps(duration, fine)
+    return Motion(spin_up=spin_up, duration=duration, step=step)
+
+
+def slower_than_paper(beam: Beam) -> float:
+    """How many times slower the beam is than the paper's."""
+    slower = Beam.reference().omega_0 / positive("the beam's ω_0", beam.omega_0, "rad/s")
+    return positive("the paper's ω_0 over the beam's", slower)
+
+
+def _whole_steps(duration: float, step: float) -> int:
+    """How many steps cover a duration; what is whole but for round-off is not rounded up."""
+    return max(1, math.ceil(duration / step * (1.0 - 1e-12)))
+
+
+def _require_whole_steps(duration: float, step: float) -> None:
+    """Refuse a duration that is no whole number of steps, with one and the other that fit."""
+    steps = round(duration / step)
+    if abs(steps * step - duration) > 1e-9 * duration:
+        more = _whole_steps(duration, step)
+        raise ValueError(
+            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step "
+            f"of {duration / more:.12g} s or a duration of {more * step:.12g} s"
+        )
+
+
+def _rounded(value: float, digits: int, *, up: bool = False) -> float:
+    unit = digits - 1 - math.floor(math.log10(value))
+    if up:
+        # Through the decimal text, for a power of ten times a number is not the number printed.
+        return float(f"{math.ceil(value * 10.0**unit * (1.0 - 1e-12))}e{-unit}")
+    return float(f"{value:.{digits - 1}e}")
+
+
+def _one_two_five(value: float) -> float:
+    """Return the next of 1, 2, 5 times a power of ten that is not above, but for round-off."""
+    exponent = math.floor(math.log10(value * (1.0 + 1e-9)))
+    first = max(n for n in (1, 2, 5) if n <= value * (1.0 + 1e-9) / 10.0**exponent)
+    return float(f"{first}e{exponent}")

@@ -1,0 +1,55 @@
+"""`rotbeam animate`: of any beam, a film of the paper's length."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, SpinUp, spin_up_response
+from rotbeam_exu import figures
+
+
+def film(call, monkeypatch, tmp_path, *options):
+    shown = {}
+
+    def drawn(response, path, *, rate, progress):
+        shown.update(response=response, rate=rate)
+        path.write_bytes(b"GIF")
+
+    monkeypatch.setattr(figures.animation, "save_animation", drawn)
+    code, out, error = call("animate", "--out", tmp_path / "film.gif", "--force", *options)
+    return code, out + error, shown
+
+
+def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path):
+    (tmp_path / "reed.toml").write_text(
+        "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
+        "youngs_modulus = 2.1e11\ndensity = 7850\n"
+    )
+    code, out, shown = film(call, monkeypatch, tmp_path, "--config", tmp_path / "reed.toml")
+    assert code == 0
+    assert "360 times slower" in out
+    response = shown["response"]
+    # As many pictures as of the paper's beam over 12 s, 20 a second, to two digits of each.
+    assert abs(response.time.size / 241 - 1.0) < 0.05
+    assert shown["rate"] == 20
+    assert response.spin_up.omega == 2200.0
+    # The same motion, but for the two digits of the speed, 1.5 %, and of the ramp.
+    paper = spin_up_response(
+        Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.0, 12.0, 241)
+    )
+    largest = np.abs(response.q).max() / response.beam.length
+    assert largest == pytest.approx(np.abs(paper.q).max() / 8.0, rel=0.05)
+
+
+def test_the_papers_beam_is_shown_in_real_time(call, monkeypatch, tmp_path):
+    code, out, shown = film(call, monkeypatch, tmp_path, "--rate", "10", "--duration", "4")
+    assert code == 0
+    assert "slower" not in out
+    assert shown["response"].beam == Beam.reference()
+    assert np.diff(shown["response"].time).max() < 0.1 + 1e-9
+
+
+def test_a_single_picture_is_refused_and_the_remedy_works(call, monkeypatch, tmp_path):
+    code, out, _ = film(call, monkeypatch, tmp_path, "--rate", "1", "--duration", "0.4")
+    assert code == 2
+    assert "take a rate or a slow motion 5 times as large" in out
+    assert film(call, monkeypatch, tmp_path, "--rate", "5", "--duration", "0.4")[0] == 0

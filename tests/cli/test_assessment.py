@@ -1,0 +1,81 @@
+"""What `rotbeam run` says of its own error: mesh and step apart, against the exact beam."""
+
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from analytic import Beam, linear_modes, periodic_orbits
+from rotbeam_exu import natural_frequencies
+from rotbeam_exu.cli.assessment import assess
+
+OMEGA = 6.0
+
+
+def assessed(elements, frequency=3.7225, amplitude=0.32):
+    beam = Beam.reference()
+    mesh = natural_frequencies(beam, OMEGA, elements=elements, count=1)[0]
+    steady = SimpleNamespace(frequency=frequency, amplitude=amplitude)
+    return assess(beam, OMEGA, float(mesh), steady)
+
+
+def test_the_mesh_error_falls_with_the_fourth_power_of_the_element():
+    errors = [assessed(elements).mesh_error for elements in (8, 16, 32)]
+    assert errors[1] == pytest.approx(1.25e-5, rel=0.05)
+    # Cubic elements: 1/16 for half the length, to the next order.
+    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.1)
+    assert errors[1] / errors[2] == pytest.approx(16.0, rel=0.1)
+
+
+def test_an_exact_run_on_an_exact_mesh_has_no_error():
+    beam = Beam.reference()
+    orbit = periodic_orbits(beam, OMEGA, [0.2])
+    steady = SimpleNamespace(frequency=float(orbit.frequency[0]), amplitude=0.2)
+    omega_n = float(linear_modes(beam, OMEGA, 1).frequencies[0])
+    found = assess(beam, OMEGA, omega_n, steady)
+    assert abs(found.mesh_error) < 1e-12
+    assert abs(found.step_error) < 1e-12
+    assert found.effect == pytest.approx(orbit.frequency[0] / omega_n - 1.0, abs=1e-12)
+    assert found.warnings(16, 1e-3) == []
+
+
+def test_each_error_above_a_hundredth_of_the_effect_is_named_with_its_own_remedy():
+    found = assessed(16)
+    effect = found.effect
+    fine = replace(found, omega_n=found.exact_omega_n, frequency=found.exact_frequency)
+    assert fine.warnings(16, 1e-3) == []
+    for share, warned in ((0.009, False), (0.011, True)):
+        mesh = replace(
+            fine,
+            omega_n=fine.exact_omega_n * (1.0 + share * effect),
+            frequency=fine.exact_frequency * (1.0 + share * effect),
+        )
+        step = replace(fine, frequency=fine.exact_frequency * (1.0 + share * effect))
+        for one, remedy in ((mesh, "more elements than 16"), (step, "smaller step than 0.001 s")):
+            sentences = one.warnings(16, 1e-3)
+            assert len(sentences) == warned
+            assert all(remedy in sentence and "1.1%" in sentence for sentence in sentences)
+
+
+def test_an_orbit_that_cannot_be_had_is_a_line_and_no_failure():
+    found = assessed(4, amplitude=1.2)
+    assert found.exact_frequency is found.step_error is None
+    titles = dict(found.lines())
+    assert titles["exact ω_NL"].startswith("cannot be had: ")
+    assert found.warnings(4, 1e-3) == []
+
+
+def test_the_summary_of_a_run(call, tmp_path):
+    code, out, err = call(
+        "run", "--elements", "8", "--step", "0.01", "--duration", "8", "--out", tmp_path
+    )
+    assert code == 0
+    assert re.search(r"^verdict +checks passed$", out, re.MULTILINE)
+    assert "the estimator's, without mesh and step" in out
+    assert "exact ω_n             3.730401 rad/s (Bernoulli-Euler)" in out
+    shown = re.search(r"error of the run's (\S+), beyond the mesh (\S+): the step", out)
+    # Second order: a hundred times the 1.9e-5 of steps of 1 ms, and a little of the mesh.
+    assert float(shown[2]) == pytest.approx(-1.9e-3, rel=0.1)
+    assert "warning: the error of the mesh" in err
+    assert "warning: the error of the step and the rest" in err

@@ -1,0 +1,65 @@
+"""Tables in a narrow terminal: fewer columns side by side, and every number whole."""
+
+import csv
+import io
+
+import pytest
+
+from rotbeam_exu.cli import verify as verify_job
+from rotbeam_exu.verification import LADDER, THRESHOLDS, Measure, Verification
+
+COMMANDS = [
+    ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
+    ("compare-modes", "--points", "3", "--count", "3", "--orders", "2", "--omega-max", "6"),
+    ("table", "2"),
+    ("table", "3"),
+]
+
+
+@pytest.mark.parametrize("columns", [20, 40, 60, 200])
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: "-".join(command[:2]))
+def test_no_number_is_cut_or_broken(call, monkeypatch, command, columns):
+    monkeypatch.setenv("COLUMNS", "1000")
+    wide = call(*command)[1]
+    monkeypatch.setenv("COLUMNS", str(columns))
+    code, narrow, _ = call(*command)
+    assert code == 0
+    assert "…" not in narrow
+
+    def words(text):
+        for line in "┃│┏┓┗┛┡┩━┳╇└┘─┴":
+            text = text.replace(line, " ")
+        return set(text.split())
+
+    assert words(wide) == words(narrow)
+    # No table is narrower than its first column beside the one with the longest word.
+    if columns >= 60:
+        assert max(map(len, narrow.splitlines())) <= columns
+
+
+def test_the_narrow_table_has_the_numbers_of_the_csv(call, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    arguments = ("backbone", "--omega", "6", "--amplitude", "0.1", "0.2")
+    rows = list(csv.DictReader(io.StringIO(call(*arguments, "--format", "csv")[1])))
+    narrow = call(*arguments)[1]
+    for row in rows:
+        assert f"{float(row['Eq. 41 exactly [rad/s]']):.7g}" in narrow
+
+
+def test_the_verdict_tables(call, monkeypatch):
+    found = {name: Measure(name=name, value=1.23e-4, passed=True) for name in (*THRESHOLDS, "cost")}
+    monkeypatch.setattr(
+        verify_job,
+        "judge",
+        lambda entry: Verification(name=entry.name, elements=16, step=1e-3, measures=found),
+    )
+    monkeypatch.setattr(verify_job, "cost_at_error", lambda *_: (1.25, [(1e-3, 2.5)] * len(LADDER)))
+    monkeypatch.setenv("COLUMNS", "40")
+    code, out, _ = call("verify", "--element", "cable", "--element", "exact")
+    assert code == 0
+    assert out.count("1.2e-04") == 2 * 4
+    assert "…" not in out
+    code, out, _ = call("verify", "--element", "cable", "--cost")
+    assert code == 0
+    assert out.count("1.0e-03") == len(LADDER)
+    assert max(map(len, out.split("Each cell")[0].splitlines())) <= 40

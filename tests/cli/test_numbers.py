@@ -1,0 +1,56 @@
+"""Numbers on the command line: what is none is refused, and what would never end."""
+
+import pytest
+
+
+@pytest.mark.parametrize("text", ["2.5", "0.6", "0x10", "1e1", "1_0", "٣", "nan", "", "9" * 400])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("run", "--elements"),
+        ("sweep", "--elements"),
+        ("sweep", "--jobs"),
+        ("table",),
+        ("animate", "--rate"),
+        ("compare-modes", "--points"),
+        ("figure", "14", "--jobs"),
+    ],
+)
+def test_only_decimal_digits_are_a_whole_number(call, tmp_path, monkeypatch, command, text):
+    monkeypatch.chdir(tmp_path)
+    code, out, error = call(*command, text)
+    assert code == 2
+    assert out == ""
+    assert "it must be" in error
+    assert len(error.strip().splitlines()) == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("error", ["nan", "inf", "0", "-1"])
+def test_verify_asks_for_a_possible_error(call, error):
+    code, _, message = call("verify", "--element", "cable", "--cost", "--error", error)
+    assert code == 2
+    assert "error must be" in message
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("animate", "--rate", "1000000000"), "pictures would take about"),
+        (("animate", "--duration", "1e12"), "pictures would take about"),
+        (("animate", "--slow-motion", "1e9"), "pictures would take about"),
+        (("compare-modes", "--points", "1000000000"), "1000000000 speeds, 3 modes and 10 lines"),
+        (("compare-modes", "--count", "1000000000"), "of memory, more than 8 GB"),
+        (("compare-modes", "--orders", "1000000000"), "days, more than 1"),
+        (("backbone", "--omega", "6", "--exact", "--functions", "1000000"), "of memory"),
+        (("animate", "--rate", "9" * 250), ""),
+        (("compare-modes", "--points", "9" * 250), ""),
+    ],
+)
+def test_what_would_never_end_is_refused_before_it_starts(call, tmp_path, arguments, sentence):
+    out = ("--out", tmp_path / "x.gif" if arguments[0] == "animate" else tmp_path)
+    code, _, error = call(*arguments, *(out if arguments[0] in ("animate", "run") else ()))
+    assert code == 2
+    assert error.startswith("rotbeam: ")
+    assert sentence in error
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,104 @@
+"""Every remedy that the command line prints is followed: the complaint is gone, or another."""
+
+import re
+
+import pytest
+
+QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
+
+
+def run(call, tmp_path, **options):
+    arguments = {**QUICK, **{f"--{k.replace('_', '-')}": str(v) for k, v in options.items()}}
+    flat = [text for pair in arguments.items() for text in pair]
+    return call("run", "--out", tmp_path / "out", "--force", *flat)
+
+
+def test_a_speed_in_another_unit_is_given_in_radians(call, tmp_path):
+    code, _, error = call("run", "--rpm", "60")
+    assert code == 2
+    speed = re.search(r"60 rpm are --omega (\S+)", error)[1]
+    assert float(speed) == pytest.approx(6.283185, rel=1e-5)
+    assert run(call, tmp_path, omega=speed)[0] == 0
+    assert "and 1.5 hz are --omega 9.42478" in call("sweep", "--hz=1.5")[2]
+    assert "1 rpm is 0.10472 rad/s" in call("run", "--rpm")[2]
+
+
+@pytest.mark.parametrize(
+    ("command", "wrong", "meant"),
+    [
+        ("run", "--elemnts", "--elements"),
+        ("run", "--speed", "--omega"),
+        ("run", "--ramp", "--ramp-time"),
+        ("sweep", "--elemens", "--elements"),
+        ("animate", "--durations", "--duration"),
+    ],
+)
+def test_an_option_is_suggested_only_if_it_is_alike(call, command, wrong, meant):
+    code, _, error = call(command, wrong, "3")
+    assert code == 2
+    assert f"did you mean {meant}?" in error
+    assert "did you mean" not in call(command, "--zzz", "3")[2]
+
+
+def test_at_rest_nothing_oscillates_and_a_speed_helps(call, tmp_path, monkeypatch):
+    import rotbeam_exu.cli.run as job
+
+    with monkeypatch.context() as patch:
+        patch.setattr(job, "simulate", lambda *_, **__: pytest.fail("computed first"))
+        code, _, error = run(call, tmp_path, omega=0)
+    assert code == 2
+    assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error
+    assert run(call, tmp_path, omega=6)[0] == 0
+
+
+def test_a_step_that_does_not_fit_names_one_that_does(call, tmp_path):
+    code, _, error = run(call, tmp_path, step=0.011)
+    assert code == 2
+    step, duration = re.search(r"try a step of (\S+) s or a duration of (\S+) s", error).groups()
+    assert run(call, tmp_path, step=step)[0] == 0
+    assert run(call, tmp_path, step=0.011, duration=duration)[0] == 0
+
+
+def test_a_duration_too_short_to_measure_names_one_that_is_long_enough(call, tmp_path):
+    code, _, error = run(call, tmp_path, duration=5)
+    assert code == 1
+    enough = float(re.search(r"run for (\S+) s or longer", error)[1])
+    assert run(call, tmp_path, duration=round(enough + 0.005, 2))[0] == 0
+
+
+def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(call, tmp_path):
+    coarse = run(call, tmp_path, elements=4)[2]
+    assert "take more elements than 4" in coarse
+    assert "take a smaller step than 0.01 s" in coarse
+    # In the rotating frame the step's error is 14 times smaller: 2 ms do.
+    fine = run(call, tmp_path, elements=16, step=0.002, frame="rotating")
+    assert fine[0] == 0
+    assert fine[2] == ""
+
+
+def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
+    short = ("run", "--elements", "1", "--duration", "8")
+    assert call(*short, "--step", "0.01", "--out", tmp_path)[0] == 0
+    code, _, error = call(*short, "--step", "0.02", "--out", tmp_path)
+    assert code == 2
+    assert "choose another folder with --out, or --force" in error
+    assert call(*short, "--step", "0.02", "--out", tmp_path / "other")[0] == 0
+    assert call(*short, "--step", "0.02", "--out", tmp_path, "--force")[0] == 0
+
+
+def test_what_would_take_too_long_is_let_through_when_there_is_less_of_it(call):
+    few = {"--points": "2", "--count": "1", "--orders": "1"}
+    for option in few:
+        arguments = {**few, option: "1000000000"}
+        code, _, error = call("compare-modes", *(t for pair in arguments.items() for t in pair))
+        assert code == 2
+        assert error.strip().endswith("take fewer")
+    assert call("compare-modes", *(text for pair in few.items() for text in pair))[0] == 0
+
+
+def test_more_functions_are_on_offer(call):
+    code, out, _ = call(
+        "backbone", "--omega", "6", "--amplitude", "0.1", "--exact", "--functions", "20"
+    )
+    assert code == 0
+    assert "3.729665" in out

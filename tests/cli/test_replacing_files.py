@@ -1,0 +1,119 @@
+"""Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
+
+import pytest
+
+import rotbeam_exu.cli.figure as figure_job
+import rotbeam_exu.cli.run as job
+import rotbeam_exu.cli.sweep as sweep_job
+from rotbeam_exu import load
+
+SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
+BEAM = (
+    "[beam]\nlength = {}\naxial_stiffness = 5e6\nbending_stiffness = 566.0\nmass_per_length = 0.2\n"
+)
+
+
+def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
+    assert call("run", *SHORT, "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, "--out", tmp_path)[0] == 0
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
+    with monkeypatch.context() as patch:
+        patch.setattr(job, "simulate", lambda *_, **__: pytest.fail("computed first"))
+        for options, sentence in (
+            (("--step", "0.005"), "step 0.01 instead of 0.005"),
+            (("--duration", "9"), "duration 8 instead of 9"),
+            (("--frame", "rotating"), "frame inertial instead of rotating"),
+            (("--omega", "6.0000001"), "omega 6 instead of 6.0000001"),
+            (
+                ("--config", tmp_path / "beam.toml", "--omega", "6", "--ramp-time", "3"),
+                "beam_area 7.299e-05 instead of 1",
+            ),
+        ):
+            arguments = dict(zip(SHORT[::2], SHORT[1::2], strict=True))
+            arguments |= dict(zip(options[::2], options[1::2], strict=True))
+            code, _, error = call("run", *sum(arguments.items(), ()), "--out", tmp_path)
+            assert code == 2
+            assert sentence in error
+            assert "--force" in error
+            assert len(error.strip().splitlines()) == 1
+    assert all(path.read_bytes() == text for path, text in before.items())
+    assert call("run", *SHORT, "--frame", "rotating", "--out", tmp_path, "--force")[0] == 0
+    assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
+
+
+def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
+    code, _, error = call(
+        "run", "--elements", "2", "--step", "0.01", "--duration", "5", "--out", tmp_path
+    )
+    assert code == 1
+    kept = tmp_path / "cable-2-omega-6-ramp-3.nc"
+    assert f"the run itself is in {kept}" in error
+    assert load(kept).attrs["verdict"] == "passed"
+    assert kept.with_suffix(".csv").exists()
+
+
+def test_a_failed_run_is_kept_and_marked(call, tmp_path):
+    failing = ("run", "--elements", "2", "--step", "0.1", "--ramp-time", "2.5", "--out", tmp_path)
+    for duration, name in ((10, "-failed"), (11, "-failed-2"), (10, "-failed")):
+        code, _, error = call(*failing, "--duration", duration)
+        assert code == 1
+        kept = tmp_path / f"cable-2-omega-6-ramp-2.5{name}.nc"
+        assert f"what was computed is in {kept}, marked failed" in error
+        run = load(kept)
+        assert run.attrs["verdict"].startswith("failed: ")
+        assert run.attrs["duration"] == duration
+    # And where nothing failed, nothing is in the way.
+    good = ("--step", "0.01", "--duration", "10")
+    assert call("run", "--elements", "2", "--ramp-time", "2.5", *good, "--out", tmp_path)[0] == 0
+
+
+def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
+    def swept(*options):
+        return call(
+            "sweep", *SHORT, "--jobs", "1", "--cache", tmp_path / "cache", "--out", tmp_path,
+            *options,
+        )  # fmt: skip
+
+    assert swept("--omega", "6", "--ramp-time", "3")[0] == 0
+    assert swept("--omega", "6", "--ramp-time", "3")[0] == 0
+    with monkeypatch.context() as patch:
+        patch.setattr(sweep_job, "run_sweep", lambda *_, **__: pytest.fail("computed first"))
+        code, _, error = swept("--omega", "5", "--ramp-time", "3")
+        assert code == 2
+        assert "sweep-cable-2.nc holds another result: omega" in error
+    assert swept("--omega", "5", "--ramp-time", "3", "--force")[0] == 0
+
+
+def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
+    def stopped(*_, progress, **__):
+        progress(2, 4)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sweep_job, "run_sweep", stopped)
+    code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
+    assert code == 130
+    assert f"interrupted; 2 of 4 spin-ups are kept in the cache {tmp_path}/c" in error
+
+    def later(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(job, "steady_oscillation", later)
+    code, _, error = call("run", *SHORT, "--out", tmp_path)
+    assert code == 130
+    assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
+
+    monkeypatch.setattr(figure_job, "_made", lambda *_, **__: later(0))
+    code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
+    assert code == 130
+    assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
+
+
+@pytest.mark.parametrize("command", ["animate", "explore"])
+def test_a_picture_or_a_page_of_someone_else_is_not_replaced(call, tmp_path, command):
+    target = tmp_path / ("mine.gif" if command == "animate" else "mine.html")
+    target.write_text("mine")
+    code, _, error = call(command, "--out", target)
+    assert code == 2
+    assert f"{target} is there" in error
+    assert target.read_text() == "mine"
