@@ -107,8 +107,7 @@ def _followed_up(branch: _Branch, ascending: FloatArray) -> tuple[dict[float, Pe
                 "round-off drowns so small an orbit, so take linear_modes, from which it differs "
                 "by the square of its amplitude"
                 if tiny
-                else "ask for smaller amplitudes, or take the orbits found from this error's "
-                ".backbone"
+                else "ask for smaller amplitudes"
             )
             refused = refused or (
                 f"no orbit of {branch.name} with a peak |q|/L of {a:g} was found: {reason}"

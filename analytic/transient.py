@@ -109,6 +109,11 @@ def spin_up_response(
         raise ValueError(
             f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
         )
+    if not isinstance(spin_up, SpinUp):
+        raise TypeError(
+            f"spin_up must be a SpinUp, from rest, got {spin_up!r}; for a beam that turns already "
+            f"take periodic_orbits"
+        )
     warn_if_rpm(beam, spin_up.omega)
     rotary = beam.slenderness if rotary_inertia else 0.0
     along = points_of_beam("points", points, beam.length)

@@ -84,7 +84,9 @@ def chosen_motion(
         if step is not None:
             _require_whole_steps(duration, step)
     if step is None:
-        step = duration / _whole_steps(duration, fine)
+        fitted = duration / _whole_steps(duration, fine)
+        # The number as printed, where round-off is all that sets them apart.
+        step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
     return Motion(spin_up=spin_up, duration=duration, step=step)
 
 

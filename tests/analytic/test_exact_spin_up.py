@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from analytic import SpinUp, linear_modes, spin_up_response
+from analytic import SpinUp, SteadyRotation, linear_modes, spin_up_response
 from analytic.collocation import radau
 from analytic.continuum import continuum
 
@@ -136,6 +136,13 @@ def test_a_slow_spin_up_is_that_of_a_faster_one_scaled(beam):
         for omega in (1e-4, 1e-9)
     )
     assert slower / 1e-9 == pytest.approx(slow / 1e-4, rel=1e-5)
+
+
+def test_a_beam_that_turns_already_is_no_spin_up(beam):
+    with pytest.raises(
+        TypeError, match=r"must be a SpinUp, from rest, got SteadyRotation\(omega=6"
+    ):
+        spin_up_response(beam, SteadyRotation(omega=6.0), [1.0])
 
 
 def test_no_rotation_no_motion(beam):

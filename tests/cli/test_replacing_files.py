@@ -54,8 +54,8 @@ def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
 
 
 def test_a_failed_run_is_kept_and_marked(call, tmp_path):
-    failing = ("run", "--elements", "2", "--step", "0.1", "--ramp-time", "2.5", "--out", tmp_path)
-    for duration, name in ((10, "-failed"), (11, "-failed-2"), (10, "-failed")):
+    failing = ("run", "--elements", "2", "--step", "0.08", "--ramp-time", "2.5", "--out", tmp_path)
+    for duration, name in ((8, "-failed"), (10, "-failed-2"), (8, "-failed")):
         code, _, error = call(*failing, "--duration", duration)
         assert code == 1
         kept = tmp_path / f"cable-2-omega-6-ramp-2.5{name}.nc"

@@ -5,13 +5,14 @@ import pytest
 from rotbeam_exu import load
 from rotbeam_exu.cli import main
 
-COARSE = ["--step", "0.005", "--duration", "9", "--jobs", "1"]
+COARSE = {"--elements": "2", "--step": "0.005", "--duration": "9", "--jobs": "1"}
 
 
 def call(tmp_path, *options):
-    if "--elements" not in options:
-        options = ("--elements", "2", *options)
-    main(["sweep", *COARSE, "--cache", f"{tmp_path}/cache", "--out", f"{tmp_path}/out", *options])
+    coarse = [
+        text for name, value in COARSE.items() if name not in options for text in (name, value)
+    ]
+    main(["sweep", *coarse, "--cache", f"{tmp_path}/cache", "--out", f"{tmp_path}/out", *options])
 
 
 def test_table_files_and_failures_by_cause(tmp_path, capsys):
@@ -71,12 +72,12 @@ def test_a_cache_of_another_version_exits_with_2(tmp_path, capsys):
     with pytest.raises(SystemExit) as stop:
         call(tmp_path, "--omega", "6", "--ramp-time", "3")
     assert stop.value.code == 2
-    assert "has format 0, this version writes 1" in capsys.readouterr().err
+    assert "has format 0, this version writes" in capsys.readouterr().err
 
 
 def test_a_sweep_of_which_nothing_passes_exits_with_1(tmp_path, capsys):
     with pytest.raises(SystemExit) as stop:
-        call(tmp_path, "--omega", "6", "--ramp-time", "3", "8.5", "--step", "0.5")
+        call(tmp_path, "--omega", "6", "--ramp-time", "8.5")
     assert stop.value.code == 1
     assert "no spin-up passed its checks; why is in" in capsys.readouterr().err
 

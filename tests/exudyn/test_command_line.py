@@ -126,10 +126,10 @@ def test_an_unwritable_folder_is_found_before_the_simulation(tmp_path, capsys, m
 
 def test_a_failed_run_exits_with_1(tmp_path, capsys):
     code, error = refused(
-        capsys, "run", "--step", "0.1", "--duration", "15", "--out", str(tmp_path)
+        capsys, "run", "--step", "0.08", "--duration", "8", "--out", str(tmp_path)
     )
     assert code == 1
-    assert "take a smaller step than 0.1 s" in error
+    assert "take a smaller step than 0.08 s" in error
     assert {path.stem for path in tmp_path.iterdir()} == {"cable-16-omega-6-ramp-3-failed"}
 
 
