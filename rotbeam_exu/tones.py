@@ -140,7 +140,7 @@ _ORDERS = np.arange(1.0, HARMONICS + 1.0)
 
 
 def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
-    """Fit a series of fundamental near `guess`, and as many tones as make ω and the height better known.
+    """Fit a series of fundamental near `guess`, and as many tones as make it better known.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ def grid(tmp_path_factory):
 
 
 def golden(name):
-    return pd.read_csv(GOLDEN / f"{name}.csv")
+    return pd.read_csv(GOLDEN / f"{name}.csv", comment="#")
 
 
 def test_the_paper_beam_turns_from_hardening_to_softening_between_2_and_4(lines):
@@ -170,7 +170,8 @@ def test_figure_15_closes_where_the_frequency_is_right(beam):
     distance = data["distance"]
     assert 0.025 < distance.sel(model="FrI") < distance.sel(model="CI") < distance.sel(model="CE")
     end = data["q_dot_bar"].isel(phase=-1)
-    assert end.sel(model="FrI") > 0.02 > 0.0 > -0.02 > end.sel(model="CI") > end.sel(model="CE")
+    assert end.sel(model="FrI") > 0.02
+    assert -0.02 > end.sel(model="CI") > end.sel(model="CE")
     # The exact orbit is the finite element one to the mesh and step error.
     apart = np.abs(data["q_bar"].sel(model="exact") - data["q_bar"].sel(model="finite element"))
     assert apart.max() < 1e-3 * data.attrs["amplitude"]
