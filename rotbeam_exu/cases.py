@@ -24,6 +24,7 @@ from .verdict import SimulationError
 
 MEASURED = {
     "amplitude": ("1", "amplitude a = q/L, half peak to peak"),
+    "amplitude_error": ("1", "error bar of a, estimator"),
     "first_harmonic": ("1", "first harmonic over L"),
     "frequency": ("rad/s", "nonlinear frequency ω_NL"),
     "frequency_error": ("rad/s", "error bar of ω_NL, estimator"),

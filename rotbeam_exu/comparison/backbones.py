@@ -85,7 +85,7 @@ def finite_element_points(
             xr.Dataset(
                 {"amplitude": grid["amplitude"], "ratio": grid["frequency"] / grid["omega_n"]}
             ),
-            xr.Dataset({"amplitude": grid.get("amplitude_error", 0.0 * bar), "ratio": bar}),
+            xr.Dataset({"amplitude": grid["amplitude_error"], "ratio": bar}),
         )
 
     points, bar = measured(elements, 1e-3)

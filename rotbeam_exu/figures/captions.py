@@ -48,7 +48,8 @@ CAPTIONS: dict[int, str] = {
         "model here has an a⁴ term, and as drawn FrE is the nearer above a = 0.5 at 4 and 6 rad/s, "
         "above 0.56 at 8, by luck. The models' a is the first harmonic, as in the paper, that of "
         "the others half peak to peak, up to 2.6 % less for a below 0.6. Bars of step, mesh and "
-        "estimator are smaller than the symbols. CI, CE and FrI leave the frame; so do the points above a = 0.6."
+        "estimator are smaller than the symbols. CI, CE and FrI leave the frame; so do the points "
+        "above a = 0.6."
     ),
     15: (
         "One period of the finite element orbit, 16 elements at a step of 1 ms, and of the models "
@@ -57,7 +58,7 @@ CAPTIONS: dict[int, str] = {
         "not say which T. At T = 3.375 and 3.25 s (a = 0.20, 0.23) the paper's order of the paths "
         "holds: FrI strays 3.0 and 3.5 % of the half axes, CI 4.3 and 4.0 %, CE 6 %. From T = 3 s "
         "on (a = 0.32) it does not: FrI strays 6.2 % and misses its start by 35 %, CI only 2.3 and "
-        "7 %, as its too high ω_n and its too strong softening cancel. FrI's frequency is too low "
+        "7.5 %, as its too high ω_n and its too strong softening cancel. FrI's frequency is too low "
         "at every T. FrM, FrC and FrE close to 1.3 %. All three stray 2 % from the exact orbit, "
         "which is a little lower: the second harmonic, which Coriolis forces bring and Eq. 65 "
         "has not."
