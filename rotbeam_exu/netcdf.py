@@ -5,6 +5,11 @@ from __future__ import annotations
 import hashlib
 import io
 import re
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
 from typing import Any
 
 import h5netcdf
@@ -36,13 +41,29 @@ def encode(data: xr.Dataset) -> bytes:
     # In memory first: HDF5 does not survive a disk that fills while it writes.
     buffer = io.BytesIO()
     try:
-        with h5netcdf.File(buffer, "w") as file:
+        with _interrupts_held(), h5netcdf.File(buffer, "w") as file:
             # What another file's encoding said, a fill value for one, is not for this one.
             data.drop_encoding().dump_to_store(H5NetCDFStore(file))
     except Exception as error:  # each layer has exceptions of its own for what it cannot keep
         raise ValueError(str(error)) from error
     content = buffer.getvalue()
     return content + _SEAL % hashlib.sha256(content).hexdigest().encode()
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Let Ctrl-C wait: h5netcdf, interrupted, leaves half a file that cannot be closed."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    held: list[tuple[int, FrameType | None]] = []
+    former = signal.signal(signal.SIGINT, lambda *arguments: held.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, former)
+    if held and callable(former):
+        former(*held[-1])
 
 
 def decode(raw: bytes) -> tuple[xr.Dataset, bool]:

@@ -68,12 +68,12 @@ def golden_points(mesh):
 
 
 @pytest.mark.parametrize(
-    ("mesh", "elements", "claimed"), [("converged", 64, 1e-6), ("paper", 16, 6e-5)]
+    ("mesh", "elements", "claimed"), [("converged", 64, 3e-7), ("paper", 16, 6e-5)]
 )
 def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claimed):
     """ω_NL of the finite elements in Figure 14 against the exact one at the same amplitude."""
     assert "Of the paper's 24 spin-ups 21 stay below a = 0.6." in FLAT
-    assert "agree with the exact ω_NL to 1e-6; the defaults, 16 elements at 1 ms, to 6e-5" in FLAT
+    assert "agree with the exact ω_NL to 3e-7; the defaults, 16 elements at 1 ms, to 6e-5" in FLAT
     errors = []
     for omega, amplitude, ratio in golden_points(mesh):
         inside = amplitude < 0.6
@@ -83,7 +83,8 @@ def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claim
         # As Figure 14 draws them, each over the ω_n of its own mesh.
         assert np.abs(ratio[inside] - exact.frequency / exact.omega_n).max() < claimed
     assert len(errors) == 21
-    assert 0.8 * claimed < np.abs(errors).max() < claimed
+    # Neither more than was measured, nor much less.
+    assert 0.6 * claimed < np.abs(errors).max() < claimed
 
 
 def shares(element, spin_up):

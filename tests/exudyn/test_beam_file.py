@@ -33,7 +33,7 @@ def test_a_good_file_is_a_beam_whatever_wrote_it(tmp_path, content):
     [
         (GOOD.replace("8.0", "nan"), "length must be finite, got nan m"),
         (GOOD.replace("8.0", "-inf"), "length must be finite"),
-        (GOOD.replace("8.0", "1" + 400 * "0"), "too large|finite"),
+        (GOOD.replace("8.0", "1" + 400 * "0"), "too large|finite|largest floating point"),
         (GOOD.replace("8.0", 5000 * "1"), "not valid TOML: .* digits"),
         (GOOD.replace("8.0", "true"), "length must be a number in m, got True"),
         (GOOD.replace("8.0", "1979-05-27"), "length must be a number in m"),
