@@ -15,13 +15,12 @@ from analytic import Beam, linear_modes
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
 from .tones import fit_signal
+from .verdict import beam_of
 
 FloatArray = NDArray[np.float64]
 
 SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
-
-_BEAM = ("length", "area", "second_moment", "youngs_modulus", "density")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,11 +178,11 @@ def _check_form(run: xr.Dataset) -> None:
 
 def _natural_frequency(run: xr.Dataset) -> float | None:
     """Return ω_n of the exact beam of a run; None if the run does not say which beam it is."""
-    names = [f"beam_{name}" for name in _BEAM]
-    if not all(name in run.attrs for name in (*names, "omega")):
+    try:
+        beam, omega = beam_of(run.attrs), float(run.attrs["omega"])
+    except KeyError:
         return None
-    beam = Beam(**{name: float(run.attrs[f"beam_{name}"]) for name in _BEAM})
-    return _exact_frequency(beam, abs(float(run.attrs["omega"])))
+    return _exact_frequency(beam, abs(omega))
 
 
 @lru_cache(maxsize=64)

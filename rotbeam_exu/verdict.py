@@ -63,7 +63,7 @@ class _Check:
 
 def beam_of(attrs: Mapping[Any, Any]) -> Beam:
     """Return the beam that the attributes of a run describe."""
-    return Beam(**{field.name: attrs[f"beam_{field.name}"] for field in fields(Beam)})
+    return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
 
 
 def remedy(run: xr.Dataset, t: float) -> str:
