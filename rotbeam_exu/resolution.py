@@ -102,6 +102,23 @@ def require_stretch(beam: Beam) -> None:
         )
 
 
+def warn_if_rounded(beam: Beam, elements: int) -> None:
+    """Warn where the round-off of the stretch may show in q(t).
+
+    Over seconds of the paper's spin-up it does by up to 1e-16 n/μ of the length, as measured with
+    16 and 64 elements at μ from 1e-11 to 1e-9.
+    """
+    rounded = 1e-16 * elements / beam.slenderness
+    if rounded > 1e-5:
+        warnings.warn(
+            f"the slenderness I/(AL²) = {beam.slenderness:.3g} of {elements} elements is so small "
+            f"that round-off may show in q/L at {rounded:.1g}: lower the axial stiffness EA by "
+            f"{rounded / 1e-5:.2g}, which changes nothing else",
+            RotbeamWarning,
+            stacklevel=3,
+        )
+
+
 def require_feasible(elements: int, steps: int = 0, samples: int = 0) -> None:
     """Refuse by an estimate what would not fit into memory or end within a month."""
     coordinates = 4.0 * (elements + 1.0)

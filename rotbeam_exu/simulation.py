@@ -24,7 +24,7 @@ from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix, round_off
-from .resolution import checked_steps
+from .resolution import checked_steps, warn_if_rounded
 from .solver import Frame, Sensors, solve, solver_settings
 from .units import Units
 from .verdict import SimulationError, judge, remedy
@@ -66,7 +66,7 @@ def simulate(
     frame : {"inertial", "rotating"}
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule, whose
-        step error is about 14 times smaller.
+        step error at 2, 6 and 8 rad/s is 3.5, 14 and 19 times smaller for the paper's beam.
     initial_state : callable, optional
         Gives the state at material points x [m] at t = 0, as
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does; otherwise the beam
@@ -98,6 +98,7 @@ def simulate(
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
     warn_if_rpm(beam, spin_up.omega)
+    warn_if_rounded(beam, elements)
 
     units = Units.of(beam, step)
     unit_beam, rotation = units.beam(beam), units.rotation(spin_up)

@@ -19,6 +19,10 @@ HARMONICS = 9
 _TONES = 8
 """Free tones at most: a second bending mode and its sidebands ν ± mω, of which seven count."""
 
+_UNRESOLVED = 2.0
+"""Factor on the error beside a tone that the window cannot tell from a harmonic: what the tone is
+not, a decay above all, hides in both and leaves too small a remainder."""
+
 _ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 
 
@@ -127,7 +131,14 @@ class Fit:
         samples = 2 * self.x.size
         spectra = (np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder()))
         bound = 2.0 / samples * float(np.prod(list(spectra), axis=0).sum())
+        if self._closest_tone() < 1.0:
+            bound *= _UNRESOLVED
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
+
+    def _closest_tone(self) -> float:
+        """Return the least distance of a tone from a harmonic, in turns over the window."""
+        apart = np.abs(self.tones[:, None] - self.fundamental * _ORDERS)
+        return float(apart.min(initial=np.inf) * np.ptp(self.time) / (2.0 * np.pi))
 
     def _tangent(self) -> FloatArray:
         """Return the derivatives of the model by coefficients, ω and ν, (samples, all)."""

@@ -284,8 +284,13 @@ def _against_exact(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> list[Measure
 
 
 def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> SteadyOscillation:
-    attrs = {"ramp_time": spin_up.ramp_time, "beam_length": beam.length}
-    return steady_oscillation(xr.Dataset({"q": ("time", q)}, {"time": time}, attrs))
+    """Measure q; that it cannot be measured, or is not the beam's first mode, is the code's fault."""
+    attrs = {f"beam_{name}": value for name, value in dataclasses.asdict(beam).items()}
+    attrs |= dataclasses.asdict(spin_up)
+    try:
+        return steady_oscillation(xr.Dataset({"q": ("time", q)}, {"time": time}, attrs))
+    except ValueError as error:
+        raise RuntimeError(str(error)) from error
 
 
 def _history_error(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> float:

@@ -36,7 +36,10 @@ class Assessment:
 
     @property
     def mesh_error(self) -> float:
-        """Relative error of ω_n: the mesh, for no step enters it."""
+        """Relative error of ω_n: the mesh, for no step enters it.
+
+        That of ω_NL grows with the amplitude: 16 cables at 6 rad/s have 1.25e-5, at 0.32 L 1.8e-5.
+        """
         return self.omega_n / self.exact_omega_n - 1.0
 
     @property
@@ -46,7 +49,7 @@ class Assessment:
 
     @property
     def step_error(self) -> float | None:
-        """What of the error of ω_NL is beyond that of ω_n: the step and the rest."""
+        """The error of ω_NL beyond that of ω_n: the step, and the mesh in the swing."""
         return None if self.error is None else self.error - self.mesh_error
 
     @property
@@ -73,7 +76,7 @@ class Assessment:
                 "exact ω_NL",
                 f"{self.exact_frequency:.6f} rad/s at this amplitude (Bernoulli-Euler); "
                 f"error of the run's {self.error:+.1e}, "
-                f"beyond the mesh {self.step_error:+.1e}: the step and the rest",
+                f"beyond that of ω_n {self.step_error:+.1e}: the step, and the mesh in the swing",
             ),
             ("nonlinear effect", f"exact ω_NL/ω_n - 1 = {self.effect:+.3e}"),
         ]
@@ -83,12 +86,16 @@ class Assessment:
         if self.effect is None or self.step_error is None:
             return []
         return [
-            f"the error of {what}, {error:+.1e} of the frequency, is "
+            f"the error of {what} is {error:+.1e} of the frequency, "
             f"{abs(error / self.effect) if self.effect else float('inf'):.1%} of the nonlinear "
             f"effect, {self.effect:+.1e}: {remedy}"
             for what, error, remedy in (
                 ("the mesh", self.mesh_error, f"take more elements than {elements}"),
-                ("the step and the rest", self.step_error, f"take a smaller step than {step:g} s"),
+                (
+                    "the step, and the mesh in the swing,",
+                    self.step_error,
+                    f"take a smaller step than {step:g} s, then more elements than {elements}",
+                ),
             )
             if abs(error) > WORTH * abs(self.effect)
         ]

@@ -74,8 +74,8 @@ def test_the_summary_of_a_run(call, tmp_path):
     assert re.search(r"^verdict +checks passed$", out, re.MULTILINE)
     assert "the estimator's, without mesh and step" in out
     assert "exact ω_n             3.730401 rad/s (Bernoulli-Euler)" in out
-    shown = re.search(r"error of the run's (\S+), beyond the mesh (\S+): the step", out)
+    shown = re.search(r"error of the run's (\S+), beyond that of ω_n (\S+): the step", out)
     # Second order: a hundred times the 1.9e-5 of steps of 1 ms, and a little of the mesh.
     assert float(shown[2]) == pytest.approx(-1.9e-3, rel=0.1)
     assert "warning: the error of the mesh" in err
-    assert "warning: the error of the step and the rest" in err
+    assert "warning: the error of the step, and the mesh in the swing," in err

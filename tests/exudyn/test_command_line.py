@@ -53,9 +53,9 @@ def test_the_script_is_the_command(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "verdict               checks passed" in done.stdout
     # Four elements in steps of 5 ms cannot show the nonlinear effect, and say so.
-    assert [line.partition(",")[0] for line in done.stderr.splitlines()] == [
+    assert [line.partition(" is ")[0] for line in done.stderr.splitlines()] == [
         "warning: the error of the mesh",
-        "warning: the error of the step and the rest",
+        "warning: the error of the step, and the mesh in the swing,",
     ]
 
 

@@ -51,6 +51,16 @@ def test_a_drifting_code_falls_short():
     assert "history" in found.verdict
 
 
+def test_a_code_of_another_frequency_is_told_so():
+    def slow(beam, spin_up, *, elements, duration, step):
+        time = np.arange(0.0, duration, 0.02)
+        return xr.Dataset({"q": ("time", 0.1 * np.sin(1.5 * time))}, {"time": time})
+
+    found = verify(Entry(name="slow", simulate=slow))
+    assert not found.passed
+    assert "times the beam's natural frequency" in found.measures["nonlinear frequency"].note
+
+
 def test_a_code_that_fails_says_why():
     def broken(beam, spin_up, *, elements, duration, step):
         raise RuntimeError("no license")
