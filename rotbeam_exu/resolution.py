@@ -55,6 +55,7 @@ def checked_steps(
             f"try a step of {nearest:.12g} s"
         )
     require_stretch(beam)
+    warn_if_rounded(beam, elements)
     require_resolved_ramp(ramp_time, step)
     require_feasible(elements, steps)
     every = sampling(beam, omega, steps, step)
@@ -115,7 +116,7 @@ def warn_if_rounded(beam: Beam, elements: int) -> None:
             f"that round-off may show in q/L at {rounded:.1g}: lower the axial stiffness EA by "
             f"{rounded / 1e-5:.2g}, which changes nothing else",
             RotbeamWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
 
 

@@ -24,7 +24,7 @@ from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
 from .elements.formulation import FloatArray, spun, turned, turned_velocities
 from .linearization import mass_matrix, round_off
-from .resolution import checked_steps, warn_if_rounded
+from .resolution import checked_steps
 from .solver import Frame, Sensors, solve, solver_settings
 from .units import Units
 from .verdict import SimulationError, judge, remedy
@@ -98,7 +98,6 @@ def simulate(
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
     warn_if_rpm(beam, spin_up.omega)
-    warn_if_rounded(beam, elements)
 
     units = Units.of(beam, step)
     unit_beam, rotation = units.beam(beam), units.rotation(spin_up)

@@ -284,7 +284,7 @@ def _against_exact(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> list[Measure
 
 
 def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> SteadyOscillation:
-    """Measure q; that it cannot be measured, or is not the beam's first mode, is the code's fault."""
+    """Measure q, or fail as the code does, where q does not swing as this beam can."""
     attrs = {f"beam_{name}": value for name, value in dataclasses.asdict(beam).items()}
     attrs |= dataclasses.asdict(spin_up)
     try:
