@@ -55,11 +55,11 @@ def checked_steps(
             f"try a step of {nearest:.12g} s"
         )
     require_stretch(beam)
-    warn_if_rounded(beam, elements)
     require_resolved_ramp(ramp_time, step)
     require_feasible(elements, steps)
     every = sampling(beam, omega, steps, step)
     require_feasible(elements, steps, samples=steps // every)
+    warn_if_rounded(beam, elements)
     return steps, every
 
 
