@@ -102,3 +102,62 @@ def test_more_functions_are_on_offer(call):
     )
     assert code == 0
     assert "3.729665" in out
+
+
+@pytest.fixture
+def small_sweep(call, tmp_path):
+    def swept(*more):
+        return call(
+            "sweep", "--omega", "6", "--ramp-time", "3", "--ramp-time", "2.5", "--elements", "1",
+            "--step", "0.01", "--duration", "8", "--jobs", "1", "--cache", tmp_path / "cache",
+            "--out", tmp_path, *more,
+        )  # fmt: skip
+
+    return swept
+
+
+def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
+    code, _, error = small_sweep("--shard", "first")
+    assert code == 2
+    example = re.search(r"must read k/n, as (\S+), got", error)[1]
+    assert small_sweep("--shard", example)[0] == 0
+    code, _, error = small_sweep("--shard", "3/2")
+    assert code == 2
+    low, high = re.search(r"between (\d) and (\d)", error).groups()
+    for part in (low, high):
+        assert small_sweep("--shard", f"{part}/2")[0] == 0
+
+
+def test_a_sweep_too_large_is_let_through_in_parts(small_sweep, monkeypatch):
+    import rotbeam_exu.cli.sweep as job
+
+    # As if a step of an element took an hour.
+    monkeypatch.setattr(job, "_SECONDS_PER_ELEMENT_STEP", 3000.0)
+    code, _, error = small_sweep()
+    assert code == 2
+    assert "or parts of them with --shard" in error
+    assert small_sweep("--shard", "1/2")[0] == 0
+
+
+def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):
+    (tmp_path / "taken").write_text("a file")
+    short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--out")
+    code, _, error = call(*short, tmp_path / "taken")
+    assert code != 0
+    assert "taken: File exists; choose another" in error
+    assert call(*short, tmp_path / "free")[0] == 0
+
+
+def test_dask_asks_for_its_scheduler_and_then_for_one_that_answers(small_sweep):
+    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+    dask = ("--executor", "dask")
+    code, _, error = small_sweep(*dask)
+    assert code == 2
+    assert "needs --scheduler ADDRESS" in error
+    code, _, error = small_sweep(*dask, "--scheduler", "tcp://127.0.0.1:1")
+    assert code != 0
+    assert "check its address and that it runs" in error
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, dashboard_address=None
+    ) as cluster:
+        assert small_sweep(*dask, "--scheduler", cluster.scheduler_address)[0] == 0
