@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
 
 FloatArray = NDArray[np.float64]
 
@@ -19,9 +20,8 @@ HARMONICS = 9
 _TONES = 8
 """Free tones at most: a second bending mode and its sidebands ν ± mω, of which seven count."""
 
-_UNRESOLVED = 2.0
-"""Factor on the error beside a tone that the window cannot tell from a harmonic: what the tone is
-not, a decay above all, hides in both and leaves too small a remainder."""
+_LOBE = 2
+"""Half the width of the main lobe of Hann's window [turns over the window]."""
 
 _ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 
@@ -122,23 +122,21 @@ class Fit:
 
         The number moves with the samples by g·δx, g the influence function of the fit. The
         remainder r is orthogonal to g, but what it is part of need not be: |g·δx| is bounded by
-        Σ |ĝ| |r̂| over the discrete frequencies, r with the least lucky phases.
+        Σ |ĝ| |r̂| over the discrete frequencies, r with the least lucky phases. Near its own
+        frequencies the fit has eaten what was there, so r̂ is the largest of its neighbours.
         """
         tangent = self._tangent()
         root = np.sqrt(self.weights)[:, None]
         inverse = np.linalg.pinv(np.linalg.qr(root * tangent, mode="r"), rcond=1e-12)
         influence = self.weights * (tangent @ (inverse @ (inverse.T @ gradient)))
         samples = 2 * self.x.size
-        spectra = (np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder()))
-        bound = 2.0 / samples * float(np.prod(list(spectra), axis=0).sum())
-        if self._closest_tone() < 1.0:
-            bound *= _UNRESOLVED
+        of_influence, of_remainder = (
+            np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder())
+        )
+        # Twice as many samples: two bins to the turn.
+        filled = maximum_filter1d(of_remainder, 4 * _LOBE + 1)
+        bound = 2.0 / samples * float(of_influence @ filled)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
-
-    def _closest_tone(self) -> float:
-        """Return the least distance of a tone from a harmonic, in turns over the window."""
-        apart = np.abs(self.tones[:, None] - self.fundamental * _ORDERS)
-        return float(apart.min(initial=np.inf) * np.ptp(self.time) / (2.0 * np.pi))
 
     def _tangent(self) -> FloatArray:
         """Return the derivatives of the model by coefficients, ω and ν, (samples, all)."""
