@@ -17,6 +17,7 @@ figures: $(VENV)/.run  ## data, pictures and captions of every figure
 
 golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py
+	$(BIN)/python tests/golden/test_paper_beam.py
 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks"
