@@ -25,7 +25,7 @@ from exudyn.itemInterface import (
 )
 from scipy import sparse
 
-from analytic.spin_up import Rotation
+from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
 from .elements.formulation import FloatArray

@@ -18,7 +18,7 @@ import xarray as xr
 from analytic import Beam, BeamState, SpinUp, SteadyRotation
 from analytic.beam import warn_if_rpm
 from analytic.input_checks import RotbeamWarning, positive, whole_number
-from analytic.spin_up import Rotation
+from analytic.motion import Rotation
 
 from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from analytic import Beam, BeamState
-from analytic.spin_up import Rotation
+from analytic.motion import Rotation
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import interpolate, optimize
 
 from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
-from analytic.reduced import ReducedModel
+from analytic.reduced.model import ReducedModel
 
 from ..oscillation import steady_oscillation
 from ..simulation import simulate

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from analytic import Beam, reduced_model
 from analytic.input_checks import RotbeamWarning
-from analytic.rotating_mode import converged_degree, rotating_frequency, rotating_mode
-from analytic.shapes import CantileverMode
+from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
+from analytic.reduced.shapes import CantileverMode
 
 FloatArray = NDArray[np.float64]
 

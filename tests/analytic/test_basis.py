@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from analytic.basis import axial_basis, gauss_points, transverse_basis
+from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 
 
 @pytest.mark.parametrize("basis", [transverse_basis, axial_basis])

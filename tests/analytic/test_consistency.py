@@ -5,17 +5,17 @@ import pytest
 from scipy.linalg import eigh
 
 from analytic import Beam, Variant, reduced_model, softening_speed
-from analytic.basis import gauss_points, transverse_basis
 from analytic.beam import BETA_1
-from analytic.coriolis import (
+from analytic.quadrature import gauss_points, transverse_basis
+from analytic.reduced.coriolis import (
     coriolis_coupling,
     coupling_vector,
     rotating_eigenproblem,
     rotating_frequencies,
 )
-from analytic.energies import energy_coefficients
-from analytic.rotating_mode import rotating_mode
-from analytic.shapes import CantileverMode
+from analytic.reduced.lagrangian import energy_coefficients
+from analytic.reduced.rotating_mode import rotating_mode
+from analytic.reduced.shapes import CantileverMode
 
 BEAM = Beam.reference()
 STATIC = Variant(name="static", shape="rotating", axial="static")

@@ -5,8 +5,8 @@ import pytest
 from numpy.polynomial import Legendre
 
 from analytic import periodic_orbits
-from analytic.basis import axial_basis, gauss_points
-from analytic.continuum import continuum
+from analytic.exact.continuum import continuum
+from analytic.quadrature import axial_basis, gauss_points
 
 
 @pytest.mark.parametrize("derivative", ["stiffness", "damping", "mass"])

@@ -7,8 +7,8 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, linear_modes, periodic_orbits
-from analytic.basis import axial_basis, gauss_points, transverse_basis
 from analytic.input_checks import RotbeamWarning
+from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -67,7 +67,7 @@ def test_golden_frequencies(backbone):
 
 
 def test_two_resolutions_agree(backbone, beam, monkeypatch):
-    monkeypatch.setattr("analytic.continuation._FEWEST_HARMONICS", 22)
+    monkeypatch.setattr("analytic.methods.continuation._FEWEST_HARMONICS", 22)
     finer = periodic_orbits(beam, backbone.omega, AMPLITUDES, functions=24)
     assert finer.harmonics.shape[1] > backbone.harmonics.shape[1]
     assert backbone.frequency == pytest.approx(finer.frequency, rel=1e-9)
@@ -75,7 +75,7 @@ def test_two_resolutions_agree(backbone, beam, monkeypatch):
 
 
 def test_error_falls_spectrally_with_the_functions(beam, monkeypatch):
-    monkeypatch.setattr("analytic.continuation.RESIDUAL_BOUND", 1.0)
+    monkeypatch.setattr("analytic.methods.continuation.RESIDUAL_BOUND", 1.0)
     counts = np.array([6, 8, 10, 12])
     exact = periodic_orbits(beam, 8.0, [0.2], functions=20).frequency[0]
     errors = [
@@ -233,7 +233,7 @@ def test_an_amplitude_out_of_reach_names_the_last_reached(beam):
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
-    for module in ("continuation", "periodic"):
+    for module in ("methods.continuation", "exact.periodic"):
         monkeypatch.setattr(f"analytic.{module}.MOST_FUNCTIONS", 7)
     with pytest.raises(RuntimeError, match="functions meet the equations of motion to .* only"):
         periodic_orbits(beam, 8.0, [0.5], functions=5)

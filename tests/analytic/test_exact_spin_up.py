@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, linear_modes, spin_up_response
-from analytic.collocation import radau
-from analytic.continuum import continuum
+from analytic.exact.continuum import continuum
+from analytic.methods.collocation import radau
 
 
 def test_reference_values(beam):

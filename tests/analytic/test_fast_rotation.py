@@ -5,8 +5,8 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, campbell, linear_modes, periodic_orbits
-from analytic.basis import gauss_points, transverse_basis
 from analytic.input_checks import RotbeamWarning
+from analytic.quadrature import gauss_points, transverse_basis
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore:{text}:analytic.input_checks.RotbeamWarning")
@@ -109,7 +109,7 @@ def test_functions_of_an_orbit_grow_as_it_needs_them(slenderness, omega, amplitu
 
 
 def test_more_functions_than_orbits_grow_to_still_take_more_harmonics(beam, monkeypatch):
-    monkeypatch.setattr("analytic.continuation.MOST_FUNCTIONS", 16)
+    monkeypatch.setattr("analytic.methods.continuation.MOST_FUNCTIONS", 16)
     many = periodic_orbits(beam, 6.0, [0.3], functions=20)
     few = periodic_orbits(beam, 6.0, [0.3])
     assert many.frequency == pytest.approx(few.frequency, rel=1e-8)

@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 from analytic import VARIANTS, Beam, reduced_model
-from analytic.first_integral import exact_frequency, largest_amplitude, orbit
-from analytic.reduced import model_at
+from analytic.reduced.model import model_at
+from analytic.reduced.oscillator import exact_frequency, largest_amplitude, orbit
 
 BEAM = Beam.reference()
 

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic import VARIANTS, Beam, Variant, reduced_model
-from analytic.energies import energy_coefficients
-from analytic.reduced import model_at
-from analytic.rotating_mode import rotating_mode
-from analytic.shapes import CantileverMode
+from analytic.reduced.lagrangian import energy_coefficients
+from analytic.reduced.model import model_at
+from analytic.reduced.rotating_mode import rotating_mode
+from analytic.reduced.shapes import CantileverMode
 
 BEAM = Beam.reference()
 

@@ -8,8 +8,8 @@ import pytest
 
 from analytic import VARIANTS, Beam, Variant, paper_table, reduced_model
 from analytic.input_checks import RotbeamWarning
-from analytic.model_range import warn_if_resonant
-from analytic.shapes import static_deflection
+from analytic.reduced.model_range import warn_if_resonant
+from analytic.reduced.shapes import static_deflection
 
 BEAM = Beam.reference()
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from analytic import Beam, reduced_model
-from analytic.basis import gauss_points
+from analytic.quadrature import gauss_points
 
 pytestmark = pytest.mark.benchmarks
 

@@ -7,9 +7,9 @@ import pytest
 
 from analytic import Beam, Variant, critical_speed, reduced_model
 from analytic.beam import BETA_1
-from analytic.energies import energy_coefficients
-from analytic.shapes import CantileverMode
-from analytic.tables import closed_form, half_unit
+from analytic.reduced.lagrangian import energy_coefficients
+from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.tables import closed_form, half_unit
 
 INEXTENSIBLE = energy_coefficients(CantileverMode(), "inextensible")
 M = INEXTENSIBLE.modal_mass

@@ -6,9 +6,9 @@ import pytest
 import sympy as sp
 
 from analytic import Beam, paper_table, reduced_model
-from analytic.energies import energy_coefficients
-from analytic.exact_forms import MU, OMEGA, X, exact_forms
-from analytic.shapes import static_deflection
+from analytic.reduced.lagrangian import energy_coefficients
+from analytic.reduced.shapes import static_deflection
+from analytic.reduced.symbolic import MU, OMEGA, X, exact_forms
 
 
 def forms(degree):

@@ -7,14 +7,14 @@ from scipy.optimize import brentq
 
 from analytic import Beam, paper_table, reduced_model
 from analytic.beam import BETA_1
-from analytic.coriolis import rotating_frequencies
-from analytic.rotating_mode import (
+from analytic.reduced.coriolis import rotating_frequencies
+from analytic.reduced.rotating_mode import (
     converged_degree,
     frequency_equation,
     rotating_frequency,
     rotating_mode,
 )
-from analytic.tables import PRINTED_BETA, half_unit, table_5_by_the_print
+from analytic.reduced.tables import PRINTED_BETA, half_unit, table_5_by_the_print
 
 BEAM = Beam.reference()
 
@@ -121,7 +121,7 @@ def test_equation_81_as_printed_is_wrong(monkeypatch):
                 a[k] -= 0.5 * numerator * a[k - 4] / (k * (k - 1) * (k - 2) * (k - 3))
         return a
 
-    monkeypatch.setattr("analytic.rotating_mode.frobenius_series", as_printed)
+    monkeypatch.setattr("analytic.reduced.rotating_mode.frobenius_series", as_printed)
     w_bar = 2.0 / BEAM.frequency_scale
     w_n = brentq(lambda w: frequency_equation(w_bar, w, 40), 5.0, 8.0)
     assert w_n * BEAM.frequency_scale == pytest.approx(5.140, abs=5e-4)

@@ -5,7 +5,15 @@ import pytest
 import sympy as sp
 
 from analytic import Beam, reduced_model
-from analytic.time_scales import A_PRIME, G1, G2, OMEGA_N, PHI_PRIME, A, multiple_time_scales
+from analytic.reduced.time_scales import (
+    A_PRIME,
+    G1,
+    G2,
+    OMEGA_N,
+    PHI_PRIME,
+    A,
+    multiple_time_scales,
+)
 
 SOLUTION = multiple_time_scales()
 

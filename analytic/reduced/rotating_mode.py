@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from .beam import BETA_1
+from ..beam import BETA_1
 from .shapes import PolynomialShape
 
 FloatArray = NDArray[np.float64]

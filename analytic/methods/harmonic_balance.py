@@ -16,8 +16,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 from scipy import linalg
 
-from .basis import FloatArray
-from .continuum import Continuum, finer_model
+from ..exact.continuum import Continuum, finer_model
+from ..quadrature import FloatArray
 
 _NEWTON_STEPS = 15
 _CONVERGED = 1e-13  # of the coordinates of θ and of Ω

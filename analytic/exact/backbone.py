@@ -8,18 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .basis import FloatArray
-from .beam import Beam
+from ..beam import Beam
+from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
+from ..methods.floquet import floquet_multipliers, is_stable
+from ..methods.harmonic_balance import PeriodicOrbit
+from ..quadrature import FloatArray
 from .continuum import ComplexArray
-from .floquet import floquet_multipliers, is_stable
-from .harmonic_balance import PeriodicOrbit
-from .input_checks import (
-    finite_array,
-    finite_number,
-    finite_values,
-    points_of_beam,
-    whole_number,
-)
 
 
 class AmplitudeNotReachedError(RuntimeError):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import brentq
 
-from .beam import Beam
-from .reduced import model_at
+from ..beam import Beam
+from .model import model_at
 from .variants import Variant, variant_named
 
 _HIGHEST_SPEED_RATIO = 4.0

@@ -1,6 +1,6 @@
 """The reduced models: one beam, rotation speed and variant, and what Eq. 41 answers for them.
 
-Variants are described in `analytic.variants`; which to trust is a matter of λ_ω, see there.
+Variants are described in `analytic.reduced.variants`; which to trust is a matter of λ_ω, see there.
 """
 
 from __future__ import annotations
@@ -14,11 +14,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import first_integral
-from .beam import Beam, warn_if_rpm
-from .coriolis import coriolis_coupling
-from .energies import energy_coefficients
-from .input_checks import (
+from ..beam import Beam, warn_if_rpm
+from ..input_checks import (
     RotbeamWarning,
     finite_array,
     finite_number,
@@ -26,6 +23,9 @@ from .input_checks import (
     rotation_speed,
     whole_number,
 )
+from . import oscillator as first_integral
+from .coriolis import coriolis_coupling
+from .lagrangian import energy_coefficients
 from .model_range import better_model, warn_beyond_range
 from .rotating_mode import RotatingMode
 from .shapes import CantileverMode

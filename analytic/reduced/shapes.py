@@ -1,7 +1,7 @@
 """Assumed transverse shapes φ_v of Secs. 3-5, on the unit beam x = η/L, with φ_v(1) = 1.
 
 The first mode of the cantilever at rest, and polynomials: the static deflections of Tables 1-3 in
-exact rationals here, the rotating mode by its power series in `analytic.rotating_mode`.
+exact rationals here, the rotating mode by its power series in `analytic.reduced.rotating_mode`.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
-from .basis import gauss_points
-from .beam import BETA_1
+from ..beam import BETA_1
+from ..quadrature import gauss_points
 
 FloatArray = NDArray[np.float64]
 

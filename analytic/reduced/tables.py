@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from decimal import Decimal
 
-from .beam import BETA_1, Beam
-from .energies import EnergyCoefficients, energy_coefficients
-from .input_checks import whole_number
-from .reduced import reduced_model
+from ..beam import BETA_1, Beam
+from ..input_checks import whole_number
+from .lagrangian import EnergyCoefficients, energy_coefficients
+from .model import reduced_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, static_deflection
 
@@ -174,7 +174,7 @@ def _rational_table(number: int) -> PaperTable:
     # sympy is loaded only where exact forms are asked for.
     import sympy as sp  # type: ignore[import-untyped]  # noqa: PLC0415
 
-    from .exact_forms import OMEGA, X, exact_forms  # noqa: PLC0415
+    from .symbolic import OMEGA, X, exact_forms  # noqa: PLC0415
 
     forms = exact_forms(static_deflection(number + 2), "inextensible")
     derived = {

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .backbone import AmplitudeNotReachedError, Backbone
-from .basis import FloatArray
-from .beam import Beam, warn_if_rpm
-from .continuation import (
+from ..beam import Beam, warn_if_rpm
+from ..input_checks import finite_values, rotation_speed, whole_number
+from ..methods.continuation import (
     MOST_FUNCTIONS,
     followed,
     linear_orbit,
     meets_the_equations,
     steady_elongation,
 )
+from ..methods.harmonic_balance import NoOrbitError, PeriodicOrbit, solve
+from ..quadrature import FloatArray
+from .backbone import AmplitudeNotReachedError, Backbone
 from .continuum import Continuum, finer_model
-from .harmonic_balance import NoOrbitError, PeriodicOrbit, solve
-from .input_checks import finite_values, rotation_speed, whole_number
 from .internal_resonance import nearest_resonance, warn_of_resonances
 from .modes import resolved_model, solve_modes, steady_rate
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .basis import FloatArray
-from .harmonic_balance import PeriodicOrbit
-from .input_checks import RotbeamWarning
+from ..input_checks import RotbeamWarning
+from ..methods.harmonic_balance import PeriodicOrbit
+from ..quadrature import FloatArray
 
 _NEAR = 0.02  # an internal resonance is this near, relative to the other mode's frequency
 _NOTICEABLE = 1e-6  # size of a harmonic, relative to the first, that can drive another mode

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy import linalg
 
+from ..exact.continuum import ComplexArray, Tangent
 from .collocation import radau
-from .continuum import ComplexArray, Tangent
 from .harmonic_balance import PeriodicOrbit
 
 _STAGES = 6

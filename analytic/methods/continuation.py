@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from .basis import FloatArray
-from .continuum import Continuum, finer_model
+from ..exact.continuum import Continuum, finer_model
+from ..exact.modes import Modes
+from ..quadrature import FloatArray
 from .harmonic_balance import NoOrbitError, PeriodicOrbit, solve
-from .modes import Modes
 
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""

@@ -25,7 +25,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .basis import gauss_points
+from ..quadrature import gauss_points
 from .shapes import Shape
 
 FloatArray = NDArray[np.float64]

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
 
-from .basis import gauss_points, transverse_basis
+from ..quadrature import gauss_points, transverse_basis
 from .rotating_mode import RotatingMode
 
 FloatArray = NDArray[np.float64]

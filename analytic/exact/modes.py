@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import linalg
 
-from .basis import FloatArray
-from .beam import Beam, require_steady_state, warn_if_rpm
+from ..beam import Beam, require_steady_state, warn_if_rpm
+from ..input_checks import points_of_beam, rotation_speed, whole_number
+from ..quadrature import FloatArray
 from .continuum import ComplexArray, Continuum, continuum, finer_model
-from .input_checks import points_of_beam, rotation_speed, whole_number
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from .energies import AXIAL_MODELS, Axial
+from .lagrangian import AXIAL_MODELS, Axial
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, Shape, static_deflection
 

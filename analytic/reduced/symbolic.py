@@ -11,7 +11,7 @@ from functools import cache
 
 import sympy as sp  # type: ignore[import-untyped]
 
-from .energies import Axial
+from .lagrangian import Axial
 from .shapes import PolynomialShape
 from .time_scales import G1, G2, OMEGA_N, multiple_time_scales
 

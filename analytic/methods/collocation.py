@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from scipy import linalg, special
 
-from .basis import FloatArray
-from .continuum import Tangent
+from ..exact.continuum import Tangent
+from ..quadrature import FloatArray
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]

@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .basis import FloatArray, axial_basis, gauss_points
+from ..quadrature import FloatArray, axial_basis, gauss_points
 
 ComplexArray = NDArray[np.complex128]
 

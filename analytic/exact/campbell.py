@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
-from .basis import FloatArray
-from .beam import Beam
+from ..beam import Beam
+from ..input_checks import finite_values, rotation_speed, whole_number
+from ..quadrature import FloatArray
 from .continuum import Continuum
-from .input_checks import finite_values, rotation_speed, whole_number
 from .modes import LinearModes, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found

@@ -7,9 +7,9 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .beam import Beam
+from ..beam import Beam
+from ..input_checks import RotbeamWarning
 from .coriolis import rotating_frequencies
-from .input_checks import RotbeamWarning
 from .rotating_mode import MAX_W_BAR
 from .variants import Variant
 
