@@ -8,11 +8,9 @@ from dataclasses import dataclass
 from typing import Any, Protocol, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import FloatArray
 from .input_checks import positive, rotation_speed
-
-FloatArray = NDArray[np.float64]
 
 
 class Rotation(Protocol):

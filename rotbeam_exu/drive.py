@@ -25,10 +25,10 @@ from exudyn.itemInterface import (
 )
 from scipy import sparse
 
+from analytic.arrays import FloatArray
 from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
-from .elements.formulation import FloatArray
 
 
 def fix_root(

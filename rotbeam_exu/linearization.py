@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy import linalg, sparse
 
 from analytic import Beam, SteadyRotation
+from analytic.arrays import FloatArray
 from analytic.beam import require_steady_state, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 
 from . import drive
 from .elements import Formulation, formulation
-from .elements.formulation import FloatArray
 from .resolution import require_feasible, require_stretch, warn_if_coarse
 from .units import Units
 from .verdict import SimulationError

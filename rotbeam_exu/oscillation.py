@@ -9,15 +9,13 @@ from functools import lru_cache
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from analytic import Beam, linear_modes
+from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
 from .tones import fit_signal
 from .verdict import beam_of
-
-FloatArray = NDArray[np.float64]
 
 SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""

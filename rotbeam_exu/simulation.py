@@ -16,13 +16,14 @@ import numpy as np
 import xarray as xr
 
 from analytic import Beam, BeamState, SpinUp, SteadyRotation
+from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 from analytic.motion import Rotation
 
 from . import __version__, drive
 from .elements import Chain, Formulation, formulation, options_of
-from .elements.formulation import FloatArray, spun, turned, turned_velocities
+from .elements.formulation import spun, turned, turned_velocities
 from .linearization import mass_matrix, round_off
 from .resolution import checked_steps
 from .solver import Frame, Sensors, solve, solver_settings

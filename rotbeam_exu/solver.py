@@ -9,8 +9,9 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import SensorBody, SensorNode
 
+from analytic.arrays import FloatArray
+
 from .elements import Chain
-from .elements.formulation import FloatArray
 
 Frame = Literal["inertial", "rotating"]
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
-FloatArray = NDArray[np.float64]
+from analytic.arrays import FloatArray
 
 HARMONICS = 9
 """Harmonics of the series; the tenth is the highest that 20 samples a period could tell."""

@@ -14,9 +14,9 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.arrays import FloatArray
 
 from .elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
-from .elements.formulation import FloatArray
 from .linearization import natural_frequencies
 from .oscillation import SteadyOscillation, steady_oscillation
 from .peers import PEERS, Entry, installed, peer

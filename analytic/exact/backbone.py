@@ -8,12 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import ComplexArray, FloatArray
 from ..beam import Beam
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import floquet_multipliers, is_stable
-from ..methods.harmonic_balance import PeriodicOrbit
-from ..quadrature import FloatArray
-from .continuum import ComplexArray
+from .steady import BeamOrbit
 
 
 class AmplitudeNotReachedError(RuntimeError):
@@ -90,7 +89,7 @@ class Backbone:
     harmonics: FloatArray = field(repr=False)
     residual: FloatArray = field(repr=False)
     jacobi_drift: FloatArray = field(repr=False)
-    _orbits: tuple[PeriodicOrbit, ...] = field(repr=False)
+    _orbits: tuple[BeamOrbit, ...] = field(repr=False)
 
     @property
     def first_harmonic(self) -> FloatArray:
@@ -102,7 +101,7 @@ class Backbone:
         """Time at which q is greatest [s], (orbits,); there the reduced models start theirs."""
         return np.array([orbit.peak_phase for orbit in self._orbits]) / self.frequency
 
-    def _orbit(self, i: int) -> PeriodicOrbit:
+    def _orbit(self, i: int) -> BeamOrbit:
         count = len(self._orbits)
         if not -count <= i < count:
             raise IndexError(f"orbit {i} is none of the {count} of this backbone, 0 to {count - 1}")
@@ -112,14 +111,14 @@ class Backbone:
         """Return q/L of orbit `i` at the times `t` [s], starting at `phase` [rad]."""
         orbit, times = self._orbit(i), finite_array("t", t, "s")
         phases = self.frequency[i] * times.ravel() + finite_number("phase", phase, "rad")
-        return orbit.tip(phases).reshape(times.shape)
+        return orbit.gauge(phases).reshape(times.shape)
 
     def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
         """Return x = q/L and dx/dτ, τ = t √(EI/mL³), at `n` + 1 instants of one period."""
         n = whole_number("n", n)
         orbit = self._orbit(i)
         q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n + 1))
-        return orbit.model.tip(q).imag, orbit.model.tip_rate(q, q_dot).imag
+        return orbit.system.gauge(q), orbit.system.gauge_rate(q, q_dot)
 
     def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
         """Return the state of orbit `i` at the material points `x` [m], to start a code from.
@@ -129,7 +128,7 @@ class Backbone:
         orbit, length = self._orbit(i), self.beam.length
         at, phase = points_of_beam("x", x, length), finite_number("phase", phase, "rad")
         q, q_dot, _ = (c[0] for c in orbit.coordinates(np.array([phase])))
-        model, per_second = orbit.model, self.beam.frequency_scale
+        model, per_second = orbit.system.model, self.beam.frequency_scale
         slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
         z = length * model.integrated(model.slope(q), at)
         z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
@@ -153,7 +152,7 @@ class Backbone:
         orbit, length = self._orbit(i), self.beam.length
         at = points_of_beam("x", x, length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        z = length * orbit.model.integrated(orbit.model.slope(q), at)
+        z = length * orbit.system.model.integrated(orbit.system.model.slope(q), at)
         return z.real, z.imag
 
     @cached_property

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
+from ..arrays import FloatArray
 from ..beam import Beam
 from ..input_checks import finite_values, rotation_speed, whole_number
-from ..quadrature import FloatArray
 from .continuum import Continuum
 from .modes import LinearModes, linear_modes, modes_on
 

@@ -27,20 +27,10 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..quadrature import FloatArray, axial_basis, gauss_points
-
-ComplexArray = NDArray[np.complex128]
-
-
-class Tangent(NamedTuple):
-    """Residual (samples, n) and its derivatives (samples, n, n) to q, q̇ and q̈."""
-
-    residual: FloatArray
-    stiffness: FloatArray
-    damping: FloatArray
-    mass: FloatArray
+from ..arrays import ComplexArray, FloatArray
+from ..methods.system import Tangent
+from ..quadrature import axial_basis, gauss_points
 
 
 class _Fields(NamedTuple):

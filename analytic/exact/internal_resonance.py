@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..input_checks import RotbeamWarning
-from ..methods.harmonic_balance import PeriodicOrbit
-from ..quadrature import FloatArray
+from .steady import BeamOrbit
 
 _NEAR = 0.02  # an internal resonance is this near, relative to the other mode's frequency
 _NOTICEABLE = 1e-6  # size of a harmonic, relative to the first, that can drive another mode
 
 
-def nearest_resonance(orbit: PeriodicOrbit, modes: FloatArray, mode: int) -> str:
+def nearest_resonance(orbit: BeamOrbit, modes: FloatArray, mode: int) -> str:
     """Return which harmonic is nearest to another mode: the usual reason why a branch bends."""
     multiples = np.arange(2, orbit.harmonics + 1) * orbit.frequency
     distance = np.abs(multiples[:, None] / modes - 1.0)
@@ -25,7 +25,7 @@ def nearest_resonance(orbit: PeriodicOrbit, modes: FloatArray, mode: int) -> str
 
 
 def warn_of_resonances(
-    orbits: Sequence[PeriodicOrbit], modes: FloatArray, mode: int, per_second: float
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
 ) -> None:
     """Warn once for each pair of a harmonic and another mode that come within 2 %."""
     warned: set[tuple[int, int]] = set()

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import linalg
 
-from ..beam import Beam, require_steady_state, warn_if_rpm
+from ..arrays import ComplexArray, FloatArray
+from ..beam import Beam, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
-from ..quadrature import FloatArray
-from .continuum import ComplexArray, Continuum, continuum, finer_model
+from .continuum import Continuum, continuum
+from .steady import SteadyBeam, steady_rotation
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""
@@ -107,7 +108,8 @@ def linear_modes(
 
 def modes_on(model: Continuum, beam: Beam, omega: float, count: int) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked."""
-    return _in_units(beam, omega, count, model, solve_modes(model, steady_rate(beam, omega, model)))
+    modes = solve_modes(steady_rotation(beam, omega, model))
+    return _in_units(beam, omega, count, model, modes)
 
 
 def _in_units(beam: Beam, omega: float, count: int, model: Continuum, modes: Modes) -> LinearModes:
@@ -129,21 +131,21 @@ def _settled_modes(
     Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     """
     model = resolved_model(beam, count, inextensible, rotary_inertia, functions)
-    rate = steady_rate(beam, omega, model)
-    modes = solve_modes(model, rate)
+    steady = steady_rotation(beam, omega, model)
+    modes = solve_modes(steady)
     while True:
-        finer = finer_model(model)
-        confirmed = solve_modes(finer, rate)
+        finer = steady.refined()
+        confirmed = solve_modes(finer)
         change = np.abs(modes.frequencies[:count] / confirmed.frequencies[:count] - 1.0).max()
         if change <= _SETTLED:
-            return model, modes
-        if finer.bending > MOST_FUNCTIONS:
+            return steady.model, modes
+        if finer.functions > MOST_FUNCTIONS:
             raise ValueError(
-                f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {rate:.4g}, "
-                f"have not settled to {_SETTLED:g} with {model.bending} functions: half as many "
-                f"again change them by {change:.1e}; rotate slower"
+                f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = "
+                f"{steady.rate:.4g}, have not settled to {_SETTLED:g} with {steady.functions} "
+                f"functions: half as many again change them by {change:.1e}; rotate slower"
             )
-        model, modes = finer, confirmed
+        steady, modes = finer, confirmed
 
 
 def resolved_model(
@@ -167,13 +169,6 @@ def resolved_model(
     return continuum(slenderness, functions, axial, rotary)
 
 
-def steady_rate(beam: Beam, omega: float, model: Continuum) -> float:
-    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
-    if model.slenderness > 0.0:
-        require_steady_state(beam, omega)
-    return omega / beam.frequency_scale
-
-
 class Modes(NamedTuple):
     """Nondimensional frequencies (n,), coordinates (n, n) and slopes z' (n, points)."""
 
@@ -182,16 +177,16 @@ class Modes(NamedTuple):
     slopes: ComplexArray
 
 
-def solve_modes(model: Continuum, rate: float) -> Modes:
+def solve_modes(steady: SteadyBeam) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
     With θ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric. For
     ν = 1/Ω and M = FFᵀ that is the symmetric eigenproblem
     [[S, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y, in which the lowest modes come out most exactly.
     """
-    steady = model.steady_state(rate)
+    model = steady.model
     at_rest = np.zeros((1, model.size))
-    tangent = model.tangent(steady[None], at_rest, at_rest, rate)
+    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
     n, nb = model.size, model.bending
     gyroscopic = np.zeros((n, n))
     gyroscopic[:nb, nb:] = tangent.damping[0, :nb, nb:]
@@ -206,7 +201,7 @@ def solve_modes(model: Continuum, rate: float) -> Modes:
     # The inextensible beam has no axial modes: they come out with ν = 0.
     kept = inverse[::-1] > 1e-12
     coordinates = vectors[:n, ::-1].T[kept]
-    slopes = model.slope_rate(steady, coordinates)
+    slopes = model.slope_rate(steady.equilibrium, coordinates)
     tips = slopes @ model.weights
     scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
     return Modes(1.0 / inverse[::-1][kept], coordinates / scale[:, None], slopes / scale[:, None])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..beam import Beam, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
@@ -14,14 +15,13 @@ from ..methods.continuation import (
     followed,
     linear_orbit,
     meets_the_equations,
-    steady_elongation,
 )
-from ..methods.harmonic_balance import NoOrbitError, PeriodicOrbit, solve
-from ..quadrature import FloatArray
+from ..methods.harmonic_balance import NoOrbitError, solve
 from .backbone import AmplitudeNotReachedError, Backbone
-from .continuum import Continuum, finer_model
+from .continuum import Continuum
 from .internal_resonance import nearest_resonance, warn_of_resonances
-from .modes import resolved_model, solve_modes, steady_rate
+from .modes import resolved_model, solve_modes
+from .steady import BeamOrbit, steady_rotation
 
 
 def periodic_orbits(
@@ -89,12 +89,12 @@ def periodic_orbits(
     return backbone
 
 
-def _followed_up(branch: _Branch, ascending: FloatArray) -> tuple[dict[float, PeriodicOrbit], str]:
+def _followed_up(branch: _Branch, ascending: FloatArray) -> tuple[dict[float, BeamOrbit], str]:
     """Return the orbits found by their amplitudes, and what to say of the first that was not."""
-    found: dict[float, PeriodicOrbit] = {}
+    found: dict[float, BeamOrbit] = {}
     refused = ""
-    last: PeriodicOrbit = branch.double
-    before: PeriodicOrbit | None = branch.seed
+    last: BeamOrbit = branch.double
+    before: BeamOrbit | None = branch.seed
     for a in ascending.tolist():
         if a < last.amplitude:
             last, before = branch.seed, None
@@ -128,14 +128,14 @@ class _Branch:
     omega: float
     mode: int
     modes: FloatArray  # nondimensional frequencies that the functions resolve
-    seed: PeriodicOrbit
-    double: PeriodicOrbit
+    seed: BeamOrbit
+    double: BeamOrbit
 
     @property
     def name(self) -> str:
         return f"mode {self.mode} at omega = {self.omega:g} rad/s"
 
-    def backbone(self, orbits: Sequence[PeriodicOrbit]) -> Backbone:
+    def backbone(self, orbits: Sequence[BeamOrbit]) -> Backbone:
         """Return the orbits as a backbone; λ_ω is extrapolated from the two smallest."""
         linear = float(self.modes[self.mode - 1])
         near, far = (
@@ -152,35 +152,38 @@ class _Branch:
             frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
             lambda_omega=float((4.0 * near - far) / 3.0),
             lambda_omega_error=float(abs(near - far) / 3.0),
-            harmonics=np.array([np.pad(o.tip_harmonics, (0, count - o.harmonics)) for o in orbits]),
+            harmonics=np.array(
+                [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
+            ),
             residual=np.array([orbit.residual for orbit in orbits]),
-            jacobi_drift=np.array([orbit.jacobi_drift for orbit in orbits]),
+            jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
             _orbits=tuple(orbits),
         )
 
 
 def _branch(beam: Beam, omega: float, mode: int, model: Continuum) -> _Branch:
     """Return the branch of a mode, with as many functions as its smallest orbits need."""
-    rate, small = steady_rate(beam, omega, model), 0.02 / mode**2
+    steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:
-        modes = solve_modes(model, rate)
+        modes = solve_modes(steady)
+        shape, linear = modes.coordinates[mode - 1], float(modes.frequencies[mode - 1])
         try:
-            seed = solve(linear_orbit(model, rate, modes, mode, small), small)
-            double = solve(seed.scaled(2.0 * small, steady_elongation(seed)), 2.0 * small)
+            seed = solve(linear_orbit(steady, shape, linear, small), small)
+            double = solve(seed.scaled(2.0 * small), 2.0 * small)
         except NoOrbitError as failed:
             reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
         else:
             if meets_the_equations(double):
-                resolved = modes.frequencies[: model.bending // 2]
+                resolved = modes.frequencies[: steady.functions // 2]
                 return _Branch(
                     beam=beam, omega=omega, mode=mode, modes=resolved, seed=seed, double=double
                 )
             reason = (
-                f"{model.bending} functions meet the equations of motion to "
+                f"{steady.functions} functions meet the equations of motion to "
                 f"{double.residual:.1e} only; rotate slower"
             )
-        model = finer_model(model)
-        if model.bending > MOST_FUNCTIONS:
+        steady = steady.refined()
+        if steady.functions > MOST_FUNCTIONS:
             raise AmplitudeNotReachedError(
                 f"no periodic orbit grows out of mode {mode} at omega = {omega:g} rad/s even at "
                 f"a = {small:g}: {reason}"

@@ -10,13 +10,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import ComplexArray, FloatArray
 from ..beam import Beam, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..methods.collocation import radau
 from ..motion import SpinUp
-from ..quadrature import FloatArray
-from .continuum import ComplexArray, Continuum, continuum
-from .modes import steady_rate
+from .continuum import Continuum, continuum
+from .steady import steady_rate
 
 _STAGES = 8
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from scipy import linalg, special
 
-from ..exact.continuum import Tangent
-from ..quadrature import FloatArray
+from ..arrays import FloatArray
+from .system import Tangent
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]

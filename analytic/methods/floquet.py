@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy import linalg
 
-from ..exact.continuum import ComplexArray, Tangent
+from ..arrays import ComplexArray
 from .collocation import radau
 from .harmonic_balance import PeriodicOrbit
+from .system import Tangent
 
 _STAGES = 6
 _REPORTED = 8  # two for each of the lowest four modes
 
 
-def floquet_multipliers(orbit: PeriodicOrbit, steps: int = 48) -> ComplexArray:
+def floquet_multipliers(orbit: PeriodicOrbit[Any], steps: int = 48) -> ComplexArray:
     """Return the eight Floquet multipliers (8,) of largest modulus.
 
     They are the eigenvalues of the equations of motion, linearized about the orbit and
@@ -24,9 +27,9 @@ def floquet_multipliers(orbit: PeriodicOrbit, steps: int = 48) -> ComplexArray:
     method = radau(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
     state = orbit.coordinates(2.0 * np.pi * nodes.ravel())
-    tangents = orbit.model.tangent(*state, orbit.rate)
+    tangents = orbit.system.tangent(*state)
     h = 2.0 * np.pi / orbit.frequency / steps
-    n = orbit.model.size
+    n = orbit.system.size
     position, velocity = np.eye(n, 2 * n), np.eye(n, 2 * n, k=n)
     for step in range(steps):
         at = Tangent(*(part[step * _STAGES : (step + 1) * _STAGES] for part in tangents))

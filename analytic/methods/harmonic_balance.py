@@ -1,87 +1,84 @@
-"""Harmonic balance: one periodic orbit of the exact beam in rotating steady state.
+"""Harmonic balance: one periodic orbit of a system that time reversal maps onto itself.
 
-The motion (θ, e)(t) → (-θ, e)(-t) maps orbits onto orbits, so an orbit through the straight beam
-is θ = Σ s_k sin kφ, k ≥ 1, and e = Σ c_k cos kφ, k ≥ 0, φ = Ωτ, with all k: the Coriolis force
-brings even harmonics into θ. The residual of these series, projected onto sin kφ and cos kφ at
-midpoints of half a period (exact for the products kept), and the peak of the tip's deflection,
-fixed to the amplitude a, are as many equations as s, c and Ω are unknowns. Newton's method solves
-them with the exact tangent.
+The residual of the orbit's Fourier series, projected onto its waves at midpoints of half a period,
+and the peak of the gauge, fixed to the amplitude a, are as many equations as the coefficients and
+the frequency Ω are unknowns. Newton's method solves them with the exact tangent. For a rotating
+beam the gauge is the tip's deflection, and the Coriolis force brings in even harmonics.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
+from typing import Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import linalg
 
-from ..exact.continuum import Continuum, finer_model
-from ..quadrature import FloatArray
+from ..arrays import FloatArray
+from .fourier import Waves, half_period, packed, unpacked
+from .system import System
 
 _NEWTON_STEPS = 15
-_CONVERGED = 1e-13  # of the coordinates of θ and of Ω
-_ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of steady e
+_CONVERGED = 1e-13  # of the odd coordinates and of Ω
+_ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of the mean
 _SLOW = 0.1  # a contraction worse than this pays for a new tangent
+
+
+S = TypeVar("S", bound=System)
+_Indices = NDArray[np.intp]
 
 
 class NoOrbitError(Exception):
     """Newton's method found no orbit; the message says why, `last` is the last orbit found."""
 
-    def __init__(self, message: str, last: PeriodicOrbit | None = None) -> None:
+    def __init__(self, message: str, last: PeriodicOrbit[Any] | None = None) -> None:
         super().__init__(message)
         self.last = last
 
 
 @dataclass(frozen=True, kw_only=True)
-class PeriodicOrbit:
-    """A periodic orbit in nondimensional form: phase φ = Ωτ, straight beam at φ = 0.
+class PeriodicOrbit(Generic[S]):
+    """A periodic orbit in nondimensional form: phase φ = Ωτ, odd coordinates zero at φ = 0.
 
     Attributes
     ----------
-    model : Continuum
-    rate : float
-        w, the rate of the frame.
+    system : System
     amplitude : float
-        Peak deflection of the tip, over L.
+        Peak of the gauge.
     frequency : float
         Ω.
-    sines : ndarray (H, bending)
-        Harmonics 1 to H of the coordinates of θ.
-    cosines : ndarray (H + 1, axial)
-        Harmonics 0 to H of the coordinates of e.
+    coefficients : ndarray (H + 1, n)
+        Harmonics 0 to H: of sines for the odd coordinates, of cosines for the others.
     peak_phase : float
-        Phase at which the tip's deflection is greatest.
+        Phase at which the gauge is greatest.
     """
 
-    model: Continuum
-    rate: float
+    system: S
     amplitude: float
     frequency: float
-    sines: FloatArray
-    cosines: FloatArray
+    coefficients: FloatArray
     peak_phase: float = 0.5 * np.pi
 
     @property
     def harmonics(self) -> int:
         """Number of harmonics H."""
-        return len(self.sines)
+        return len(self.coefficients) - 1
+
+    @property
+    def sines(self) -> FloatArray:
+        """Harmonics 1 to H of the odd coordinates, (H, odd)."""
+        return self.coefficients[1:, self.system.odd]
 
     def coordinates(self, phase: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return q, dq/dτ, d²q/dτ² (phases, n) at the phases (phases,)."""
-        k = np.arange(self.harmonics + 1)
-        sin, cos = np.sin(np.multiply.outer(phase, k)), np.cos(np.multiply.outer(phase, k))
-        theta = [sin[:, 1:], k[1:] * cos[:, 1:], -(k[1:] ** 2) * sin[:, 1:]]
-        epsilon = [cos, -k * sin, -(k**2) * cos]
-        q, q_dot, q_ddot = (
-            self.frequency**i * np.concatenate((t @ self.sines, e @ self.cosines), axis=-1)
-            for i, (t, e) in enumerate(zip(theta, epsilon, strict=True))
-        )
-        return q, q_dot, q_ddot
+        waves = Waves(phase, self.harmonics)
+        return waves.sums(self.coefficients, self.system.odd, self.frequency)
 
-    def tip(self, phase: FloatArray) -> FloatArray:
-        """Return the tip's deflection v(1), (phases,)."""
-        return self.model.tip(self.coordinates(phase)[0]).imag
+    def gauge(self, phase: FloatArray) -> FloatArray:
+        """Return the gauge, (phases,)."""
+        return self.system.gauge(self.coordinates(phase)[0])
 
     @cached_property
     def _fine_phases(self) -> FloatArray:
@@ -89,105 +86,73 @@ class PeriodicOrbit:
         return np.pi * (np.arange(count) + 0.5) / count
 
     @cached_property
-    def tip_harmonics(self) -> FloatArray:
-        """Sine coefficients 1 to H of the tip's deflection, (H,)."""
+    def gauge_harmonics(self) -> FloatArray:
+        """Sine coefficients 1 to H of the gauge, (H,)."""
         phase = self._fine_phases
         k = np.arange(1, self.harmonics + 1)
-        return 2.0 / phase.size * self.tip(phase) @ np.sin(np.multiply.outer(phase, k))
+        return 2.0 / phase.size * self.gauge(phase) @ np.sin(np.multiply.outer(phase, k))
 
     @cached_property
     def residual(self) -> float:
-        """Largest residual of the equations of motion along the orbit, relative to θ's own.
+        """Largest residual along the orbit, relative to the odd coordinates' own size.
 
-        At four times as many phases as harmonics and on half as many functions again as the
-        orbit was computed with, so that it also sees what both truncations left out.
+        At four times as many phases as harmonics and in the refined system, so that it also sees
+        what both truncations left out.
         """
-        finer = finer_model(self.model)
+        finer = self.system.refined()
         state = self.coordinates(self._fine_phases)
-        q, q_dot, q_ddot = (self.model.padded(c, finer) for c in state)
-        defect = finer.residual(q, q_dot, q_ddot, self.rate)
-        size = np.linalg.norm(q[:, : finer.bending], axis=-1).max()
+        q, q_dot, q_ddot = (self.system.lifted(c, finer) for c in state)
+        defect = finer.residual(q, q_dot, q_ddot)
+        size = np.linalg.norm(q[:, finer.odd], axis=-1).max()
         return float(np.linalg.norm(defect, axis=-1).max() / size)
 
     @cached_property
-    def jacobi_drift(self) -> float:
-        """Largest change of the Jacobi integral along the orbit, over the kinetic energy."""
+    def invariant_drift(self) -> float:
+        """Largest change of the invariant along the orbit, over the kinetic energy."""
         q, q_dot, _ = self.coordinates(self._fine_phases)
-        integral = self.model.jacobi_integral(q, q_dot, self.rate)
-        return float(np.ptp(integral) / self.model.kinetic_energy(q, q_dot).max())
+        invariant = self.system.invariant(q, q_dot)
+        return float(np.ptp(invariant) / self.system.kinetic_energy(q, q_dot).max())
 
     @cached_property
-    def jacobi_noise(self) -> float:
-        """Round-off of `jacobi_drift`: the centrifugal part outweighs small orbits."""
+    def invariant_noise(self) -> float:
+        """Round-off of `invariant_drift`: a potential may outweigh small orbits."""
         q, q_dot, _ = self.coordinates(self._fine_phases)
-        size = np.abs(self.model.jacobi_integral(q, q_dot, self.rate)).max()
-        kinetic = self.model.kinetic_energy(q, q_dot).max()
+        size = np.abs(self.system.invariant(q, q_dot)).max()
+        kinetic = self.system.kinetic_energy(q, q_dot).max()
         return float(4.0 * np.finfo(float).eps * size / kinetic)
 
-    def with_harmonics(self, count: int) -> PeriodicOrbit:
+    def with_harmonics(self, count: int) -> PeriodicOrbit[S]:
         """Return the same orbit with its series cut or padded to `count` harmonics."""
-        sines = np.zeros((count, self.model.bending))
-        cosines = np.zeros((count + 1, self.model.axial))
-        kept = min(count, self.harmonics)
-        sines[:kept] = self.sines[:kept]
-        cosines[: kept + 1] = self.cosines[: kept + 1]
-        return replace(self, sines=sines, cosines=cosines)
+        coefficients = np.zeros((count + 1, self.system.size))
+        kept = min(count, self.harmonics) + 1
+        coefficients[:kept] = self.coefficients[:kept]
+        return replace(self, coefficients=coefficients)
 
-    def with_functions(self, model: Continuum) -> PeriodicOrbit:
-        """Return the same orbit in the larger basis of `model`."""
-        sines = np.pad(self.sines, ((0, 0), (0, model.bending - self.model.bending)))
-        cosines = np.pad(self.cosines, ((0, 0), (0, model.axial - self.model.axial)))
-        return replace(self, model=model, sines=sines, cosines=cosines)
+    def on(self, system: S) -> PeriodicOrbit[S]:
+        """Return the same orbit in the finer `system`."""
+        return replace(
+            self, system=system, coefficients=self.system.lifted(self.coefficients, system)
+        )
 
-    def scaled(self, amplitude: float, steady: FloatArray) -> PeriodicOrbit:
+    def scaled(self, amplitude: float) -> PeriodicOrbit[S]:
         """Return the orbit with harmonic k scaled as its leading order is, as amplitude^k.
 
-        The mean elongation departs from its `steady` value (axial,) by the square; any linear
-        extrapolation would stretch the stiff axis. High harmonics are held back, or their
-        round-off would be blown up.
+        The mean departs from the equilibrium by the square; any linear extrapolation would strain
+        what is stiff. High harmonics are held back, or their round-off would be blown up.
         """
         factor = amplitude / self.amplitude
         powers = factor ** np.minimum(np.arange(self.harmonics + 1.0), 6.0)[:, None]
-        cosines = powers * self.cosines
-        cosines[0] = steady + factor**2 * (self.cosines[0] - steady)
-        return replace(self, amplitude=amplitude, sines=powers[1:] * self.sines, cosines=cosines)
+        coefficients = powers * self.coefficients
+        mean = self.system.equilibrium
+        coefficients[0] = mean + factor**2 * (self.coefficients[0] - mean)
+        return replace(self, amplitude=amplitude, coefficients=coefficients)
 
 
-class _Series:
-    """sin and cos of the harmonics and their derivatives, at midpoints of half a period."""
-
-    def __init__(self, harmonics: int) -> None:
-        count = 2 * harmonics + 2
-        self.phase = np.pi * (np.arange(count) + 0.5) / count
-        k = np.arange(harmonics + 1)
-        sin, cos = np.sin(np.outer(self.phase, k)), np.cos(np.outer(self.phase, k))
-        self.theta = np.stack((sin, k * cos, -(k**2) * sin))[..., 1:]
-        self.epsilon = np.stack((cos, -k * sin, -(k**2) * cos))
-        self.onto_sines = 2.0 / count * sin[:, 1:].T
-        self.onto_cosines = 2.0 / count * cos.T
-        self.onto_cosines[0] *= 0.5
-
-
-@lru_cache(maxsize=64)
-def _series(harmonics: int) -> _Series:
-    return _Series(harmonics)
-
-
-def _project(series: _Series, samples: FloatArray, bending: int) -> FloatArray:
-    """Return the harmonics (unknowns,) of coordinates given at the sampled phases."""
-    return np.concatenate(
-        (
-            (series.onto_sines @ samples[:, :bending]).ravel(),
-            (series.onto_cosines @ samples[:, bending:]).ravel(),
-        )
-    )
-
-
-def _jacobian(orbit: PeriodicOrbit) -> FloatArray:
+def _jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
     """Return the derivatives of the harmonics of the residual to those of q and to Ω."""
-    series, bending = _series(orbit.harmonics), orbit.model.bending
-    q, q_dot, q_ddot = orbit.coordinates(series.phase)
-    tangent = orbit.model.tangent(q, q_dot, q_ddot, orbit.rate)
+    half, system = half_period(orbit.harmonics), orbit.system
+    q, q_dot, q_ddot = orbit.coordinates(half.phase)
+    tangent = system.tangent(q, q_dot, q_ddot)
     in_time = np.concatenate(
         (
             tangent.stiffness,
@@ -195,14 +160,13 @@ def _jacobian(orbit: PeriodicOrbit) -> FloatArray:
             orbit.frequency**2 * tangent.mass,
         )
     )
-    theta, epsilon = slice(0, bending), slice(bending, None)
     sides = (
-        (theta, series.onto_sines, series.theta),
-        (epsilon, series.onto_cosines, series.epsilon),
+        (np.flatnonzero(system.odd), half.onto_odd, half.waves.odd),
+        (np.flatnonzero(~system.odd), half.onto_even, half.waves.even),
     )
 
-    def block(rows: slice, onto: FloatArray, columns: slice, waves: FloatArray) -> FloatArray:
-        part = in_time[:, rows, columns]
+    def block(rows: _Indices, onto: FloatArray, columns: _Indices, waves: FloatArray) -> FloatArray:
+        part = in_time[:, rows[:, None], columns]
         products = onto[:, None, None, :] * waves.transpose(2, 0, 1)[None]
         count, functions, others = len(onto), part.shape[1], part.shape[2]
         result = products.reshape(-1, len(part)) @ part.reshape(len(part), -1)
@@ -221,41 +185,36 @@ def _jacobian(orbit: PeriodicOrbit) -> FloatArray:
     unknowns = len(by_harmonics) + 1
     jacobian = np.zeros((unknowns, unknowns))
     jacobian[:-1, :-1] = by_harmonics
-    jacobian[:-1, -1] = _project(series, by_frequency, bending)
+    jacobian[:-1, -1] = half.project(by_frequency, system.odd)
     return jacobian
 
 
-def _at_peak(orbit: PeriodicOrbit) -> tuple[PeriodicOrbit, float, FloatArray]:
+def _at_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float, FloatArray]:
     """Return the orbit with its peak's phase, the peak and its derivatives to the unknowns.
 
-    The phase is where the deflection is stationary, so it adds nothing to the derivatives.
+    The phase is where the gauge is stationary, so it adds nothing to the derivatives.
     """
-    model = orbit.model
-    phases = _series(orbit.harmonics).phase
-    phase = float(phases[np.argmax(orbit.tip(phases))])
+    system = orbit.system
+    phases = half_period(orbit.harmonics).phase
+    phase = float(phases[np.argmax(orbit.gauge(phases))])
     for _ in range(6):
         around = phase + np.array([-1e-4, 0.0, 1e-4])
         q, q_dot, _ = orbit.coordinates(around)
-        rate = model.tip_rate(q, q_dot).imag
+        rate = system.gauge_rate(q, q_dot)
         step = -rate[1] / ((rate[2] - rate[0]) / 2e-4)
         phase += float(np.clip(step, -0.2, 0.2))
         if abs(step) < 1e-8:  # the peak is wrong by the square of this
             break
-    q = orbit.coordinates(np.array([phase]))[0]
-    gradient = model.tip_gradient(q).imag[0]
-    k = np.arange(orbit.harmonics + 1)
-    row = np.concatenate(
-        (
-            np.outer(np.sin(k[1:] * phase), gradient[: model.bending]).ravel(),
-            np.outer(np.cos(k * phase), gradient[model.bending :]).ravel(),
-            [0.0],
-        )
-    )
-    return replace(orbit, peak_phase=phase), float(model.tip(q).imag[0]), row
+    at = np.array([phase])
+    q = orbit.coordinates(at)[0]
+    k = np.arange(orbit.harmonics + 1)[:, None]
+    waves = np.where(system.odd, np.sin(k * phase), np.cos(k * phase))
+    row = np.append(packed(waves * system.gauge_gradient(q)[0], system.odd), 0.0)
+    return replace(orbit, peak_phase=phase), float(system.gauge(q)[0]), row
 
 
-def solve(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
-    """Return the orbit near `guess` whose tip deflects to the peak `amplitude`, over L.
+def solve(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+    """Return the orbit near `guess` whose gauge has the peak `amplitude`.
 
     The tangent is factored anew only where the iteration contracts slowly.
 
@@ -265,11 +224,11 @@ def solve(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
         If Newton's method does not converge.
     """
     orbit, factors, last = guess, None, np.inf
-    series, bending = _series(orbit.harmonics), orbit.model.bending
+    half, odd = half_period(orbit.harmonics), orbit.system.odd
     for _ in range(_NEWTON_STEPS):
         orbit, peak, row = _at_peak(orbit)
-        defect = orbit.model.residual(*orbit.coordinates(series.phase), orbit.rate)
-        defect = np.append(_project(series, defect, bending), peak - amplitude)
+        defect = orbit.system.residual(*orbit.coordinates(half.phase))
+        defect = np.append(half.project(defect, odd), peak - amplitude)
         if not np.all(np.isfinite(defect)):
             break
         if factors is None:
@@ -277,11 +236,9 @@ def solve(guess: PeriodicOrbit, amplitude: float) -> PeriodicOrbit:
             jacobian[-1] = row
             factors = linalg.lu_factor(jacobian, check_finite=False)
         change = linalg.lu_solve(factors, defect, check_finite=False)
-        cut = orbit.sines.size
         orbit = replace(
             orbit,
-            sines=orbit.sines - change[:cut].reshape(orbit.sines.shape),
-            cosines=orbit.cosines - change[cut:-1].reshape(orbit.cosines.shape),
+            coefficients=orbit.coefficients - unpacked(change[:-1], odd),
             frequency=orbit.frequency - float(change[-1]),
         )
         size = float(

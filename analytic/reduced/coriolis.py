@@ -18,13 +18,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
 
+from ..arrays import FloatArray
 from ..quadrature import gauss_points, transverse_basis
 from .rotating_mode import RotatingMode
-
-FloatArray = NDArray[np.float64]
 
 _POINTS = 48
 _FUNCTIONS = 20

@@ -23,12 +23,11 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..quadrature import gauss_points
 from .shapes import Shape
 
-FloatArray = NDArray[np.float64]
 Axial = Literal["none", "inextensible", "consistent", "sine", "static"]
 AXIAL_MODELS: tuple[Axial, ...] = get_args(Axial)
 

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
 from ..beam import Beam, warn_if_rpm
 from ..input_checks import (
     RotbeamWarning,
@@ -30,8 +31,6 @@ from .model_range import better_model, warn_beyond_range
 from .rotating_mode import RotatingMode
 from .shapes import CantileverMode
 from .variants import Variant, variant_named
-
-FloatArray = NDArray[np.float64]
 
 _PAPER_AMPLITUDE = 0.2
 

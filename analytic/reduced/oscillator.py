@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from ..arrays import FloatArray
 
 _MARGIN = 1e-6
 """Relative distance in a² kept from the separatrix, where the period is infinite."""

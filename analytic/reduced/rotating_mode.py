@@ -10,13 +10,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from ..arrays import FloatArray
 from ..beam import BETA_1
 from .shapes import PolynomialShape
-
-FloatArray = NDArray[np.float64]
 
 MAX_W_BAR = 30.0
 """Both series grow like exp(w̄/√2): up to here w̄_n keeps 3e-7, at 40 only 3e-4."""

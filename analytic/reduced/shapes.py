@@ -12,12 +12,11 @@ from fractions import Fraction
 
 import numpy as np
 from numpy.polynomial import polynomial
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
 from ..beam import BETA_1
 from ..quadrature import gauss_points
-
-FloatArray = NDArray[np.float64]
 
 
 class Shape(ABC):

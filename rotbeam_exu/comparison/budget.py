@@ -9,15 +9,13 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
+from analytic.arrays import FloatArray
 
 from ..sweeps import sweep
 from .backbones import MODELS, PAPER_RAMP_TIMES, finite_element_points
 from .theory import PAPER_SPEEDS, beyond_range
-
-FloatArray = NDArray[np.float64]
 
 SOURCES = (
     "linear frequency",

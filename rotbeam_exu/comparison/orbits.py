@@ -6,18 +6,16 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy import interpolate, optimize
 
 from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
+from analytic.arrays import FloatArray
 from analytic.reduced.model import ReducedModel
 
 from ..oscillation import steady_oscillation
 from ..simulation import simulate
 from .backbones import MODELS
 from .theory import beyond_range
-
-FloatArray = NDArray[np.float64]
 
 
 def figure_15(

@@ -8,14 +8,12 @@ from contextlib import contextmanager
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from analytic import Beam, reduced_model
+from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
 from analytic.reduced.shapes import CantileverMode
-
-FloatArray = NDArray[np.float64]
 
 PAPER_SPEEDS = (2.0, 4.0, 6.0, 8.0)
 """Angular velocities of Secs. 5 and 6 [rad/s]."""

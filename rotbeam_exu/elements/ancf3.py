@@ -12,9 +12,10 @@ import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 
 from analytic import Beam, BeamState
+from analytic.arrays import FloatArray
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed, section_angle
+from .formulation import QUARTER_TURN, Chain, NoCriticalSpeed, section_angle
 from .section import POISSON_RATIO, checked_shear, rectangle, shear_modulus
 
 Law = Literal["uncoupled", "coupled"]

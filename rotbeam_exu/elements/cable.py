@@ -12,8 +12,9 @@ import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
 from analytic import Beam, BeamState
+from analytic.arrays import FloatArray
 
-from .formulation import QUARTER_TURN, Chain, FloatArray, NoCriticalSpeed, positions_and_slopes
+from .formulation import QUARTER_TURN, Chain, NoCriticalSpeed, positions_and_slopes
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from exudyn.itemInterface import ObjectGenericODE2
 from numpy.typing import NDArray
 from scipy import sparse
 
-from .formulation import FloatArray
+from analytic.arrays import FloatArray
 
 
 class Assembly:

@@ -10,8 +10,9 @@ import numpy as np
 from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
 
 from analytic import Beam, BeamState
+from analytic.arrays import FloatArray
 
-from .formulation import Chain, FloatArray, NoCriticalSpeed, section_angle
+from .formulation import Chain, NoCriticalSpeed, section_angle
 from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
 
 

@@ -9,11 +9,9 @@ from typing import ClassVar, Protocol
 
 import exudyn
 import numpy as np
-from numpy.typing import NDArray
 
 from analytic import Beam, BeamState
-
-FloatArray = NDArray[np.float64]
+from analytic.arrays import FloatArray
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""

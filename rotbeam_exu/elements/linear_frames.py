@@ -20,10 +20,11 @@ from exudyn.itemInterface import NodePoint2DSlope1
 from scipy import linalg, optimize
 
 from analytic import Beam, BeamState
+from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, FloatArray, positions_and_slopes
+from .formulation import QUARTER_TURN, Chain, positions_and_slopes
 
 FloatingFrame = Literal["tangent", "pinned"]
 

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from analytic import SpinUpResponse
+from analytic.arrays import FloatArray
 
 from .style import BLUE, ORANGE, STYLE, new_figure
 
-FloatArray = NDArray[np.float64]
 _DPI = 100
 _TRAIL = 0.6  # seconds of the tip's path that stay visible
 _FINER = 8  # points of that path from one picture to the next

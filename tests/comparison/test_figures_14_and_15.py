@@ -237,7 +237,8 @@ def _points(data, mesh):
         (2.0, 3.0, 0.16552, 1.000248),
         (4.0, 2.75, 0.35767, 0.998829),
         (6.0, 3.375, 0.19558, 0.999236),
-        (8.0, 2.5, 0.59744, 0.98996),
+        # 0.59744 by six harmonics; with nine its top is higher, and nearer the exact backbone.
+        (8.0, 2.5, 0.59747, 0.98996),
     ],
 )
 def test_converged_points_of_the_grid(grid, omega, ramp_time, amplitude, ratio):

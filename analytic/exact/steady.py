@@ -1,0 +1,106 @@
+"""The exact beam in steady rotation: the system whose modes and orbits are sought."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..beam import Beam, require_steady_state
+from ..methods.harmonic_balance import PeriodicOrbit
+from ..methods.system import Tangent
+from .continuum import Continuum, finer_model
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyBeam:
+    """The discretized beam in a frame that turns at a constant rate; a `methods.System`.
+
+    The motion (θ, e)(t) → (-θ, e)(-t) maps orbits onto orbits: θ is odd. The gauge is the tip's
+    deflection over the length, the invariant the Jacobi integral.
+
+    Attributes
+    ----------
+    model : Continuum
+    rate : float
+        w̄ = ω/√(EI/mL³).
+    """
+
+    model: Continuum
+    rate: float
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates, those of θ and those of e."""
+        return self.model.size
+
+    @property
+    def functions(self) -> int:
+        """Number of functions for θ."""
+        return self.model.bending
+
+    @cached_property
+    def odd(self) -> NDArray[np.bool_]:
+        """Which coordinates are those of θ, (n,)."""
+        return np.arange(self.size) < self.model.bending
+
+    @cached_property
+    def equilibrium(self) -> FloatArray:
+        """Coordinates (n,) of the straight beam that the rotation stretches."""
+        return self.model.steady_state(self.rate)
+
+    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
+        """Return the virtual work of all forces, (samples, n)."""
+        return self.model.residual(q, q_dot, q_ddot, self.rate)
+
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈."""
+        return self.model.tangent(q, q_dot, q_ddot, self.rate)
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the tip's deflection v(1), (samples,)."""
+        return self.model.tip(q).imag
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the rate of the tip's deflection, (samples,)."""
+        return self.model.tip_rate(q, q_dot).imag
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's deflection to the coordinates, (samples, n)."""
+        return self.model.tip_gradient(q).imag
+
+    def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the Jacobi integral, (samples,)."""
+        return self.model.jacobi_integral(q, q_dot, self.rate)
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the rotating frame, (samples,)."""
+        return self.model.kinetic_energy(q, q_dot)
+
+    def refined(self) -> Self:
+        """Return the beam on half as many functions again."""
+        return replace(self, model=finer_model(self.model))
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return self.model.padded(q, finer.model)
+
+
+BeamOrbit = PeriodicOrbit[SteadyBeam]
+"""A periodic orbit of the beam."""
+
+
+def steady_rate(beam: Beam, omega: float, model: Continuum) -> float:
+    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
+    if model.slenderness > 0.0:
+        require_steady_state(beam, omega)
+    return omega / beam.frequency_scale
+
+
+def steady_rotation(beam: Beam, omega: float, model: Continuum) -> SteadyBeam:
+    """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
+    return SteadyBeam(model, steady_rate(beam, omega, model))

@@ -1,0 +1,88 @@
+"""The Fourier series of an orbit that time reversal maps onto itself.
+
+q = Σ s_k sin kφ for the coordinates that reversal turns around, k ≥ 1, and q = Σ c_k cos kφ for the
+others, k ≥ 0. Both stand in one array of coefficients (H + 1, n), whose row 0 is the mean.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+
+
+class Waves:
+    """sin kφ and cos kφ at phases φ, and their first two derivatives.
+
+    Attributes
+    ----------
+    odd : ndarray (3, phases, H)
+        sin kφ and its derivatives, k = 1 ... H.
+    even : ndarray (3, phases, H + 1)
+        cos kφ and its derivatives, k = 0 ... H.
+    """
+
+    def __init__(self, phase: FloatArray, harmonics: int) -> None:
+        k = np.arange(harmonics + 1)
+        sin, cos = np.sin(np.multiply.outer(phase, k)), np.cos(np.multiply.outer(phase, k))
+        self.odd: FloatArray = np.stack((sin, k * cos, -(k**2) * sin))[..., 1:]
+        self.even: FloatArray = np.stack((cos, -k * sin, -(k**2) * cos))
+
+    def sums(
+        self, coefficients: FloatArray, odd: NDArray[np.bool_], frequency: float
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return q, dq/dτ, d²q/dτ² (phases, n) of the coefficients (H + 1, n), φ = Ωτ."""
+        q = np.empty((3, self.odd.shape[1], odd.size))
+        q[..., odd] = self.odd @ coefficients[1:, odd]
+        q[..., ~odd] = self.even @ coefficients[:, ~odd]
+        return q[0], frequency * q[1], frequency**2 * q[2]
+
+
+class HalfPeriod:
+    """Midpoints of half a period, which is all of it, and the projection onto the waves there.
+
+    Attributes
+    ----------
+    phase : ndarray (2H + 2,)
+    waves : Waves
+    onto_odd, onto_even : ndarray (H, 2H + 2), (H + 1, 2H + 2)
+        From samples to the coefficients of sin kφ and of cos kφ; exact for products of two waves.
+    """
+
+    def __init__(self, harmonics: int) -> None:
+        count = 2 * harmonics + 2
+        self.phase = np.pi * (np.arange(count) + 0.5) / count
+        self.waves = Waves(self.phase, harmonics)
+        self.onto_odd = 2.0 / count * self.waves.odd[0].T
+        self.onto_even = 2.0 / count * self.waves.even[0].T
+        self.onto_even[0] *= 0.5
+
+    def project(self, samples: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
+        """Return the coefficients (unknowns,) of coordinates (2H + 2, n) given at the phases."""
+        return np.concatenate(
+            ((self.onto_odd @ samples[:, odd]).ravel(), (self.onto_even @ samples[:, ~odd]).ravel())
+        )
+
+
+@lru_cache(maxsize=64)
+def half_period(harmonics: int) -> HalfPeriod:
+    """Return the half period for so many harmonics, made once."""
+    return HalfPeriod(harmonics)
+
+
+def packed(coefficients: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
+    """Return the coefficients (H + 1, n) as the unknowns (..,): those of sines, then of cosines."""
+    return np.concatenate((coefficients[1:, odd].ravel(), coefficients[:, ~odd].ravel()))
+
+
+def unpacked(unknowns: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
+    """Return what `packed` packed."""
+    rows = (unknowns.size + int(odd.sum())) // odd.size
+    coefficients = np.zeros((rows, odd.size))
+    cut = (rows - 1) * int(odd.sum())
+    coefficients[1:, odd] = unknowns[:cut].reshape(rows - 1, -1)
+    coefficients[:, ~odd] = unknowns[cut:].reshape(rows, -1)
+    return coefficients

@@ -1,0 +1,84 @@
+"""What a mechanical system must answer, so that its motions can be found without knowing it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+
+
+class Tangent(NamedTuple):
+    """Residual (samples, n) and its derivatives (samples, n, n) to q, q̇ and q̈."""
+
+    residual: FloatArray
+    stiffness: FloatArray
+    damping: FloatArray
+    mass: FloatArray
+
+
+class System(Protocol):
+    """Autonomous, conservative equations of motion r(q, q̇, q̈) = 0 in n coordinates.
+
+    Samples come first in every array. Time reversal, (q, t) → (Rq, -t) with a diagonal R of ±1,
+    must map motions onto motions: an orbit through a state that is its own mirror image is a
+    series of sines in the coordinates that R turns around, and of cosines in the others.
+    """
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates n."""
+        ...
+
+    @property
+    def functions(self) -> int:
+        """How finely the system is resolved: what `refined` makes larger."""
+        ...
+
+    @property
+    def odd(self) -> NDArray[np.bool_]:
+        """Which coordinates time reversal turns around, (n,): -1 on the diagonal of R."""
+        ...
+
+    @property
+    def equilibrium(self) -> FloatArray:
+        """The state about which it moves, (n,)."""
+        ...
+
+    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
+        """Return r (samples, n), in units of q."""
+        ...
+
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
+        """Return r and its derivatives."""
+        ...
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the quantity whose peak is called the amplitude, (samples,)."""
+        ...
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return its rate, (samples,)."""
+        ...
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return its derivatives to the coordinates, (samples, n)."""
+        ...
+
+    def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return what stays constant along a motion, an energy, (samples,)."""
+        ...
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the energy by which changes of the invariant are judged, (samples,)."""
+        ...
+
+    def refined(self) -> Self:
+        """Return the same system on more coordinates."""
+        ...
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates (samples, n') of the same states in the system `finer`."""
+        ...
