@@ -114,10 +114,13 @@ class Backbone:
         return orbit.gauge(phases).reshape(times.shape)
 
     def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
-        """Return x = q/L and dx/dτ, τ = t √(EI/mL³), at `n` + 1 instants of one period."""
-        n = whole_number("n", n)
+        """Return x = q/L and dx/dτ, τ = t √(EI/mL³), each (n,), once around orbit `i`.
+
+        Equally spaced in time; the last point is the first.
+        """
+        n = whole_number("n", n, least=2)
         orbit = self._orbit(i)
-        q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n + 1))
+        q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n))
         return orbit.system.gauge(q), orbit.system.gauge_rate(q, q_dot)
 
     def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:

@@ -5,33 +5,21 @@ On the unit beam (m = EI = L = 1, so that ω becomes w̄ and EA becomes 1/μ) th
 
     T = ½M q̇² + 2 q² q̇² ∫φ_u² dx + ½w̄² ∫[v² + (x + u)²] dx,    V = V_b + V_l,
 
-so that every model is Eq. 41 and differs from the others only in u:
-
-    "none"          u = 0                                     linear model, Eq. 45
-    "inextensible"  u' = -½v'²                                Eq. 25, as printed
-    "consistent"    u' = -½v'² - ⅛v'⁴                         with the term Eq. 25 drops
-    "sine"          u = φ_u q² + Δl, φ_ω = sin(πx/2)          Eqs. 66-68, as printed
-    "static"        u = φ_u q² + Δl, φ_ω = (3x - x³)/2        the static solution
-
-The coefficients of Eq. 41 come from quadrature here and in exact form from `exact_forms`.
+so that every model is Eq. 41 and differs from the others only in u, as `axial` has it.
+The coefficients of Eq. 41 come from quadrature here and in symbols from `symbolic`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, get_args
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..quadrature import gauss_points
+from .axial import Axial, axial_model
 from .shapes import Shape
 
-Axial = Literal["none", "inextensible", "consistent", "sine", "static"]
-AXIAL_MODELS: tuple[Axial, ...] = get_args(Axial)
-
-_Elongation = tuple[FloatArray, FloatArray, FloatArray]
 _POINTS = 48
 """Exact to polynomials of degree 95, and to round-off for every shape in use."""
 
@@ -83,7 +71,7 @@ def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
     shape : Shape
         The transverse shape φ_v.
     axial : str
-        The axial model, one of `AXIAL_MODELS`.
+        The axial model, one of `axial.AXIAL_MODELS`.
 
     Notes
     -----
@@ -93,9 +81,12 @@ def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
     x, weights = gauss_points(_POINTS)
     phi, slope, curvature = shape.deflection(x), shape.slope(x), shape.curvature(x)
     # φ_u' = -½φ_v'², Eq. 28; the linear model knows no axial displacement.
-    present = 0.0 if axial == "none" else 1.0
+    model = axial_model(axial)
+    present = 1.0 if model.order else 0.0
     phi_u, phi_u_slope = present * shape.foreshortening(x), -0.5 * present * slope**2
-    elongation, strain, strain_slope = _ELONGATIONS.get(axial, _no_elongation)(x)
+    elongation = strain = strain_slope = np.zeros_like(x)
+    if model.elongation is not None:
+        elongation, strain, strain_slope = model.elongation(x, np)
 
     def integral(integrand: FloatArray) -> float:
         return float(weights @ integrand)
@@ -105,7 +96,7 @@ def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
     # χ' = -⅛φ_v'⁴ where the foreshortening is consistent; ∫xχ = -(1/16) ∫(1-x²) φ_v'⁴.
     axial_inertia = integral(phi_u**2)
     cubic_spin = -2.0 * axial_inertia
-    if axial == "consistent":
+    if model.order == 4:
         cubic_spin += 0.25 * integral((1.0 - x**2) * slope**4)
     # Eq. 76: V_l = ½∫EA ε_l², with EA Δl' = ⅓ w̄² φ_ω' after Eq. 75.
     cubic_spin += 2.0 / 3.0 * integral(strain * phi_u_slope**2)
@@ -127,21 +118,3 @@ def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
         cubic_spin=cubic_spin / M,
         g2=4.0 * axial_inertia / M,
     )
-
-
-def _sine(x: FloatArray) -> _Elongation:
-    """φ_ω, φ_ω', φ_ω'' of Eq. 68: the first axial mode, which is not the static solution."""
-    k = 0.5 * np.pi
-    return np.sin(k * x), k * np.cos(k * x), -(k**2) * np.sin(k * x)
-
-
-def _static(x: FloatArray) -> _Elongation:
-    """φ_ω, φ_ω', φ_ω'' of the static problem EA u'' = -mω²x/L that Eq. 67 solves."""
-    return 0.5 * (3.0 * x - x**3), 1.5 * (1.0 - x**2), -3.0 * x
-
-
-def _no_elongation(x: FloatArray) -> _Elongation:
-    return np.zeros_like(x), np.zeros_like(x), np.zeros_like(x)
-
-
-_ELONGATIONS: dict[str, Callable[[FloatArray], _Elongation]] = {"sine": _sine, "static": _static}

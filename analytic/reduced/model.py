@@ -24,10 +24,10 @@ from ..input_checks import (
     rotation_speed,
     whole_number,
 )
-from . import oscillator as first_integral
 from .coriolis import coriolis_coupling
 from .lagrangian import energy_coefficients
 from .model_range import better_model, warn_beyond_range
+from .oscillator import Oscillator
 from .rotating_mode import RotatingMode
 from .shapes import CantileverMode
 from .variants import Variant, variant_named
@@ -47,8 +47,8 @@ class ReducedModel:
         Rotation speed ω [rad/s].
     variant : Variant
         The variant.
-    w_n, g1, g2 : float
-        Coefficients of Eq. 41 (w_n² its linear term), nondimensional.
+    oscillator : Oscillator
+        Eq. 41 with its coefficients, nondimensional.
     tip_coupling : float
         Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
         second order. Their own third harmonics are not, so λ_x is the first mode's, not the tip's.
@@ -57,9 +57,7 @@ class ReducedModel:
     beam: Beam
     omega: float
     variant: Variant
-    w_n: float
-    g1: float
-    g2: float
+    oscillator: Oscillator
     tip_coupling: float = 0.0
 
     @property
@@ -73,19 +71,36 @@ class ReducedModel:
         return self.w_n * self.beam.frequency_scale
 
     @property
+    def w_n(self) -> float:
+        """ω_n of Eq. 41, nondimensional."""
+        return self.oscillator.w_n
+
+    @property
+    def g1(self) -> float:
+        """Cubic stiffness of Eq. 41, nondimensional."""
+        return self.oscillator.g1
+
+    @property
+    def g2(self) -> float:
+        """Inertial nonlinearity of Eq. 41, nondimensional."""
+        return self.oscillator.g2
+
+    @property
     def lambda_omega(self) -> float:
-        """λ_ω of Eq. 64 = g2/4 - 3 g1/(8 ω_n²) [-]; positive softens."""
-        return self.g2 / 4.0 - 3.0 * self.g1 / (8.0 * self.w_n**2)
+        """λ_ω of Eq. 64 [-]; positive softens."""
+        return self.oscillator.lambda_omega
 
     @property
     def lambda_x(self) -> float:
-        """λ_x of Eq. 65 = g2/16 - g1/(32 ω_n²) [-]."""
-        return self.g2 / 16.0 - self.g1 / (32.0 * self.w_n**2)
+        """λ_x of Eq. 65 [-]."""
+        return self.oscillator.lambda_x
 
     @property
     def largest_amplitude(self) -> float:
         """Largest amplitude a/L for which both Eq. 63 and Eq. 41 have a periodic orbit, up to 1."""
-        return min(1.0, self._largest_perturbed(), self._largest_exact())
+        return min(
+            1.0, self.oscillator.largest_perturbed_amplitude, self.oscillator.largest_amplitude
+        )
 
     @overload
     def frequency(self, a: float) -> float: ...
@@ -107,7 +122,8 @@ class ReducedModel:
         TypeError
             If `a` does not hold numbers.
         """
-        amplitude = self._amplitudes(a, self._largest_perturbed(), "Eq. 63 has no frequency")
+        largest = self.oscillator.largest_perturbed_amplitude
+        amplitude = self._amplitudes(a, largest, "Eq. 63 has no frequency")
         # In place, so that millions of amplitudes cost what the bare formula does.
         result = amplitude * amplitude
         result *= -self.lambda_omega * self.omega_n
@@ -124,10 +140,8 @@ class ReducedModel:
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
         errors are those of `frequency`, but `a` is the peak of x.
         """
-        amplitude = self._amplitudes(a, self._largest_exact(), "Eq. 41 has no periodic orbit")
-        result = self.beam.frequency_scale * first_integral.exact_frequency(
-            amplitude, self.w_n, self.g1, self.g2
-        )
+        amplitude = self._periodic(a)
+        result = self.beam.frequency_scale * self.oscillator.exact_frequency(amplitude)
         return result if result.ndim else float(result)
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
@@ -155,9 +169,8 @@ class ReducedModel:
         x = a0 cos ψ, and the last point is the first.
         """
         a0 = not_negative("a0", a0)
-        self._amplitudes(a0, self._largest_exact(), "Eq. 41 has no periodic orbit")
-        n = whole_number("n", n, least=2)
-        return first_integral.orbit(a0, n, self.w_n, self.g1, self.g2)
+        self._periodic(a0)
+        return self.oscillator.orbit(a0, whole_number("n", n, least=2))
 
     def __repr__(self) -> str:
         kind = "softens" if self.lambda_omega > 0.0 else "hardens"
@@ -167,13 +180,13 @@ class ReducedModel:
             f"λ_ω = {self.lambda_omega:.7f} ({kind}), λ_x = {self.lambda_x:.7f}"
         )
 
-    def _largest_perturbed(self) -> float:
-        return 1.0 / math.sqrt(self.lambda_omega) if self.lambda_omega > 0.0 else math.inf
+    def _periodic(self, a: ArrayLike) -> FloatArray:
+        largest = self.oscillator.largest_amplitude
+        return self._amplitudes(a, largest, "Eq. 41 has no periodic orbit", stacklevel=4)
 
-    def _largest_exact(self) -> float:
-        return first_integral.largest_amplitude(self.w_n, self.g1, self.g2)
-
-    def _amplitudes(self, a: ArrayLike, largest: float, beyond: str) -> FloatArray:
+    def _amplitudes(
+        self, a: ArrayLike, largest: float, beyond: str, stacklevel: int = 3
+    ) -> FloatArray:
         """Return `a` as floats; refuse negative ones, those above 1, and from `largest` on."""
         amplitude = finite_array("amplitude", a)
         if amplitude.size == 0:
@@ -192,7 +205,7 @@ class ReducedModel:
                 f"amplitude {high:g} is above {_PAPER_AMPLITUDE:g}, the paper's own bound for the "
                 f"reduced models; periodic_orbits goes on for as long as it finds an orbit",
                 RotbeamWarning,
-                stacklevel=3,
+                stacklevel=stacklevel,
             )
         return amplitude
 
@@ -261,8 +274,10 @@ def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
         beam=beam,
         omega=omega,
         variant=variant,
-        w_n=math.sqrt(square),
-        g1=coefficients.g1(w_bar),
-        g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
+        oscillator=Oscillator(
+            w_n=math.sqrt(square),
+            g1=coefficients.g1(w_bar),
+            g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
+        ),
         tip_coupling=coupling.tip if coupling else 0.0,
     )

@@ -13,11 +13,12 @@ _HIGHEST_SPEED_RATIO = 4.0
 
 
 def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
-    """Return the speed ratio Ω = ω/ω0 at which the model turns from hardening to softening.
+    """Return the speed [rad/s] at which the model turns from hardening to softening.
 
-    FrM, and with it the exact inextensible beam, does so at Ω = 1.02190; the exact extensible one
-    a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None where λ_ω does not rise
-    through zero up to Ω = 4: such a model softens, or hardens, at every speed of interest.
+    FrM, and with it the exact inextensible beam, does so at Ω = ω/ω0 = 1.02190; the exact
+    extensible one a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None where λ_ω
+    does not rise through zero up to Ω = 4: such a model softens, or hardens, at every speed of
+    interest.
     """
     setting = variant_named(variant) if isinstance(variant, str) else variant
 
@@ -30,4 +31,5 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     if turns.size == 0:
         return None
     first = turns[0]
-    return float(brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12))
+    ratio = brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
+    return float(ratio) * beam.omega_0

@@ -1,4 +1,4 @@
-"""The coefficients of Eq. 41 in exact form, expanded by sympy from the energies themselves.
+"""The coefficients of Eq. 41 in symbols, expanded by sympy from the energies themselves.
 
 Nothing is expanded by hand here. The ordering of Secs. 3 and 4, q ~ ε and μ ~ ε² (so that Δl ~ q²),
 is put into the Lagrangian of Eqs. 31, 32, 34 and 72, and what is kept is order ε⁴.
@@ -11,7 +11,7 @@ from functools import cache
 
 import sympy as sp  # type: ignore[import-untyped]
 
-from .lagrangian import Axial
+from .axial import Axial, AxialModel, axial_model
 from .shapes import PolynomialShape
 from .time_scales import G1, G2, OMEGA_N, multiple_time_scales
 
@@ -25,7 +25,7 @@ _EPSILON = sp.Symbol("epsilon", positive=True)
 
 
 @dataclass(frozen=True, kw_only=True)
-class ExactForms:
+class SymbolicForms:
     """Eq. 41 and its solution in the symbols Ω and μ, as in Tables 1-4.
 
     Parameters
@@ -51,20 +51,20 @@ class ExactForms:
 
 
 @cache
-def exact_forms(shape: PolynomialShape, axial: Axial) -> ExactForms:
-    """Return Eq. 41 of a rational polynomial shape in exact form.
+def symbolic_forms(shape: PolynomialShape, axial: Axial) -> SymbolicForms:
+    """Return Eq. 41 of a rational polynomial shape, exactly.
 
     Parameters
     ----------
     shape : PolynomialShape
         With rational coefficients, as `static_deflection` returns it.
     axial : str
-        The axial model, one of `energies.AXIAL_MODELS`.
+        The axial model, one of `axial.AXIAL_MODELS`.
     """
     phi_v = sum((sp.Rational(c) * X**k for k, c in enumerate(shape.coefficients)), sp.Integer(0))
     phi_u = -_antiderivative(sp.diff(phi_v, X) ** 2) / 2
 
-    lagrangian = sp.Poly(_lagrangian(phi_v, phi_u, axial), _Q, _Q_DOT)
+    lagrangian = sp.Poly(_lagrangian(phi_v, phi_u, axial_model(axial)), _Q, _Q_DOT)
     half_mass = lagrangian.coeff_monomial(_Q_DOT**2)
     # The Euler-Lagrange equation of ½M q̇² + c q²q̇² - ½k q² - ¼h q⁴ over M is Eq. 41.
     omega_n_squared = -lagrangian.coeff_monomial(_Q**2) / half_mass
@@ -76,7 +76,7 @@ def exact_forms(shape: PolynomialShape, axial: Axial) -> ExactForms:
 
     solution = multiple_time_scales()
     values = {OMEGA_N: sp.sqrt(omega_n_squared), G1: g1, G2: g2}
-    return ExactForms(
+    return SymbolicForms(
         phi_v=phi_v,
         phi_u=sp.expand(phi_u),
         omega_0_squared=omega_0_squared,
@@ -88,17 +88,16 @@ def exact_forms(shape: PolynomialShape, axial: Axial) -> ExactForms:
     )
 
 
-def _lagrangian(phi_v: sp.Expr, phi_u: sp.Expr, axial: Axial) -> sp.Expr:
+def _lagrangian(phi_v: sp.Expr, phi_u: sp.Expr, axial: AxialModel) -> sp.Expr:
     """L = T - V of the unit beam to order ε⁴, integrated over the length."""
     v = phi_v * _Q
-    u = sp.Integer(0) if axial == "none" else phi_u * _Q**2
-    if axial == "consistent":
+    u = phi_u * _Q**2 if axial.order else sp.Integer(0)
+    if axial.order == 4:
         u += -_antiderivative(sp.diff(v, X) ** 4) / 8
     elongation = sp.Integer(0)
-    if axial in {"sine", "static"}:
-        phi_omega = sp.sin(sp.pi * X / 2) if axial == "sine" else (3 * X - X**3) / 2
+    if axial.elongation is not None:
         # Eqs. 67 and 68, with m = L = 1 and EA = 1/μ.
-        elongation = MU * _W**2 / 3 * phi_omega
+        elongation = MU * _W**2 / 3 * axial.elongation(X, sp)[0]
     u += elongation
 
     # Velocity in the turning frame, Eqs. 30 and 77, and twice the kinetic energy density.

@@ -174,9 +174,9 @@ def _rational_table(number: int) -> PaperTable:
     # sympy is loaded only where exact forms are asked for.
     import sympy as sp  # type: ignore[import-untyped]  # noqa: PLC0415
 
-    from .symbolic import OMEGA, X, exact_forms  # noqa: PLC0415
+    from .symbolic import OMEGA, X, symbolic_forms  # noqa: PLC0415
 
-    forms = exact_forms(static_deflection(number + 2), "inextensible")
+    forms = symbolic_forms(static_deflection(number + 2), "inextensible")
     derived = {
         name: sp.sqrt(forms.omega_0_squared) if name == "omega_0" else getattr(forms, name)
         for name in _RATIONAL[number]

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from .lagrangian import AXIAL_MODELS, Axial
+from .axial import Axial, axial_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, Shape, static_deflection
 
@@ -36,7 +36,7 @@ class Variant:
     shape : str
         "cantilever", "rotating", or the degree of a static deflection: "3", "4", "5".
     axial : str
-        One of `energies.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
+        One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
         Whether the other bending modes are eliminated to cubic order; rotating mode only.
     """
@@ -47,8 +47,7 @@ class Variant:
     coriolis: bool = False
 
     def __post_init__(self) -> None:
-        if self.axial not in AXIAL_MODELS:
-            raise ValueError(f"axial must be one of {', '.join(AXIAL_MODELS)}, got {self.axial!r}")
+        axial_model(self.axial)
         if self.shape not in {"cantilever", "rotating", "3", "4", "5"}:
             raise ValueError(f"shape must be cantilever, rotating, 3, 4 or 5, got {self.shape!r}")
         if self.coriolis and self.shape != "rotating":

@@ -141,7 +141,7 @@ def _from_the_peak(
 
 def _from_exact_peak(backbone: Backbone, time: FloatArray) -> tuple[FloatArray, FloatArray]:
     """X = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
-    x, rate = backbone.orbit(0, 400)
+    x, rate = backbone.orbit(0, 401)
     period = 2.0 * np.pi / backbone.frequency[0]
     samples = np.linspace(0.0, period, x.size)
     at = (backbone.peak_time[0] + time) % period

@@ -156,7 +156,7 @@ def test_large_amplitudes_are_reached(beam):
 
 def test_orbit_response_and_state_tell_the_same(beam):
     b = periodic_orbits(beam, 4.0, [0.3])
-    x, rate = b.orbit(0, 400)
+    x, rate = b.orbit(0, 401)
     tau = np.linspace(0.0, 2.0 * np.pi * beam.frequency_scale / b.frequency[0], 401)
     assert x[0] == pytest.approx(0.0, abs=1e-15)
     assert x == pytest.approx(-x[::-1], abs=1e-13)  # (v, t) → (-v, -t)

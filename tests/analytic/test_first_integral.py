@@ -9,7 +9,7 @@ from scipy.special import ellipk
 
 from analytic import VARIANTS, Beam, reduced_model
 from analytic.reduced.model import model_at
-from analytic.reduced.oscillator import exact_frequency, largest_amplitude, orbit
+from analytic.reduced.oscillator import Oscillator
 
 BEAM = Beam.reference()
 
@@ -28,7 +28,8 @@ def test_duffing_by_elliptic_integrals(g1, a):
     w = 2.0
     inertia_free = w**2 + g1 * a**2
     expected = math.pi * math.sqrt(inertia_free) / (2 * ellipk(g1 * a**2 / (2 * inertia_free)))
-    assert float(exact_frequency(np.array(a), w, g1, 0.0)) == pytest.approx(expected, rel=1e-14)
+    found = Oscillator(w_n=w, g1=g1, g2=0.0).exact_frequency(np.array(a))
+    assert float(found) == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -52,9 +53,8 @@ def test_period_by_integration_in_time(g1, g2, a):
         events=crossing,
     )
     quarter = run.t_events[0][0]
-    assert float(exact_frequency(np.array(a), w_n, g1, g2)) == pytest.approx(
-        0.5 * math.pi / quarter, rel=1e-10
-    )
+    found = Oscillator(w_n=w_n, g1=g1, g2=g2).exact_frequency(np.array(a))
+    assert float(found) == pytest.approx(0.5 * math.pi / quarter, rel=1e-10)
 
 
 @pytest.mark.parametrize("variant", list(VARIANTS))
@@ -87,7 +87,7 @@ def test_orbit_conserves_the_first_integral_and_closes():
     inside = np.abs(run.y[0]) < 0.15
     on_orbit = np.interp(
         run.y[0][inside & (run.y[1] < 0)],
-        *(s[:51][::-1] for s in orbit(0.2, 101, model.w_n, model.g1, model.g2)),
+        *(s[:51][::-1] for s in model.oscillator.orbit(0.2, 101)),
     )
     # Linear interpolation between 50 points of an arc: (π/50)²/8 of the speed.
     np.testing.assert_allclose(run.y[1][inside & (run.y[1] < 0)], on_orbit, rtol=1e-3)
@@ -100,12 +100,12 @@ def test_frequency_of_vanishing_amplitude_is_natural():
 
 
 def test_frequency_dies_at_the_separatrix():
-    w_n, g1, g2 = 3.0, -20.0, 1.0
-    edge = largest_amplitude(w_n, g1, g2)
+    oscillator = Oscillator(w_n=3.0, g1=-20.0, g2=1.0)
+    edge = oscillator.largest_amplitude
     assert edge == pytest.approx(3.0 / math.sqrt(20.0), rel=1e-6)
     # Logarithmically: 1 - (a/edge)² of 1e-2, 1e-4 and 1e-6.
     near = np.array([edge * math.sqrt(1 - gap) for gap in (1e-2, 1e-4, 0.0)])
-    periods = 1.0 / exact_frequency(near, w_n, g1, g2)
+    periods = 1.0 / oscillator.exact_frequency(near)
     steps = np.diff(periods)
     assert (steps > 0).all()
     assert steps[1] == pytest.approx(steps[0], rel=0.05)

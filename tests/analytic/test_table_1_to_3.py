@@ -8,7 +8,8 @@ import sympy as sp
 from analytic import Beam, paper_table, reduced_model
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.shapes import static_deflection
-from analytic.reduced.symbolic import MU, OMEGA, X, exact_forms
+from analytic.reduced.symbolic import MU, OMEGA, X
+from analytic.reduced.symbolic import symbolic_forms as exact_forms
 
 
 def forms(degree):

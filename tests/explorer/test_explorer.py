@@ -93,7 +93,7 @@ def test_curves_lie_where_the_axes_say(open_page, url, at, drawn, beam, data, om
 def test_orbits_are_those_of_the_api(open_page, url, at, drawn, beam, omega, a):
     page = open_page(url)
     at(page, omega, a)
-    orbit = periodic_orbits(beam, omega, [a]).orbit(0, 120)
+    orbit = periodic_orbits(beam, omega, [a]).orbit(0, 121)
     for wanted, found in zip(orbit, drawn(page, "orbit", "path[data-model=exact]"), strict=True):
         np.testing.assert_allclose(found, wanted, atol=1e-3 * np.abs(wanted).max())
     model = reduced_model(beam, omega, "FrI")
@@ -113,7 +113,7 @@ def test_exact_orbit_to_the_digits_shown(open_page, url, at, beam):
     found = page.evaluate(
         "[...Array(13).keys()].map(k => exactState(state.w, state.a, k*Math.PI/6))"
     )
-    wanted = np.transpose(periodic_orbits(beam, 6.0, [0.6]).orbit(0, 12))
+    wanted = np.transpose(periodic_orbits(beam, 6.0, [0.6]).orbit(0, 13))
     # Four digits are shown; single precision and the harmonics left out stay below a tenth.
     np.testing.assert_allclose(found, wanted, atol=5e-6)
 
