@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 
 from analytic import Beam
 from rotbeam_exu import critical_speed, figures
-from rotbeam_exu.stability import critical_speeds
+from rotbeam_exu.fem.stability import critical_speeds
 
 beam = Beam.reference()
 two = {frame: critical_speed(beam, 2, frame) for frame in ("tangent", "pinned")}

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 
 from analytic import Beam, linear_modes
 from rotbeam_exu import natural_frequencies
-from rotbeam_exu.elements import Ancf3
+from rotbeam_exu.fem.elements import Ancf3
 
 beam, omega, meshes = Beam.reference(), 6.0, [3, 4, 8, 16, 32]
 exact = linear_modes(beam, omega, 1).frequencies[0]

@@ -21,6 +21,10 @@ SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
 
 
+class NoOscillationError(ValueError):
+    """A run whose oscillation cannot be measured; the sentence says why, and what would do."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class SteadyOscillation:
     """Periodic part of the tip displacement after the spin-up.
@@ -79,10 +83,10 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     ------
     TypeError
         If `run` is not a Dataset.
-    ValueError
-        If something is missing, not finite or out of order; if the tip does not oscillate; if the
-        window holds fewer than two cycles, or fewer than 20 samples a cycle; if the frequency is
-        not within half and twice ω_n. The sentence says what would do.
+    NoOscillationError
+        A ValueError, if something is missing, not finite or out of order; if the tip does not
+        oscillate; if the window holds fewer than two cycles, or fewer than 20 samples a cycle; if
+        the frequency is not within half and twice ω_n. The sentence says what would do.
     """
     time, x, ramp_time = _steady_part(run)
     omega_n = _natural_frequency(run)
@@ -123,14 +127,14 @@ def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
     for name, values in (("time", time), ("q", q)):
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
-            raise ValueError(
+            raise NoOscillationError(
                 f"{name} is not finite in {bad.size} of {values.size} samples, first in number "
                 f"{bad[0]}: leave them out, as run.isel(time=np.isfinite(run[{name!r}]).values)"
             )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         k = int(back[0])
-        raise ValueError(
+        raise NoOscillationError(
             f"time must increase, but sample {k + 1} is at {time[k + 1]:g} after {time[k]:g}: "
             "take run.sortby('time').drop_duplicates('time')"
         )
@@ -139,7 +143,7 @@ def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
     steady = time >= ramp_time - slack
     if steady.sum() < SAMPLES:
         last = f", the last at {time[-1]:g} s" if time.size else ""
-        raise ValueError(
+        raise NoOscillationError(
             f"q has {steady.sum()} samples after the ramp, which ends at {ramp_time:g} s{last}; "
             f"{2 * SAMPLES} at least are needed: run for longer, or sample more often"
         )
@@ -159,19 +163,19 @@ def _check_form(run: xr.Dataset) -> None:
         f"attribute {name}" for name in ("ramp_time", "beam_length") if name not in run.attrs
     ]
     if missing:
-        raise ValueError(
+        raise NoOscillationError(
             f"the run has no {' and no '.join(missing)}: give q over time, and "
             "run.attrs ramp_time (0 if there is none) and beam_length"
         )
     if run["q"].dims != ("time",) or run["time"].dims != ("time",):
         dims = ", ".join(map(str, run["q"].dims))
-        raise ValueError(
+        raise NoOscillationError(
             f"q must run over time alone, it has the dimensions {dims}"
             ": choose one run by run.isel or run.sel"
         )
     for name in ("time", "q"):
         if run[name].dtype.kind not in "fiu":
-            raise ValueError(f"{name} must hold real numbers, not {run[name].dtype}")
+            raise NoOscillationError(f"{name} must hold real numbers, not {run[name].dtype}")
 
 
 def _natural_frequency(run: xr.Dataset) -> float | None:
@@ -199,7 +203,7 @@ def _frequency_guess(
     """Frequency from the zero crossings between samples well above and well below the middle."""
     height = float(np.ptp(x))
     if height <= 1e-12:
-        raise ValueError(
+        raise NoOscillationError(
             f"the tip does not oscillate: after the ramp q stays within {height:.1g} of the "
             "length: take an omega other than zero, or a shorter ramp"
         )
@@ -209,7 +213,7 @@ def _frequency_guess(
     turns = np.flatnonzero(np.diff(np.sign(centered[clear])))
     if turns.size < 2:
         enough = 6.0 * math.pi / omega_n if omega_n else 4.0 * float(time[-1])
-        raise ValueError(
+        raise NoOscillationError(
             f"the tip does not oscillate within the {time[-1]:.3g} s after the ramp: "
             + (
                 f"run for {ramp_time + enough:.3g} s or longer"
@@ -230,7 +234,7 @@ def _cycles(window: float, frequency: float) -> int:
 def _check_cycles(window: float, frequency: float, ramp_time: float) -> None:
     cycles = _cycles(window, frequency)
     if cycles < 2:
-        raise ValueError(
+        raise NoOscillationError(
             f"the steady window of {window:.3g} s holds {cycles} whole cycles of "
             f"{frequency:.4g} rad/s, two are needed: run for "
             f"{ramp_time + 5.0 * math.pi / frequency:.3g} s or longer"
@@ -246,7 +250,7 @@ def _check_samples(time: FloatArray, frequency: float, whose: str) -> None:
     """Refuse samples so far apart that the oscillation could be a faster one in disguise."""
     samples = _samples(time, frequency)
     if samples < 0.99 * SAMPLES:
-        raise ValueError(
+        raise NoOscillationError(
             f"the samples are up to {np.diff(time).max():.3g} s apart, {samples:.3g} a period of "
             f"the {frequency:.4g} rad/s {whose}: what they show may be a faster oscillation in "
             f"disguise; {SAMPLES} a period are needed, sample every "
@@ -256,7 +260,7 @@ def _check_samples(time: FloatArray, frequency: float, whose: str) -> None:
 
 def _check_frequency(frequency: float, omega_n: float | None) -> None:
     if omega_n is not None and not 0.5 <= frequency / omega_n <= 2.0:
-        raise ValueError(
+        raise NoOscillationError(
             f"the frequency found, {frequency:.4g} rad/s, is {frequency / omega_n:.3g} times the "
             f"beam's natural frequency, {omega_n:.4g} rad/s: the element, its mesh or the step are "
             "wrong, or the run's attributes are of another beam"

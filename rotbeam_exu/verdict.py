@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -66,6 +66,11 @@ def beam_of(attrs: Mapping[Any, Any]) -> Beam:
     return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
 
 
+def beam_attributes(beam: Beam) -> dict[str, float]:
+    """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
+    return {f"beam_{name}": value for name, value in asdict(beam).items()}
+
+
 def remedy(run: xr.Dataset, t: float) -> str:
     """Return what to try after a run that went wrong at `t` [s].
 
@@ -105,7 +110,7 @@ def remedy(run: xr.Dataset, t: float) -> str:
     return smaller
 
 
-def judge(run: xr.Dataset) -> str:
+def check_run(run: xr.Dataset) -> str:
     """Return "passed", or raise with the first bad time, the number and the remedy.
 
     Parameters

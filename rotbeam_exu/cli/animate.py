@@ -11,8 +11,8 @@ from rich.progress import Progress
 from analytic import Beam, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..config import load_beam
-from ..storage import whole_file, writable_folder
+from ..files.beam_file import load_beam
+from ..files.results import whole_file, writable_folder
 from .cost import require_affordable
 from .motion import chosen_motion, chosen_times, slower_than_paper
 from .options import Whole

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
 
-from ..config import load_beam
+from ..files.beam_file import load_beam
 from .cost import require_affordable
 from .options import Whole
 from .output import Format, print_columns

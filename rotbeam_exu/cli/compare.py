@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import comparison
-from ..storage import save, save_tables, writable_folder
+from ..files.results import save, save_tables, writable_folder
 from .options import Jobs
 from .output import new_console, print_columns
 from .sweep import counter

@@ -6,7 +6,7 @@ import time
 
 from analytic import Beam, SpinUp
 
-from ..simulation import simulate, versions
+from ..fem.simulation import simulate, versions
 from .output import new_console
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from rich.progress import Progress
 
 from ..explorer import explorer_page
-from ..storage import whole_file, writable_folder
+from ..files.results import whole_file, writable_folder
 from .options import Jobs
 from .output import new_console
 from .targets import Force, refuse_to_replace_unread, telling_what_is_kept

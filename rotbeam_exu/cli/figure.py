@@ -10,7 +10,7 @@ from rich.console import Console
 
 from .. import comparison, figures
 from ..figures.captions import CAPTIONS
-from ..storage import save, save_tables, whole_file, writable_folder
+from ..files.results import save, save_tables, whole_file, writable_folder
 from .options import Jobs
 from .output import new_console
 from .sweep import counter

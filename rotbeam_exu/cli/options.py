@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from ..elements import Formulation, formulation
+from ..fem.elements import Formulation, formulation
 
 
 def _whole(_: Any, tokens: Sequence[Token]) -> int:

@@ -12,13 +12,13 @@ from rich.progress import Progress
 from analytic import Beam
 from analytic.input_checks import RotbeamWarning
 
-from ..cases import Case
-from ..config import load_beam
-from ..linearization import natural_frequencies
+from ..fem.case import Case
+from ..fem.linearization import natural_frequencies
+from ..fem.simulation import run_case
+from ..fem.solver import Frame
+from ..files.beam_file import load_beam
+from ..files.results import save, writable_folder
 from ..oscillation import SteadyOscillation, steady_oscillation
-from ..simulation import simulate
-from ..solver import Frame
-from ..storage import save, writable_folder
 from ..verdict import SimulationError, energy_drift
 from .assessment import Assessment, assess
 from .motion import chosen_motion, refuse_rest
@@ -126,16 +126,7 @@ def run(
 def _computed(case: Case, console: Console) -> xr.Dataset:
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("spinning up", total=1.0)
-        return simulate(
-            case.beam,
-            case.spin_up,
-            element=case.element,
-            elements=case.elements,
-            duration=case.duration,
-            step=case.step,
-            frame=case.frame,
-            progress=lambda done: bar.update(task, completed=done),
-        )
+        return run_case(case, progress=lambda done: bar.update(task, completed=done))
 
 
 def _saved(data: xr.Dataset, folder: Path, name: str) -> list[Path]:
@@ -147,7 +138,7 @@ def _line(console: Console, title: str, text: str) -> None:
 
 
 def _print_inputs(console: Console, case: Case, element: str) -> None:
-    beam, spin_up = case.beam, case.spin_up
+    beam = case.beam
     _line(
         console,
         "beam",
@@ -158,8 +149,8 @@ def _print_inputs(console: Console, case: Case, element: str) -> None:
     _line(
         console,
         "spin-up",
-        f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s "
-        f"(Ω = {spin_up.omega / beam.omega_0:.4f})",
+        f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
+        f"(Ω = {case.omega / beam.omega_0:.4f})",
     )
     _line(
         console,

@@ -17,15 +17,15 @@ from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedC
 from analytic import Beam, SpinUp
 from analytic.input_checks import positive, whole_number
 
-from ..cases import Case
-from ..cluster import dask_executor
 from ..comparison.backbones import PAPER_RAMP_TIMES
 from ..comparison.theory import PAPER_SPEEDS
-from ..config import load_beam
-from ..solver import Frame
-from ..storage import save, writable_folder
-from ..sweeps import failures
-from ..sweeps import sweep as run_sweep
+from ..fem.case import Case
+from ..fem.solver import Frame
+from ..files.beam_file import load_beam
+from ..files.results import save, writable_folder
+from ..sweeps.dask import dask_executor
+from ..sweeps.grid import failures
+from ..sweeps.grid import sweep as run_sweep
 from .cost import require_affordable
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, refuse_rest
 from .options import Jobs, Whole, chosen_formulation, label

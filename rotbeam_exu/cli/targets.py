@@ -10,7 +10,7 @@ from typing import Annotated
 import xarray as xr
 from cyclopts import Parameter
 
-from ..storage import differing_inputs
+from ..files.results import differing_inputs
 
 Force = Annotated[bool, Parameter(negative=())]
 """Replace files even if they hold what other inputs gave."""

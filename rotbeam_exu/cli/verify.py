@@ -11,17 +11,16 @@ from rich.progress import track
 
 from analytic.input_checks import positive
 
-from ..elements import FORMULATIONS, formulation
-from ..peers import PEERS, Entry, peer
-from ..verification import (
+from ..fem.elements import FORMULATIONS, formulation
+from ..verification.entries import entries_at_hand, formulation_entry
+from ..verification.measures import (
     LADDER,
     THRESHOLDS,
     Measure,
     cost_at_error,
-    entries_at_hand,
-    formulation_entry,
 )
-from ..verification import verify as judge
+from ..verification.measures import verify as verification_of
+from ..verification.peers import PEERS, Entry, peer
 from .output import new_console, print_columns
 
 
@@ -63,7 +62,7 @@ def _print_verdicts(console: Console, entries: tuple[Entry, ...]) -> None:
     }  # fmt: skip
     rows, notes = [], []
     for entry in _tracked(console, entries):
-        found = judge(entry)
+        found = verification_of(entry)
         cells = (_cell(found.measures[name]) for name in headers)
         verdict = "passed" if found.passed else "falls short"
         rows.append([found.name, f"{found.elements}", *cells, verdict])

@@ -10,8 +10,8 @@ import xarray as xr
 
 from analytic import Beam, periodic_orbits, reduced_model
 
-from ..solver import Frame
-from ..sweeps import sweep
+from ..fem.solver import Frame
+from ..sweeps.grid import sweep
 from .theory import PAPER_SPEEDS, beyond_range
 
 PAPER_RAMP_TIMES = (3.375, 3.25, 3.0, 2.75, 2.5, 2.0)

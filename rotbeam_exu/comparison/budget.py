@@ -13,7 +13,7 @@ import xarray as xr
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 
-from ..sweeps import sweep
+from ..sweeps.grid import sweep
 from .backbones import MODELS, PAPER_RAMP_TIMES, finite_element_points
 from .theory import PAPER_SPEEDS, beyond_range
 

@@ -12,8 +12,8 @@ from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.reduced.model import ReducedModel
 
+from ..fem.simulation import simulate
 from ..oscillation import steady_oscillation
-from ..simulation import simulate
 from .backbones import MODELS
 from .theory import beyond_range
 

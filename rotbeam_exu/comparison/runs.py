@@ -10,7 +10,7 @@ import xarray as xr
 
 from analytic import Beam, SpinUp
 
-from ..simulation import simulate
+from ..fem.simulation import simulate
 
 
 def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import itertools
-import multiprocessing
 import os
 import warnings
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
@@ -16,11 +14,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
-from analytic.input_checks import RotbeamWarning, whole_number
+from analytic.input_checks import RotbeamWarning
 
 from ..comparison.backbones import PAPER_RAMP_TIMES
 from ..comparison.theory import PAPER_SPEEDS, beyond_range
-from ..sweeps import sweep
+from ..sweeps.grid import sweep
+from ..sweeps.workers import worker_pool
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""
@@ -87,7 +86,7 @@ def explorer_data(
         if progress is not None:
             progress(next(done), total)
 
-    with _pool(executor, jobs) as pool:
+    with worker_pool(executor, jobs, total) as pool:
         exact = [pool.submit(_exact, beam, omega, tuple(amplitudes)) for omega in omegas]
         for future in exact:
             future.add_done_callback(one_more)
@@ -189,14 +188,3 @@ def _evenly(name: str, values: Sequence[float]) -> None:
         raise ValueError(
             f"{name} must ascend in equal steps, for a slider shows them, got {list(values)}"
         )
-
-
-@contextmanager
-def _pool(executor: Executor | None, jobs: int | None) -> Iterator[Executor]:
-    """Give the caller's executor, left open, or our own spawned processes, closed at the end."""
-    if executor is not None:
-        yield executor
-        return
-    workers = whole_number("jobs", jobs or os.cpu_count() or 1)
-    with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as own:
-        yield own

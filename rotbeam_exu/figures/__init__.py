@@ -2,7 +2,7 @@
 
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `critical_speed` what
-`rotbeam_exu.stability.critical_speeds` returns.
+`rotbeam_exu.fem.stability.critical_speeds` returns.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ def critical_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     data : Dataset
-        As made by `rotbeam_exu.stability.critical_speeds`.
+        As made by `rotbeam_exu.fem.stability.critical_speeds`.
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """

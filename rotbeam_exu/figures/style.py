@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..storage import whole_file
+from ..files.results import whole_file
 
 COLUMN = 3.5
 """Width of a journal's column [in]."""

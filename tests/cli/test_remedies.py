@@ -44,7 +44,7 @@ def test_at_rest_nothing_oscillates_and_a_speed_helps(call, tmp_path, monkeypatc
     import rotbeam_exu.cli.run as job
 
     with monkeypatch.context() as patch:
-        patch.setattr(job, "simulate", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(job, "run_case", lambda *_, **__: pytest.fail("computed first"))
         code, _, error = run(call, tmp_path, omega=0)
     assert code == 2
     assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error

@@ -19,7 +19,7 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
     with monkeypatch.context() as patch:
-        patch.setattr(job, "simulate", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(job, "run_case", lambda *_, **__: pytest.fail("computed first"))
         for options, sentence in (
             (("--step", "0.005"), "step 0.01 instead of 0.005"),
             (("--duration", "9"), "duration 8 instead of 9"),

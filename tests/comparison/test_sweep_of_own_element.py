@@ -10,8 +10,8 @@ import xarray as xr
 
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import sweep
-from rotbeam_exu.cases import maker
-from rotbeam_exu.elements import FORMULATIONS, Cable
+from rotbeam_exu.fem.elements import FORMULATIONS, Cable
+from rotbeam_exu.sweeps.measured import maker
 
 COARSE = {
     "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1,
@@ -19,7 +19,7 @@ COARSE = {
 
 MINE = """
 from dataclasses import dataclass, replace
-from rotbeam_exu.elements import Cable
+from rotbeam_exu.fem.elements import Cable
 from softness import SHARE
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +82,7 @@ def test_ours_are_cached_and_looking_at_their_code_imports_nothing():
     for name in FORMULATIONS:
         assert maker(name) is not None
     assert set(sys.modules) == before
-    assert maker("cable")["class"] == "rotbeam_exu.elements.cable.Cable"
+    assert maker("cable")["class"] == "rotbeam_exu.fem.elements.cable.Cable"
 
 
 @pytest.mark.slow

@@ -11,7 +11,7 @@ from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
 from analytic import SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
-from rotbeam_exu.elements import Cable, Chain
+from rotbeam_exu.fem.elements import Cable, Chain
 
 DOCS = Path(__file__).parents[2] / "docs"
 

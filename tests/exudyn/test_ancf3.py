@@ -6,9 +6,9 @@ from scipy import sparse
 
 from analytic import linear_modes
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
-from rotbeam_exu.elements import Ancf3, formulation
-from rotbeam_exu.elements.ancf3 import _Row
-from rotbeam_exu.linearization import mass_matrix
+from rotbeam_exu.fem.elements import Ancf3, formulation
+from rotbeam_exu.fem.elements.ancf3 import _Row
+from rotbeam_exu.fem.linearization import mass_matrix
 
 
 def first_frequency(beam, omega, element, elements):

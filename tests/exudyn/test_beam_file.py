@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from analytic import Beam
-from rotbeam_exu.config import load_beam
+from rotbeam_exu.files.beam_file import load_beam
 
 GOOD = """[beam]
 length = 8.0

@@ -117,7 +117,7 @@ def test_bad_arguments_exit_with_2_and_one_sentence(tmp_path, capsys, arguments,
 def test_an_unwritable_folder_is_found_before_the_simulation(tmp_path, capsys, monkeypatch):
     import rotbeam_exu.cli.run as job
 
-    monkeypatch.setattr(job, "simulate", lambda *_, **__: pytest.fail("simulated first"))
+    monkeypatch.setattr(job, "run_case", lambda *_, **__: pytest.fail("simulated first"))
     (tmp_path / "file").write_text("")
     code, error = refused(capsys, "run", "--out", str(tmp_path / "file"))
     assert code == 2

@@ -7,7 +7,7 @@ import pytest
 
 from analytic import Beam, SpinUp, linear_modes
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
-from rotbeam_exu.elements import Exact, formulation
+from rotbeam_exu.fem.elements import Exact, formulation
 from rotbeam_exu.verdict import energy_drift
 
 THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotbeam_exu.elements import FORMULATIONS, Ancf3, Exact, formulation
-from rotbeam_exu.elements.formulation import turned, turned_velocities
+from rotbeam_exu.fem.elements import FORMULATIONS, Ancf3, Exact, formulation
+from rotbeam_exu.fem.elements.formulation import turned, turned_velocities
 
 MODELS = [*(formulation(name) for name in FORMULATIONS), Exact(nodes=3), Ancf3(law="coupled")]
 

@@ -5,7 +5,7 @@ import pytest
 
 from analytic import SteadyRotation, periodic_orbits
 from rotbeam_exu import simulate
-from rotbeam_exu.elements import Ancf3, Exact, Substructures
+from rotbeam_exu.fem.elements import Ancf3, Exact, Substructures
 
 
 @pytest.mark.parametrize(

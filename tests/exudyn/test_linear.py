@@ -6,8 +6,8 @@ import pytest
 from analytic import SpinUp
 from rotbeam_exu import SimulationError, growth_rate, natural_frequencies, simulate
 from rotbeam_exu import steady_oscillation as steady
-from rotbeam_exu.elements import Linear, formulation
-from rotbeam_exu.linearization import mass_matrix
+from rotbeam_exu.fem.elements import Linear, formulation
+from rotbeam_exu.fem.linearization import mass_matrix
 
 
 def test_at_rest_it_is_the_cable(beam):

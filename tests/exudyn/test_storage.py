@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from analytic import Beam, SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import load, save, simulate
-from rotbeam_exu.storage import differing_inputs, save_tables, whole_file, writable_folder
+from rotbeam_exu.files.results import differing_inputs, save_tables, whole_file, writable_folder
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,9 @@ import pytest
 from analytic import SpinUp, linear_modes
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import SimulationError, critical_speed, growth_rate, natural_frequencies, simulate
-from rotbeam_exu.elements import Substructures, formulation
-from rotbeam_exu.elements.linear_frames import FrameRow
-from rotbeam_exu.stability import critical_speeds
+from rotbeam_exu.fem.elements import Substructures, formulation
+from rotbeam_exu.fem.elements.linear_frames import FrameRow
+from rotbeam_exu.fem.stability import critical_speeds
 
 
 @pytest.mark.parametrize("frame", ["tangent", "pinned"])

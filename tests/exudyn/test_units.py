@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from analytic import Beam, SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_stretch
-from rotbeam_exu.units import Units
+from rotbeam_exu.fem.units import Units
 
 STEEL_BAR = Beam(
     length=2.0, area=2.5e-3, second_moment=5.2083e-7, youngs_modulus=2.1e11, density=7850.0

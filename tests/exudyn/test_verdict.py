@@ -8,7 +8,7 @@ import pytest
 
 from analytic import SpinUp
 from rotbeam_exu import SimulationError, simulate
-from rotbeam_exu.verdict import judge
+from rotbeam_exu.verdict import check_run
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def broken(run, name, change, first=50):
 
 
 def test_a_good_run_passes(good):
-    assert judge(good) == "passed"
+    assert check_run(good) == "passed"
     assert good.attrs["verdict"] == "passed"
 
 
@@ -39,7 +39,7 @@ def test_a_good_run_passes(good):
 )
 def test_a_broken_run_names_time_number_and_remedy(good, name, change, sentence):
     with pytest.raises(SimulationError, match=sentence) as failure:
-        judge(broken(good, name, change))
+        check_run(broken(good, name, change))
     assert "take a smaller step than 0.002 s" in str(failure.value)
 
 
@@ -47,12 +47,12 @@ def test_energy_that_drifts_in_steady_rotation_fails(good):
     leak = np.linspace(0.0, 2.0, good.sizes["time"])
     run = good.assign(jacobi_energy=good["jacobi_energy"] - leak)
     with pytest.raises(SimulationError, match="drift of the steady Jacobi"):
-        judge(run)
+        check_run(run)
 
 
 def test_a_run_that_stopped_early_fails(good):
     with pytest.raises(SimulationError, match=r"stopped at t = 1.992 s of 6 s"):
-        judge(good.isel(time=slice(0, 250)))
+        check_run(good.isel(time=slice(0, 250)))
 
 
 @pytest.mark.slow

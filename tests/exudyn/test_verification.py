@@ -6,9 +6,10 @@ import xarray as xr
 
 from analytic import spin_up_response
 from rotbeam_exu.cli import main
-from rotbeam_exu.elements import Exact
-from rotbeam_exu.peers import Entry, peer
-from rotbeam_exu.verification import THRESHOLDS, cost_at_error, formulation_entry, verify
+from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.verification.entries import formulation_entry
+from rotbeam_exu.verification.measures import THRESHOLDS, cost_at_error, verify
+from rotbeam_exu.verification.peers import Entry, peer
 
 
 def truth(beam, spin_up, duration):
@@ -79,7 +80,7 @@ def test_a_formulation_passes():
 
 @pytest.mark.slow
 def test_the_locking_law_falls_short():
-    from rotbeam_exu.elements import Ancf3
+    from rotbeam_exu.fem.elements import Ancf3
 
     found = verify(formulation_entry(Ancf3(law="coupled")))
     for name in ("linear frequency", "nonlinear frequency", "history"):

@@ -5,7 +5,7 @@ import pytest
 
 from analytic import spin_up_response
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu.peers import NotInstalledError, installed, peer
+from rotbeam_exu.verification.peers import NotInstalledError, installed, peer
 
 needs_kratos = pytest.mark.skipif(
     not installed("kratos"), reason="KratosMultiphysics is not installed (the extra `peers`)"
@@ -19,8 +19,8 @@ def test_it_says_how_to_install_it():
 
 
 def test_the_command_line_says_so_too(capsys, monkeypatch):
-    from rotbeam_exu import peers
     from rotbeam_exu.cli import main
+    from rotbeam_exu.verification import peers
 
     monkeypatch.setattr(peers, "installed", lambda name: False)
     with pytest.raises(SystemExit) as stop:
@@ -60,7 +60,7 @@ def test_steps_that_did_not_converge_are_counted(beam, spin_up):
 
 @needs_kratos
 def test_bad_input(beam, spin_up):
-    from rotbeam_exu.peers import kratos
+    from rotbeam_exu.verification.peers import kratos
 
     with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
         kratos.simulate(beam, spin_up, elements=0)

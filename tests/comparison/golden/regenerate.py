@@ -6,7 +6,7 @@ Takes some minutes; look at the difference before committing it.
 from pathlib import Path
 
 from rotbeam_exu import comparison
-from rotbeam_exu.storage import save_tables
+from rotbeam_exu.files.results import save_tables
 
 if __name__ == "__main__":
     folder = Path(__file__).parent

@@ -1,7 +1,7 @@
 """Other codes beside ours: the protocol by which one is judged, and those that come with it.
 
-Anyone can have a code of their own judged by `rotbeam_exu.verification.verify`: write a function
-with the signature of `Code`, wrap it in an `Entry`, and read the verdict table::
+Anyone can have a code of their own judged by `rotbeam_exu.verification.measures.verify`: write a
+function with the signature of `Code`, wrap it in an `Entry`, and read the verdict table::
 
     def mine(beam, spin_up, *, elements, duration, step):
         ...                                   # spin the beam up; sample q [m] and q_dot [m/s]

@@ -33,7 +33,8 @@ def formulation(
     if element not in FORMULATIONS:
         names = ", ".join(repr(name) for name in FORMULATIONS)
         raise ValueError(
-            f"unknown element {element!r}; known are {names}; other codes are in rotbeam_exu.peers"
+            f"unknown element {element!r}; known are {names}; other codes are in "
+            "rotbeam_exu.verification.peers"
         )
     cls = FORMULATIONS[element]
     known = [field.name for field in dataclasses.fields(cls)]

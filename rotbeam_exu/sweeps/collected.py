@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .cases import MEASURED, Case
-from .simulation import versions
+from ..fem.case import Case
+from ..fem.simulation import versions
+from .measured import MEASURED
 
 
 def collect(

@@ -1,4 +1,4 @@
-"""The spin-up in Exudyn: `simulate` builds the beam, drives it with Eq. 1 and judges the run."""
+"""The spin-up in Exudyn: `simulate` builds, integrates, packs and checks a run."""
 
 from __future__ import annotations
 
@@ -7,28 +7,31 @@ import platform
 import time as clock
 import warnings
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
 import exudyn
 import numpy as np
 import xarray as xr
+from scipy import sparse
 
 from analytic import Beam, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
-from analytic.input_checks import RotbeamWarning, positive, whole_number
+from analytic.input_checks import RotbeamWarning
 from analytic.motion import Rotation
 
-from . import __version__, drive
-from .elements import Chain, Formulation, formulation, options_of
+from .. import __version__
+from ..verdict import SimulationError, check_run, remedy
+from . import drive
+from .case import Case
+from .elements import Chain, Formulation
 from .elements.formulation import spun, turned, turned_velocities
 from .linearization import mass_matrix, round_off
-from .resolution import checked_steps
-from .solver import Frame, Sensors, solve, solver_settings
+from .solver import Frame, Sensors, Trajectory, solve, solver_settings
+from .system import exudyn_system
 from .units import Units
-from .verdict import SimulationError, judge, remedy
 
 
 def simulate(
@@ -56,7 +59,7 @@ def simulate(
     spin_up : SpinUp or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, or constant from the start.
     element : str or Formulation
-        Beam formulation: a key of `rotbeam_exu.elements.FORMULATIONS`, or an instance with its
+        Beam formulation: a key of `rotbeam_exu.fem.elements.FORMULATIONS`, or an instance with its
         options, such as `Exact(nodes=3)`.
     elements : int
         Number of elements of equal length.
@@ -92,71 +95,88 @@ def simulate(
     KeyboardInterrupt
         On Ctrl-C, at the next step.
     """
-    model, elements = formulation(element), whole_number("elements", elements)
-    step, duration = positive("step", step, "s"), positive("duration", duration, "s")
-    ramp_time = spin_up.ramp_time if isinstance(spin_up, SpinUp) else 0.0
-    steps, every = checked_steps(beam, spin_up.omega, ramp_time, elements, duration, step)
-    if frame not in ("inertial", "rotating"):
-        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
-    warn_if_rpm(beam, spin_up.omega)
+    case = Case(
+        beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
+        step=step, frame=frame,
+    )  # fmt: skip
+    return run_case(case, initial_state=initial_state, progress=progress)
 
-    units = Units.of(beam, step)
-    unit_beam, rotation = units.beam(beam), units.rotation(spin_up)
-    critical_speed = model.critical_speed(beam, elements)
-    container = exudyn.SystemContainer()
-    mbs = container.AddSystem()
-    try:
-        chain = model.lay(mbs, unit_beam, elements)
-        mass = mass_matrix(model, unit_beam, elements)
-        if frame == "inertial":
-            drive.fix_root(mbs, chain, model)
-            drive.prescribe_rotation(mbs, chain, model, rotation)
-        else:
-            drive.fix_root(mbs, chain, model, direction=True)
-            drive.add_inertial_forces(mbs, chain, model, mass, rotation)
-        sensors = Sensors(mbs, chain)
-        start = None
-        if initial_state is not None:
-            x = np.linspace(0.0, 1.0, len(chain.nodes))
-            start = model.coordinates(x, units.state(initial_state(beam.length * x)))
-        _start(mbs, chain, model, rotation, frame, start)
-        mbs.Assemble()
-        settings, described = solver_settings(
-            steps, step / units.time, every, frame, round_off=round_off(unit_beam, elements)
-        )
+
+def run_case(
+    case: Case,
+    *,
+    initial_state: Callable[[FloatArray], BeamState] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return what `simulate` does, of a case."""
+    warn_if_rpm(case.beam, case.omega)
+    units = Units.of(case.beam, case.step)
+    with exudyn_system() as mbs:
+        built = _built(mbs, case, units, initial_state)
+        settings, described = _settings(case, units)
         started = clock.perf_counter()
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
-        time, coordinates, velocities, elastic = sensors.read()
-    finally:
-        # Systems are not collected by themselves: memory would grow from run to run.
-        mbs.Reset()
-        container.Reset()
-
-    # Counted, not added up: the times of the steps asked for.
-    time = step * np.rint(time * units.time / step)
-    run = _dataset(
-        units, unit_beam, model, mass, spin_up, frame, time, coordinates, velocities, elastic
-    )
+        trajectory = built.sensors.read()
+    run = _dataset(case, units, built.mass, trajectory)
     run.attrs = {
-        **{f"beam_{name}": value for name, value in asdict(beam).items()},
-        "omega": spin_up.omega,
-        "ramp_time": ramp_time,
-        "element": model.name,
-        "element_options": json.dumps(options_of(model)),
-        "critical_speed": critical_speed,
-        "elements": elements,
-        "duration": duration,
-        "step": step,
-        "frame": frame,
+        **case.describe(),
+        "critical_speed": case.model.critical_speed(case.beam, case.elements),
         "settings": json.dumps(described),
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
+    return _checked(run, cause)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Built:
+    """What is in an Exudyn system, ready to be solved."""
+
+    sensors: Sensors
+    mass: sparse.csr_array
+
+
+def _built(
+    mbs: exudyn.MainSystem,
+    case: Case,
+    units: Units,
+    initial_state: Callable[[FloatArray], BeamState] | None,
+) -> _Built:
+    """Lay the beam, drive its clamp, set its state and assemble."""
+    model, beam = case.model, units.beam(case.beam)
+    rotation = units.rotation(case.spin_up)
+    chain = model.lay(mbs, beam, case.elements)
+    mass = mass_matrix(model, beam, case.elements)
+    if case.frame == "inertial":
+        drive.fix_root(mbs, chain, model)
+        drive.prescribe_rotation(mbs, chain, model, rotation)
+    else:
+        drive.fix_root(mbs, chain, model, direction=True)
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
+    sensors = Sensors(mbs, chain)
+    start = None
+    if initial_state is not None:
+        x = np.linspace(0.0, 1.0, len(chain.nodes))
+        start = model.coordinates(x, units.state(initial_state(case.beam.length * x)))
+    _start(mbs, chain, model, rotation, case.frame, start)
+    mbs.Assemble()
+    return _Built(sensors=sensors, mass=mass)
+
+
+def _settings(case: Case, units: Units) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
+    steps, every = case.steps_and_sampling
+    floor = round_off(units.beam(case.beam), case.elements)
+    return solver_settings(steps, case.step / units.time, every, case.frame, round_off=floor)
+
+
+def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
+    """Return the run with its verdict, or raise with the run attached."""
     try:
-        run.attrs["verdict"] = judge(run)
+        run.attrs["verdict"] = check_run(run)
         if cause is not None:
-            raise SimulationError(f"the solver gave up at its last step: {remedy(run, duration)}")
+            end = run.attrs["duration"]
+            raise SimulationError(f"the solver gave up at its last step: {remedy(run, end)}")
     except SimulationError as error:
         run.attrs["verdict"] = str(error)
         error.run = run
@@ -193,7 +213,7 @@ def _warn_above_critical_speed(run: xr.Dataset) -> None:
             f"{run.attrs['elements']} {run.attrs['element']!r} elements: their steady rotation is "
             "unstable, and what keeps the oscillation bounded is not the beam; take more elements",
             RotbeamWarning,
-            stacklevel=3,
+            stacklevel=5,
         )
 
 
@@ -203,24 +223,15 @@ def versions() -> dict[str, str]:
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
 
 
-def _dataset(
-    units: Units,
-    beam: Beam,
-    model: Formulation,
-    mass: Any,
-    spin_up: Rotation,
-    frame: Frame,
-    time: FloatArray,
-    coordinates: FloatArray,
-    velocities: FloatArray,
-    elastic: FloatArray,
-) -> xr.Dataset:
-    """Everything a run is asked for in SI units, from coordinates and a beam in units of its own.
-
-    Seen from the frame that turns with the clamp; `time` [s] and `spin_up` are in SI units.
-    """
-    angle, rate = spin_up.angle(time), units.time * spin_up.rate(time)
-    if frame == "inertial":
+def _dataset(case: Case, units: Units, mass: Any, trajectory: Trajectory) -> xr.Dataset:
+    """Everything a run is asked for in SI units, as seen from the frame of the clamp."""
+    model, beam = case.model, units.beam(case.beam)
+    # Counted, not added up: the times of the steps asked for.
+    time = case.step * np.rint(trajectory.time * units.time / case.step)
+    coordinates, velocities = trajectory.coordinates, trajectory.velocities
+    elastic = trajectory.elastic_energy
+    angle, rate = case.spin_up.angle(time), units.time * case.spin_up.rate(time)
+    if case.frame == "inertial":
         coordinates = turned(model, coordinates, -angle)
         absolute = turned_velocities(model, velocities, -angle)
     else:

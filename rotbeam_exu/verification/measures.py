@@ -16,11 +16,9 @@ from scipy.interpolate import CubicSpline
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 
-from .elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
-from .linearization import natural_frequencies
-from .oscillation import SteadyOscillation, steady_oscillation
-from .peers import PEERS, Entry, installed, peer
-from .simulation import simulate
+from ..oscillation import SteadyOscillation, steady_oscillation
+from ..verdict import beam_attributes
+from .peers import Entry
 
 SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
 """Speeds [rad/s] at which the first linear frequency is compared."""
@@ -99,42 +97,6 @@ class Verification:
             least = "at least" if m.name.startswith("order") else "at most"
             lines.append(f"  {m.name:<20}{text}" + (f"  ({least} {limit:g})" if limit else " s"))
         return "\n".join(lines)
-
-
-def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3) -> Entry:
-    """Return the entry of one of our formulations, named with the options that are not default."""
-    options = [
-        f"{field.name}={getattr(model, field.name)}"
-        for field in dataclasses.fields(model)  # type: ignore[arg-type]
-        if getattr(model, field.name) != field.default
-    ]
-
-    def spin(
-        beam: Beam, spin_up: SpinUp, *, elements: int, duration: float, step: float
-    ) -> xr.Dataset:
-        return simulate(
-            beam, spin_up, element=model, elements=elements, duration=duration, step=step
-        )
-
-    def first(beam: Beam, omega: float, elements: int) -> float:
-        return float(natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0])
-
-    return Entry(
-        name=" ".join([model.name, *options]),
-        simulate=spin,
-        first_frequency=first,
-        elements=elements,
-        step=step,
-    )
-
-
-def entries_at_hand() -> tuple[Entry, ...]:
-    """Return all formulations of ours worth a row, and the other codes that are installed."""
-    models: tuple[Formulation, ...] = (
-        Cable(), Exact(), Exact(nodes=3), Ancf3(), Ancf3(law="coupled"), Linear(), Substructures(),
-    )  # fmt: skip
-    ours = tuple(formulation_entry(model) for model in models)
-    return ours + tuple(peer(name) for name in PEERS if installed(name))
 
 
 def verify(
@@ -285,8 +247,7 @@ def _against_exact(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> list[Measure
 
 def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> SteadyOscillation:
     """Measure q, or fail as the code does, where q does not swing as this beam can."""
-    attrs = {f"beam_{name}": value for name, value in dataclasses.asdict(beam).items()}
-    attrs |= dataclasses.asdict(spin_up)
+    attrs = beam_attributes(beam) | dataclasses.asdict(spin_up)
     try:
         return steady_oscillation(xr.Dataset({"q": ("time", q)}, {"time": time}, attrs))
     except ValueError as error:

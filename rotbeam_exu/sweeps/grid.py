@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
-import signal
-import threading
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import Executor, Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from itertools import product
 from typing import Literal
 
@@ -21,12 +17,14 @@ import xarray as xr
 from analytic import Beam, SpinUp
 from analytic.input_checks import RotbeamWarning, finite_values, whole_number
 
+from ..fem.case import Case
+from ..fem.elements import Formulation, formulation
+from ..fem.solver import Frame
+from ..verdict import SimulationError
 from .cache import Cache
-from .cases import Case, maker, solve
-from .elements import Formulation, formulation
-from .measured import collect
-from .solver import Frame
-from .verdict import SimulationError
+from .collected import collect
+from .measured import maker, solve
+from .workers import worker_pool
 
 OnError = Literal["raise", "record"]
 
@@ -159,9 +157,10 @@ def _grid(
 
 
 def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
-    made_by = maker(element)
+    model = formulation(element)
+    made_by = maker(model)
     if made_by is None:
-        cls = type(formulation(element))
+        cls = type(model)
         warnings.warn(
             f"the source of {cls.__qualname__} does not tell what it does, so its cases are not "
             "kept in the cache; define it at the top level of a module on file",
@@ -192,7 +191,7 @@ def _solved(
         for point in waiting:
             yield point, _kept(store, cases[point], solve(cases[point]))
         return
-    with _pool(executor, jobs, len(waiting)) as pool:
+    with worker_pool(executor, jobs, len(waiting)) as pool:
         futures: dict[Future[xr.Dataset], tuple[float, float]] = {
             pool.submit(solve, cases[point]): point for point in waiting
         }
@@ -217,37 +216,3 @@ def _kept(store: Cache | None, case: Case, result: xr.Dataset) -> xr.Dataset:
     if store:
         store.put(case.describe(), result)
     return result
-
-
-@contextmanager
-def _pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Executor]:
-    """Give the caller's executor, left open, or our own spawned processes, closed at the end."""
-    if executor is not None:
-        yield executor
-        return
-    cores = os.cpu_count() or 1
-    workers = min(cores if jobs is None else jobs, most)
-    spawn = multiprocessing.get_context("spawn")
-    own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
-    try:
-        yield own
-    except BaseException:
-        # Do not wait for what nobody asks for any more.
-        for process in list(getattr(own, "_processes", None) or {}):
-            own._processes[process].terminate()
-        own.shutdown(wait=False, cancel_futures=True)
-        raise
-    own.shutdown()
-
-
-def _obey_parent() -> None:
-    """Leave Ctrl-C to the parent, and do not outlive it, should it be killed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-
-    def watch() -> None:
-        if parent is not None:
-            parent.join()
-            os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()

@@ -2,36 +2,63 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn
 import numpy as np
-from numpy.typing import NDArray
 from scipy import linalg, sparse
 
 from analytic import Beam, SteadyRotation
-from analytic.arrays import FloatArray
+from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_steady_state, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 
+from ..resolution import require_feasible, require_stretch, warn_if_coarse
+from ..verdict import SimulationError
 from . import drive
 from .elements import Formulation, formulation
-from .resolution import require_feasible, require_stretch, warn_if_coarse
+from .system import exudyn_system
 from .units import Units
-from .verdict import SimulationError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Linearization:
+    """The model about its rotating equilibrium, M ü + G u̇ + K u = 0, in the beam's units.
+
+    Attributes
+    ----------
+    mass, stiffness, gyroscopic : ndarray (n, n)
+        Of the free coordinates.
+    stretch : float
+        How far the rotation moves the tip.
+    """
+
+    mass: FloatArray
+    stiffness: FloatArray
+    gyroscopic: FloatArray
+    stretch: float
+
+    def inverse_eigenvalues(self) -> ComplexArray:
+        """Return 1/λ of λ² M + λ G + K = 0.
+
+        The lowest modes become the largest eigenvalues, which the axial modes, 10⁸ times stiffer,
+        then do not round off.
+        """
+        size = self.mass.shape[0]
+        companion = np.zeros((2 * size, 2 * size))
+        companion[:size, :] = -linalg.solve(self.stiffness, np.hstack([self.gyroscopic, self.mass]))
+        companion[size:, :size] = np.eye(size)
+        inverse = linalg.eigvals(companion, overwrite_a=True, check_finite=False)
+        return np.asarray(inverse, dtype=np.complex128)
 
 
 def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_array:
     """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
-    container = exudyn.SystemContainer()
-    mbs = container.AddSystem()
-    try:
+    with exudyn_system() as mbs:
         model.lay(mbs, beam, elements)
         mbs.Assemble()
         system: Any = mbs.ComputeLinearizedSystem(_static_settings(beam, elements))
-    finally:
-        mbs.Reset()
-        container.Reset()
     return sparse.csr_array(np.asarray(system[0]))
 
 
@@ -79,14 +106,14 @@ def mesh_frequencies(
 ) -> FloatArray:
     """Return what `natural_frequencies` does, of a mesh however coarse: its own ω_n."""
     whole_number("count", count)
-    _, system = _steady_state(beam, omega, element, elements)
-    name, modes = formulation(element).name, system[0].shape[0]
+    system = linearized(beam, omega, element, elements)
+    name, modes = formulation(element).name, system.mass.shape[0]
     if count > modes:
         raise ValueError(
             f"count = {count} is more than the {modes} modes of {elements} {name!r} "
             "elements; take more elements"
         )
-    inverse = _inverse_eigenvalues(*system)
+    inverse = system.inverse_eigenvalues()
     growth = _growth(inverse) / Units.of(beam).time
     if growth > 0.0:
         raise SimulationError(
@@ -106,27 +133,11 @@ def growth_rate(
     Zero for every element that describes large deformation; for the linear floating frame it is
     √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
     """
-    _, system = _steady_state(beam, omega, element, elements)
-    return _growth(_inverse_eigenvalues(*system)) / Units.of(beam).time
+    system = linearized(beam, omega, element, elements)
+    return _growth(system.inverse_eigenvalues()) / Units.of(beam).time
 
 
-def _inverse_eigenvalues(
-    mass: FloatArray, stiffness: FloatArray, gyroscopic: FloatArray
-) -> NDArray[np.complex128]:
-    """Return 1/λ of λ² M + λ G + K = 0.
-
-    The lowest modes become the largest eigenvalues, which the axial modes, 10⁸ times stiffer,
-    then do not round off.
-    """
-    size = mass.shape[0]
-    companion = np.zeros((2 * size, 2 * size))
-    companion[:size, :] = -linalg.solve(stiffness, np.hstack([gyroscopic, mass]))
-    companion[size:, :size] = np.eye(size)
-    inverse = linalg.eigvals(companion, overwrite_a=True, check_finite=False)
-    return np.asarray(inverse, dtype=np.complex128)
-
-
-def _growth(inverse: NDArray[np.complex128]) -> float:
+def _growth(inverse: ComplexArray) -> float:
     """Return the largest real part of λ beyond what round-off gives to undamped modes."""
     growing = inverse[inverse.real > 1e-6 * np.abs(inverse).max()]
     return float((1.0 / growing).real.max()) if growing.size else 0.0
@@ -140,17 +151,13 @@ def steady_stretch(
     To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67; the whole of it is
     tan(kL)/k - L with k = ω √(ρ/E), larger by the factor 1 + (2/5)(kL)².
     """
-    stretch, _ = _steady_state(beam, omega, element, elements)
-    return stretch * beam.length
+    return linearized(beam, omega, element, elements).stretch * beam.length
 
 
-def _steady_state(
+def linearized(
     beam: Beam, omega: float, element: str | Formulation, elements: int
-) -> tuple[float, tuple[FloatArray, FloatArray, FloatArray]]:
-    """Tip stretch, and mass, stiffness and gyroscopic matrix about the rotating equilibrium.
-
-    In the beam's units.
-    """
+) -> Linearization:
+    """Return the model about its equilibrium at ω [rad/s], refusing what has none."""
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
@@ -161,9 +168,7 @@ def _steady_state(
     require_stretch(beam)
     require_feasible(elements)
     mass = mass_matrix(model, unit_beam, elements)
-    container = exudyn.SystemContainer()
-    mbs = container.AddSystem()
-    try:
+    with exudyn_system() as mbs:
         chain = model.lay(mbs, unit_beam, elements)
         drive.fix_root(mbs, chain, model, direction=True)
         drive.add_inertial_forces(mbs, chain, model, mass, rotation)
@@ -178,11 +183,10 @@ def _steady_state(
             ) from error
         tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
         linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
-    finally:
-        mbs.Reset()
-        container.Reset()
     mass_projected, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-    return float(tip[0]), (mass_projected, stiffness, gyroscopic)
+    return Linearization(
+        mass=mass_projected, stiffness=stiffness, gyroscopic=gyroscopic, stretch=float(tip[0])
+    )
 
 
 def _static_settings(beam: Beam, elements: int) -> exudyn.SimulationSettings:

@@ -13,9 +13,9 @@ import xarray as xr
 
 from analytic.input_checks import RotbeamWarning
 
-from .round_trip import plain
-from .simulation import versions
-from .storage import read, save, whole_file, writable_folder
+from ..fem.simulation import versions
+from ..files.results import read, save, whole_file, writable_folder
+from ..files.round_trip import plain
 
 _FORMAT = 2
 _MARK = "rotbeam-cache.json"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
@@ -11,21 +10,19 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
-from analytic import Beam, BeamState
+from analytic import Beam
 from analytic.arrays import FloatArray
 
-from .formulation import QUARTER_TURN, Chain, NoCriticalSpeed, positions_and_slopes
+from .formulation import Chain, NoCriticalSpeed
+from .node_kinds import SlopeNodes
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cable(NoCriticalSpeed):
+class Cable(SlopeNodes, NoCriticalSpeed):
     """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|²."""
 
     name: ClassVar[str] = "cable"
     summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
-    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
-    angles: ClassVar[FloatArray] = np.zeros(4)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add `elements` cables of equal length along the x axis."""
@@ -49,14 +46,6 @@ class Cable(NoCriticalSpeed):
             for pair in pairwise(nodes)
         )
         return Chain(nodes=nodes, bodies=bodies)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
-        return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
-
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and slopes, and their rates."""
-        return positions_and_slopes(x, state)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""

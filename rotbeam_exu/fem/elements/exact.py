@@ -9,15 +9,16 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
 
-from analytic import Beam, BeamState
+from analytic import Beam
 from analytic.arrays import FloatArray
 
-from .formulation import Chain, NoCriticalSpeed, section_angle
+from .formulation import Chain, NoCriticalSpeed
+from .node_kinds import AngleNodes
 from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exact(NoCriticalSpeed):
+class Exact(AngleNodes, NoCriticalSpeed):
     """ObjectBeamGeometricallyExact2D: nodes carry r and the angle φ of the section.
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
@@ -38,9 +39,6 @@ class Exact(NoCriticalSpeed):
 
     name: ClassVar[str] = "exact"
     summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
-    quarter_turn: ClassVar[FloatArray] = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0] * 3])
-    angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
 
     def __post_init__(self) -> None:
         if self.nodes not in (2, 3):
@@ -67,16 +65,6 @@ class Exact(NoCriticalSpeed):
                 )
             )
         return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """φ = θ: the root's angle is a coordinate."""
-        return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
-
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and the angle of sections normal to the axis, and their rates."""
-        angle, rate = section_angle(state)
-        values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar, Literal
@@ -11,11 +10,12 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 
-from analytic import Beam, BeamState
+from analytic import Beam
 from analytic.arrays import FloatArray
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, NoCriticalSpeed, section_angle
+from .formulation import Chain, NoCriticalSpeed
+from .node_kinds import SectionSlopeNodes
 from .section import POISSON_RATIO, checked_shear, rectangle, shear_modulus
 
 Law = Literal["uncoupled", "coupled"]
@@ -37,7 +37,7 @@ _FORMS = _quadratic_forms()
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ancf3(NoCriticalSpeed):
+class Ancf3(SectionSlopeNodes, NoCriticalSpeed):
     """García-Vallejo, Mikkola and Escalona's element (2007), in its plane form; Eqs. 2-12.
 
     Nodes carry r and the section's slope r_y = ∂r/∂y (Eq. 2, whose three slopes are those of the
@@ -64,9 +64,6 @@ class Ancf3(NoCriticalSpeed):
 
     name: ClassVar[str] = "ancf3"
     summary: ClassVar[str] = "the paper's ANCF element, three nodes, quadratic, shear-deformable"
-    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
-    angles: ClassVar[FloatArray] = np.zeros(4)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
 
     def __post_init__(self) -> None:
         if self.law not in ("uncoupled", "coupled"):
@@ -83,18 +80,6 @@ class Ancf3(NoCriticalSpeed):
         mass = body.assembly.matrix(_mass(beam, elements))
         add_energy_body(mbs, nodes, mass, body.force, body.tangent)
         return Chain(nodes=nodes, elastic_energy=body.energy)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """r_y = (-sin θ, cos θ), Eq. 14: the section at the root neither turns nor stretches."""
-        return np.eye(4)[2:], np.array([-math.sin(angle), math.cos(angle)])
-
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and r_y = (-sin φ, cos φ) of sections normal to the axis, and their rates."""
-        angle, rate = section_angle(state)
-        sine, cosine = np.sin(angle), np.cos(angle)
-        values = (x + state.u, state.v, -sine, cosine)
-        rates = (state.u_dot, state.v_dot, -rate * cosine, -rate * sine)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """|r_x| - 1 at the Gauss points of the axis."""

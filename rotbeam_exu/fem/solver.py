@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import exudyn
@@ -102,6 +103,24 @@ def _chain_of(error: BaseException | None) -> str:
     return text
 
 
+@dataclass(frozen=True, kw_only=True)
+class Trajectory:
+    """What was sampled of a run, in the units in which it was solved.
+
+    Attributes
+    ----------
+    time : ndarray (samples,)
+    coordinates, velocities : ndarray (samples, nodes, n)
+        Reference values included.
+    elastic_energy : ndarray (samples,)
+    """
+
+    time: FloatArray
+    coordinates: FloatArray
+    velocities: FloatArray
+    elastic_energy: FloatArray
+
+
 class Sensors:
     """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
 
@@ -131,14 +150,17 @@ class Sensors:
             )
         )
 
-    def read(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Time (n,), coordinates and velocities (n, nodes, ·), elastic energy (n,)."""
+    def read(self) -> Trajectory:
+        """Return the samples kept."""
         table = self._mbs.GetSensorStoredData
-        time = np.array(table(self._coordinates[0])[:, 0])
         coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
-        velocities = np.stack([table(s)[:, 1:] for s in self._velocities], axis=1)
         coordinates += self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
         if self._chain.elastic_energy is not None:
             elastic = elastic + self._chain.elastic_energy(coordinates)
-        return time, coordinates, velocities, elastic
+        return Trajectory(
+            time=np.array(table(self._coordinates[0])[:, 0]),
+            coordinates=coordinates,
+            velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
+            elastic_energy=elastic,
+        )

@@ -10,7 +10,6 @@ angle α is that of the tangent at the first node, or of the chord from the firs
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -19,22 +18,19 @@ import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 from scipy import linalg, optimize
 
-from analytic import Beam, BeamState
+from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import QUARTER_TURN, Chain, positions_and_slopes
+from .formulation import Chain
+from .node_kinds import QUARTER_TURN, SlopeNodes
 
 FloatingFrame = Literal["tangent", "pinned"]
 
 
-class _LinearFrames:
+class _LinearFrames(SlopeNodes):
     """What both formulations below share: `row` says how a beam is cut into frames."""
-
-    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
-    angles: ClassVar[FloatArray] = np.zeros(4)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
         """Return the beam cut into frames."""
@@ -49,14 +45,6 @@ class _LinearFrames:
         )
         add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
         return Chain(nodes=nodes, elastic_energy=row.energy)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
-        return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
-
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and slopes, and their rates."""
-        return positions_and_slopes(x, state)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """∂u_x/∂x in the frames, at their nodes: the strain of the model."""

@@ -13,13 +13,6 @@ import numpy as np
 from analytic import Beam, BeamState
 from analytic.arrays import FloatArray
 
-QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""The generator of plane rotations: (x, y) becomes (-y, x)."""
-
-exudyn.config.printToConsole = False
-# Without a display, an open renderer ends the process.
-exudyn.special.userInterface.suppressRenderer = True
-
 
 @dataclass(frozen=True, kw_only=True)
 class Chain:
@@ -107,17 +100,3 @@ def turned_velocities(
 def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:
     """Return J e + a, the velocities of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
     return coordinates @ element.quarter_turn.T + element.angles
-
-
-def positions_and_slopes(x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-    """Return (x + u, v, 1 + u', v') at the nodes `x` [m], (nodes, 4), and their rates."""
-    values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
-    rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
-    return np.stack(values, axis=1), np.stack(rates, axis=1)
-
-
-def section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
-    """Return the angle [rad] of a section normal to the axis, (nodes,), and its rate [rad/s]."""
-    along, across = 1.0 + state.u_slope, state.v_slope
-    rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
-    return np.arctan2(across, along), rate

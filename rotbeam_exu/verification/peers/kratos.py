@@ -23,8 +23,8 @@ import xarray as xr
 from analytic import Beam, SpinUp
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
-from ..resolution import require_resolved_ramp, sampling
-from ..verdict import SimulationError
+from ...resolution import require_resolved_ramp, sampling
+from ...verdict import SimulationError, beam_attributes
 
 
 def simulate(
@@ -112,7 +112,7 @@ def simulate(
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
         attrs={
-            **{f"beam_{name}": value for name, value in asdict(beam).items()},
+            **beam_attributes(beam),
             **asdict(spin_up),
             "element": "kratos",
             "elements": elements,

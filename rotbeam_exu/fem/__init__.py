@@ -1,0 +1,1 @@
+"""The beam in Exudyn: formulations, drive, solver, linearization. No other room knows Exudyn."""

@@ -1,0 +1,99 @@
+"""One run: all that determines its result, checked before anything is computed."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+from analytic import Beam, SpinUp, SteadyRotation
+from analytic.input_checks import positive, whole_number
+
+from ..resolution import checked_steps
+from ..verdict import beam_attributes
+from .elements import Formulation, formulation, options_of
+from .solver import Frame
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One run of the beam: the only place where one is validated and its element looked up.
+
+    Parameters
+    ----------
+    beam : Beam
+    spin_up : SpinUp or SteadyRotation
+    element : str or Formulation
+        A name becomes the formulation.
+    elements, duration, step, frame
+        As in `simulate`; NumPy's numbers become Python's.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an input is refused.
+    """
+
+    beam: Beam
+    spin_up: SpinUp | SteadyRotation
+    element: str | Formulation = "cable"
+    elements: int = 16
+    duration: float = 15.0
+    step: float = 1e-3
+    frame: Frame = "inertial"
+
+    def __post_init__(self) -> None:
+        for name, value in (
+            ("element", formulation(self.element)),
+            ("elements", whole_number("elements", self.elements)),
+            ("duration", positive("duration", self.duration, "s")),
+            ("step", positive("step", self.step, "s")),
+        ):
+            object.__setattr__(self, name, value)
+        if self.frame not in ("inertial", "rotating"):
+            raise ValueError(f"unknown frame {self.frame!r}; known are 'inertial' and 'rotating'")
+        _ = self.steps_and_sampling
+        try:
+            json.dumps([options_of(self.model), hash(self.model)])
+        except TypeError as error:
+            raise TypeError(
+                "element must be the name of a formulation, or an instance of a frozen dataclass "
+                f"whose options are numbers and text, got {self.element!r}"
+            ) from error
+
+    @property
+    def model(self) -> Formulation:
+        """The formulation."""
+        return cast(Formulation, self.element)
+
+    @property
+    def omega(self) -> float:
+        """Steady angular velocity [rad/s]."""
+        return self.spin_up.omega
+
+    @property
+    def ramp_time(self) -> float:
+        """Time from rest to the steady angular velocity [s]; zero for a beam that turns already."""
+        return float(getattr(self.spin_up, "ramp_time", 0.0))
+
+    @cached_property
+    def steps_and_sampling(self) -> tuple[int, int]:
+        """How many steps there are, and of how many one is kept."""
+        return checked_steps(
+            self.beam, self.omega, self.ramp_time, self.elements, self.duration, self.step
+        )
+
+    def describe(self) -> dict[str, Any]:
+        """Return every input as plain values: the attributes of a run, and the key of a result."""
+        return {
+            **beam_attributes(self.beam),
+            "omega": self.omega,
+            "ramp_time": self.ramp_time,
+            "element": self.model.name,
+            "element_options": json.dumps(options_of(self.model)),
+            "elements": self.elements,
+            "duration": self.duration,
+            "step": self.step,
+            "frame": self.frame,
+        }

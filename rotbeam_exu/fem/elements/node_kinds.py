@@ -1,0 +1,80 @@
+"""What the coordinates of a node are: how they turn, what the clamp holds, what a state makes them.
+
+A rotation by θ takes them to exp(θJ) e + θ a: J turns positions and slopes, a adds to angles.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+import numpy as np
+
+from analytic import BeamState
+from analytic.arrays import FloatArray
+
+QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
+"""The generator of plane rotations: (x, y) becomes (-y, x)."""
+
+
+class SlopeNodes:
+    """Nodes carry r and the slope r' of the axis; the clamp holds its direction."""
+
+    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
+    angles: ClassVar[FloatArray] = np.zeros(4)
+    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
+
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
+        return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and slopes, (x + u, v, 1 + u', v'), and their rates."""
+        values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
+        rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+class SectionSlopeNodes:
+    """Nodes carry r and the slope r_y of the section; the clamp holds its direction."""
+
+    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
+    angles: ClassVar[FloatArray] = np.zeros(4)
+    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
+
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """r_y = (-sin θ, cos θ), Eq. 14: the section at the root neither turns nor stretches."""
+        return np.eye(4)[2:], np.array([-math.sin(angle), math.cos(angle)])
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and r_y = (-sin φ, cos φ) of sections normal to the axis, and their rates."""
+        angle, rate = _section_angle(state)
+        sine, cosine = np.sin(angle), np.cos(angle)
+        values = (x + state.u, state.v, -sine, cosine)
+        rates = (state.u_dot, state.v_dot, -rate * cosine, -rate * sine)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+class AngleNodes:
+    """Nodes carry r and the angle φ of the section; the clamp holds it."""
+
+    quarter_turn: ClassVar[FloatArray] = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0] * 3])
+    angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
+    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
+
+    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
+        """φ = θ: the root's angle is a coordinate."""
+        return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and the angle of sections normal to the axis, and their rates."""
+        angle, rate = _section_angle(state)
+        values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
+        return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
+    """Return the angle [rad] of a section normal to the axis, (nodes,), and its rate [rad/s]."""
+    along, across = 1.0 + state.u_slope, state.v_slope
+    rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
+    return np.arctan2(across, along), rate

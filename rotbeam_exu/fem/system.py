@@ -1,0 +1,24 @@
+"""One Exudyn system, silent, and gone at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import exudyn
+
+exudyn.config.printToConsole = False
+# Without a display, an open renderer ends the process.
+exudyn.special.userInterface.suppressRenderer = True
+
+
+@contextmanager
+def exudyn_system() -> Iterator[exudyn.MainSystem]:
+    """Give an empty system; systems are not collected by themselves, and memory would grow."""
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    try:
+        yield mbs
+    finally:
+        mbs.Reset()
+        container.Reset()

@@ -1,0 +1,1 @@
+"""Files: beams in TOML, results in netCDF and CSV, sealed so that damage shows."""

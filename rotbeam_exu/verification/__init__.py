@@ -1,0 +1,1 @@
+"""Codes judged: the measures, by which any code is, the entries of ours, and other codes."""

@@ -1,0 +1,50 @@
+"""The codes at hand as entries of the verification: our formulations, and peers installed."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import xarray as xr
+
+from analytic import Beam, SpinUp
+
+from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
+from ..fem.linearization import natural_frequencies
+from ..fem.simulation import simulate
+from .peers import PEERS, Entry, installed, peer
+
+
+def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3) -> Entry:
+    """Return the entry of one of our formulations, named with the options that are not default."""
+    options = [
+        f"{field.name}={getattr(model, field.name)}"
+        for field in dataclasses.fields(model)  # type: ignore[arg-type]
+        if getattr(model, field.name) != field.default
+    ]
+
+    def spin(
+        beam: Beam, spin_up: SpinUp, *, elements: int, duration: float, step: float
+    ) -> xr.Dataset:
+        return simulate(
+            beam, spin_up, element=model, elements=elements, duration=duration, step=step
+        )
+
+    def first(beam: Beam, omega: float, elements: int) -> float:
+        return float(natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0])
+
+    return Entry(
+        name=" ".join([model.name, *options]),
+        simulate=spin,
+        first_frequency=first,
+        elements=elements,
+        step=step,
+    )
+
+
+def entries_at_hand() -> tuple[Entry, ...]:
+    """Return all formulations of ours worth a row, and the other codes that are installed."""
+    models: tuple[Formulation, ...] = (
+        Cable(), Exact(), Exact(nodes=3), Ancf3(), Ancf3(law="coupled"), Linear(), Substructures(),
+    )  # fmt: skip
+    ours = tuple(formulation_entry(model) for model in models)
+    return ours + tuple(peer(name) for name in PEERS if installed(name))
