@@ -14,6 +14,7 @@ from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import critical_speed as critical_speed
+from .reduced.model import divergence_speed as divergence_speed
 from .reduced.model import reduced_model as reduced_model
 from .reduced.softening import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table

@@ -2,7 +2,7 @@
 Substructures
 =============
 
-Linear floating frames in a row: stable up to a critical speed that grows with their number.
+Linear floating frames in a row: stable up to a divergence speed that grows with their number.
 
 Valverde and García-Vallejo's point of 2009: the nonlinearity that a rotating beam needs can be had
 from linear substructures, for the rotation between their frames brings it in, and how much each
@@ -12,11 +12,11 @@ of them brings depends on what its frame follows.
 import matplotlib.pyplot as plt
 
 from analytic import Beam
-from rotbeam_exu import critical_speed, figures
-from rotbeam_exu.fem.stability import critical_speeds
+from rotbeam_exu import divergence_speed, figures
+from rotbeam_exu.fem.stability import divergence_speeds
 
 beam = Beam.reference()
-two = {frame: critical_speed(beam, 2, frame) for frame in ("tangent", "pinned")}
+two = {frame: divergence_speed(beam, 2, frame) for frame in ("tangent", "pinned")}
 print(", ".join(f"two {frame} frames: {speed:.4f} rad/s" for frame, speed in two.items()))
-figures.critical_speed(critical_speeds(beam, [1, 2, 3, 4, 6, 8, 12, 16]))
+figures.divergence_speed(divergence_speeds(beam, [1, 2, 3, 4, 6, 8, 12, 16]))
 plt.show()

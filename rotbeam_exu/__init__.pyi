@@ -3,6 +3,7 @@ from .fem.linearization import natural_frequencies as natural_frequencies
 from .fem.linearization import steady_stretch as steady_stretch
 from .fem.simulation import simulate as simulate
 from .fem.stability import critical_speed as critical_speed
+from .fem.stability import divergence_speed as divergence_speed
 from .files.results import load as load
 from .files.results import save as save
 from .oscillation import SteadyOscillation as SteadyOscillation

@@ -78,14 +78,14 @@ def remedy(run: xr.Dataset, t: float) -> str:
     for any step, that a beam breaks into when it swings through most of its length.
     """
     attrs = run.attrs
-    omega, critical_speed = float(attrs["omega"]), float(attrs["critical_speed"])
+    omega, divergence_speed = float(attrs["omega"]), float(attrs["divergence_speed"])
     smaller = f"take a smaller step than {attrs['step']:g} s"
-    if omega > critical_speed:
+    if omega > divergence_speed:
         return (
-            f"linear elastic frames diverge above their critical speed, {critical_speed:.6g} "
+            f"linear elastic frames diverge above their divergence speed, {divergence_speed:.6g} "
             f"rad/s here, and omega is {omega:g} rad/s: take more substructures or another element"
         )
-    if math.isfinite(critical_speed):
+    if math.isfinite(divergence_speed):
         return (
             "linear elastic frames are for small deflection: take a longer ramp_time, more "
             f"substructures or another element, or {smaller.removeprefix('take ')}"

@@ -250,10 +250,14 @@ def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> R
     return model
 
 
-def critical_speed(beam: Beam) -> float:
+def divergence_speed(beam: Beam) -> float:
     """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1."""
     linear = energy_coefficients(CantileverMode(), "none")
     return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
+
+
+critical_speed = divergence_speed
+"""The name the paper's readers know; in rotor dynamics a critical speed is something else."""
 
 
 def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:

@@ -121,7 +121,7 @@ def run_case(
     run = _dataset(case, units, built.mass, trajectory)
     run.attrs = {
         **case.describe(),
-        "critical_speed": case.model.critical_speed(case.beam, case.elements),
+        "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
         "settings": json.dumps(described),
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
@@ -181,7 +181,7 @@ def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
         run.attrs["verdict"] = str(error)
         error.run = run
         raise error from cause
-    _warn_above_critical_speed(run)
+    _warn_above_divergence_speed(run)
     return run
 
 
@@ -205,13 +205,14 @@ def _start(
         mbs.SetNodeParameter(node, "initialVelocities", moving)
 
 
-def _warn_above_critical_speed(run: xr.Dataset) -> None:
-    omega, critical_speed = run.attrs["omega"], run.attrs["critical_speed"]
-    if omega > critical_speed:
+def _warn_above_divergence_speed(run: xr.Dataset) -> None:
+    omega, divergence_speed = run.attrs["omega"], run.attrs["divergence_speed"]
+    if omega > divergence_speed:
         warnings.warn(
-            f"omega = {omega:g} rad/s is above the critical speed, {critical_speed:.6g} rad/s, of "
-            f"{run.attrs['elements']} {run.attrs['element']!r} elements: their steady rotation is "
-            "unstable, and what keeps the oscillation bounded is not the beam; take more elements",
+            f"omega = {omega:g} rad/s is above the divergence speed, {divergence_speed:.6g} rad/s, "
+            f"of {run.attrs['elements']} {run.attrs['element']!r} elements: their steady "
+            "rotation is unstable, and what keeps the oscillation bounded is not the beam; take "
+            "more elements",
             RotbeamWarning,
             stacklevel=5,
         )

@@ -12,14 +12,14 @@ from analytic.input_checks import whole_number
 from .elements.linear_frames import FloatingFrame, Substructures
 
 
-def critical_speed(
+def divergence_speed(
     beam: Beam, substructures: int, frame: FloatingFrame = "tangent", *, cells: int = 2
 ) -> float:
     """Return the speed [rad/s] above which a beam of linear substructures diverges.
 
     Where the lowest eigenvalue of the stiffness about the rotating steady state, centrifugal
     terms included, passes zero. One substructure with a tangent frame is the linear beam, whose
-    critical speed is ω0; a fully nonlinear model has none (Sec. 1).
+    divergence speed is ω0; a fully nonlinear model has none (Sec. 1).
 
     Parameters
     ----------
@@ -39,23 +39,27 @@ def critical_speed(
         If an input is refused.
     """
     model = Substructures(frame=frame, cells=cells)
-    return model.critical_speed(beam, whole_number("substructures", substructures))
+    return model.divergence_speed(beam, whole_number("substructures", substructures))
 
 
-def critical_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> xr.Dataset:
-    """Return the critical speed [rad/s] of both frames over numbers of substructures.
+critical_speed = divergence_speed
+"""The same; in rotor dynamics the word means a crossing in the Campbell diagram."""
+
+
+def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> xr.Dataset:
+    """Return the divergence speed [rad/s] of both frames over numbers of substructures.
 
     Returns
     -------
     Dataset
-        `critical_speed` over `frame` and `substructures`; the attribute omega_0 is that of the
+        `divergence_speed` over `frame` and `substructures`; the attribute omega_0 is that of the
         beam [rad/s].
     """
     frames: tuple[FloatingFrame, ...] = ("tangent", "pinned")
-    values = [[critical_speed(beam, n, f, cells=cells) for n in counts] for f in frames]
-    attrs = {"units": "rad/s", "long_name": "critical speed"}
+    values = [[divergence_speed(beam, n, f, cells=cells) for n in counts] for f in frames]
+    attrs = {"units": "rad/s", "long_name": "divergence speed"}
     return xr.Dataset(
-        {"critical_speed": (("frame", "substructures"), values, attrs)},
+        {"divergence_speed": (("frame", "substructures"), values, attrs)},
         coords={
             "frame": list(frames),
             "substructures": (

@@ -1,15 +1,15 @@
 """The figures: each takes data and `ax=`, returns Axes and shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
-`rotbeam_exu.comparison`; `spin_up` takes a run, `critical_speed` what
-`rotbeam_exu.fem.stability.critical_speeds` returns.
+`rotbeam_exu.comparison`; `spin_up` takes a run, `divergence_speed` what
+`rotbeam_exu.fem.stability.divergence_speeds` returns.
 """
 
 from __future__ import annotations
 
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
-from .critical_speed import critical_speed
+from .divergence_speed import divergence_speed
 from .orbits import figure_15
 from .runs import figure_3, figure_4
 from .spin_up import spin_up
@@ -18,7 +18,7 @@ from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_
 
 __all__ = [
     "animate",
-    "critical_speed",
+    "divergence_speed",
     "figure_3",
     "figure_4",
     "figure_5",

@@ -16,7 +16,9 @@ from analytic.input_checks import RotbeamWarning
 from . import netcdf, table
 from .round_trip import difference, plain, same
 
-OUTCOMES = frozenset({"critical_speed", "failure", "settings", "verdict", "versions", "wall_time"})
+OUTCOMES = frozenset(
+    {"divergence_speed", "failure", "settings", "verdict", "versions", "wall_time"}
+)
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 
 

@@ -24,14 +24,14 @@ def test_growth_rate(beam, omega):
     assert growth_rate(beam, omega, element="cable") == 0.0
 
 
-def test_frequency_softens_to_zero_below_the_critical_speed(beam):
+def test_frequency_softens_to_zero_below_the_divergence_speed(beam):
     for omega in (1.0, 2.0, 2.9):
         expected = np.sqrt(beam.omega_0**2 - omega**2)
         found = natural_frequencies(beam, omega, element="linear")[0]
         assert found == pytest.approx(expected, rel=2e-5)
         assert growth_rate(beam, omega) == 0.0
     # Of the mesh of 16 cubic elements, 2e-7 above the beam's.
-    assert Linear().critical_speed(beam, 16) == pytest.approx(beam.omega_0, rel=3e-7)
+    assert Linear().divergence_speed(beam, 16) == pytest.approx(beam.omega_0, rel=3e-7)
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
@@ -51,7 +51,7 @@ def test_bounded_below(beam, frame):
 def test_divergent_above(beam, spin_up, frame):
     sentence = (
         r"distance from the clamp .* at t = 1\.0\d+ s, above 1.05: linear elastic frames diverge "
-        r"above their critical speed, 2\.909\d* rad/s here, and omega is 6 rad/s"
+        r"above their divergence speed, 2\.909\d* rad/s here, and omega is 6 rad/s"
     )
     with pytest.raises(SimulationError, match=sentence) as failed:
         simulate(

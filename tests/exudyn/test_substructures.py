@@ -6,27 +6,33 @@ import pytest
 
 from analytic import SpinUp, linear_modes
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import SimulationError, critical_speed, growth_rate, natural_frequencies, simulate
+from rotbeam_exu import (
+    SimulationError,
+    divergence_speed,
+    growth_rate,
+    natural_frequencies,
+    simulate,
+)
 from rotbeam_exu.fem.elements import Substructures, formulation
 from rotbeam_exu.fem.elements.linear_frames import FrameRow
-from rotbeam_exu.fem.stability import critical_speeds
+from rotbeam_exu.fem.stability import divergence_speeds
 
 
 @pytest.mark.parametrize("frame", ["tangent", "pinned"])
-def test_critical_speed_grows_with_the_number(beam, frame):
-    speeds = [critical_speed(beam, n, frame) for n in (1, 2, 3, 4, 6, 8)]
+def test_divergence_speed_grows_with_the_number(beam, frame):
+    speeds = [divergence_speed(beam, n, frame) for n in (1, 2, 3, 4, 6, 8)]
     assert np.all(np.diff(speeds) > 0.0)
 
 
-def test_the_critical_speed_depends_on_the_frame(beam):
+def test_the_divergence_speed_depends_on_the_frame(beam):
     """Pinned frames see half the rotation from chord to tangent, and hold out longer."""
     for n in (1, 2, 4):
-        assert critical_speed(beam, n, "pinned") > 2.0 * critical_speed(beam, n, "tangent")
+        assert divergence_speed(beam, n, "pinned") > 2.0 * divergence_speed(beam, n, "tangent")
 
 
 def test_one_tangent_frame_is_the_linear_beam(beam):
     # Eight cubic cells are within 4e-6 of the beam.
-    assert critical_speed(beam, 1, cells=8) == pytest.approx(beam.omega_0, rel=5e-6)
+    assert divergence_speed(beam, 1, cells=8) == pytest.approx(beam.omega_0, rel=5e-6)
 
 
 @pytest.mark.parametrize(
@@ -34,7 +40,7 @@ def test_one_tangent_frame_is_the_linear_beam(beam):
 )
 def test_it_is_where_growth_sets_in(beam, frame, n):
     """All eigenvalues about the steady state, with Coriolis terms, through Exudyn."""
-    model, speed = Substructures(frame=frame), critical_speed(beam, n, frame)
+    model, speed = Substructures(frame=frame), divergence_speed(beam, n, frame)
     assert growth_rate(beam, 0.999 * speed, element=model, elements=n) == 0.0
     above = growth_rate(beam, 1.0002 * speed, element=model, elements=n)
     # Divergence sets in like a square root.
@@ -85,14 +91,16 @@ def test_stable_below_and_unstable_above(beam):
         )  # fmt: skip
         return np.abs(run["q"].sel(time=slice(12.0, 16.0))).max().item()
 
-    with pytest.warns(RotbeamWarning, match=r"above the critical speed, 4\.45\d+ rad/s, of 2 'sub"):
+    with pytest.warns(
+        RotbeamWarning, match=r"above the divergence speed, 4\.45\d+ rad/s, of 2 'sub"
+    ):
         buckled = steady(2, "tangent")
     stable = [steady(3, "tangent"), steady(2, "pinned")]
     assert buckled > 2.0 * max(stable), (buckled, stable)
 
 
 def test_one_tangent_frame_diverges(beam, spin_up):
-    with pytest.raises(SimulationError, match=r"above their critical speed, 2\.91\d+ rad/s here"):
+    with pytest.raises(SimulationError, match=r"above their divergence speed, 2\.91\d+ rad/s here"):
         simulate(beam, spin_up, element="substructures", elements=1, duration=8.0, step=2e-3)
 
 
@@ -100,11 +108,11 @@ def test_figure(beam):
     from rotbeam_exu import figures
 
     mpl.use("agg")
-    data = critical_speeds(beam, [1, 2, 4])
-    axes = figures.critical_speed(data)
-    assert axes.get_ylabel() == "critical speed [rad/s]"
+    data = divergence_speeds(beam, [1, 2, 4])
+    axes = figures.divergence_speed(data)
+    assert axes.get_ylabel() == "divergence speed [rad/s]"
     drawn = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
-    assert drawn["pinned frames"] == pytest.approx(data["critical_speed"].sel(frame="pinned"))
+    assert drawn["pinned frames"] == pytest.approx(data["divergence_speed"].sel(frame="pinned"))
 
 
 @pytest.mark.parametrize(
@@ -117,7 +125,7 @@ def test_figure(beam):
 )
 def test_refuses(beam, options, sentence):
     with pytest.raises(ValueError, match=sentence):
-        critical_speed(beam, **options)
+        divergence_speed(beam, **options)
 
 
 def test_refuses_options_that_it_does_not_have():

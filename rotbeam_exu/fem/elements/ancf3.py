@@ -14,7 +14,7 @@ from analytic import Beam
 from analytic.arrays import FloatArray
 
 from .energy_body import Assembly, add_energy_body
-from .formulation import Chain, NoCriticalSpeed
+from .formulation import Chain, NoDivergence
 from .node_kinds import SectionSlopeNodes
 from .section import POISSON_RATIO, checked_shear, rectangle, shear_modulus
 
@@ -37,7 +37,7 @@ _FORMS = _quadratic_forms()
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ancf3(SectionSlopeNodes, NoCriticalSpeed):
+class Ancf3(SectionSlopeNodes, NoDivergence):
     """García-Vallejo, Mikkola and Escalona's element (2007), in its plane form; Eqs. 2-12.
 
     Nodes carry r and the section's slope r_y = ∂r/∂y (Eq. 2, whose three slopes are those of the

@@ -13,12 +13,12 @@ from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 from analytic import Beam
 from analytic.arrays import FloatArray
 
-from .formulation import Chain, NoCriticalSpeed
+from .formulation import Chain, NoDivergence
 from .node_kinds import SlopeNodes
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cable(SlopeNodes, NoCriticalSpeed):
+class Cable(SlopeNodes, NoDivergence):
     """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|²."""
 
     name: ClassVar[str] = "cable"

@@ -12,13 +12,13 @@ from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
 from analytic import Beam
 from analytic.arrays import FloatArray
 
-from .formulation import Chain, NoCriticalSpeed
+from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
 from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exact(AngleNodes, NoCriticalSpeed):
+class Exact(AngleNodes, NoDivergence):
     """ObjectBeamGeometricallyExact2D: nodes carry r and the angle φ of the section.
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',

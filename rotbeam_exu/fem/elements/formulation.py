@@ -70,15 +70,15 @@ class Formulation(Protocol):
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
 
-    def critical_speed(self, beam: Beam, elements: int) -> float:
+    def divergence_speed(self, beam: Beam, elements: int) -> float:
         """Speed [rad/s] above which the model diverges, infinite where its strains are exact."""
 
 
-class NoCriticalSpeed:
+class NoDivergence:
     """The answer of formulations that describe large deformation exactly."""
 
-    def critical_speed(self, beam: Beam, elements: int) -> float:
-        """Return infinity: the critical speed is an artifact of linear elastic frames (Sec. 1)."""
+    def divergence_speed(self, beam: Beam, elements: int) -> float:
+        """Return infinity: divergence is an artifact of linear elastic frames (Sec. 1)."""
         return math.inf
 
 

@@ -53,7 +53,7 @@ class _LinearFrames(SlopeNodes):
         strain = local.reshape(*local.shape[:-1], -1, 4)[..., 2] - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))
 
-    def critical_speed(self, beam: Beam, elements: int) -> float:
+    def divergence_speed(self, beam: Beam, elements: int) -> float:
         """Speed [rad/s] at which the rotating steady state loses its stability.
 
         With gyroscopic forces only, the state is stable as long as the stiffness T - ω²M about
@@ -91,7 +91,7 @@ class Substructures(_LinearFrames):
     """`elements` linear floating frames in a row (Valverde and García-Vallejo, 2009).
 
     Rotations between the frames bring the nonlinearity in piece by piece: each number of frames
-    has its critical speed, and the more frames, the higher.
+    has its divergence speed, and the more frames, the higher.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class Substructures(_LinearFrames):
     cells: int = 2
 
     name: ClassVar[str] = "substructures"
-    summary: ClassVar[str] = "linear floating frames in a row; each number has a critical speed"
+    summary: ClassVar[str] = "linear floating frames in a row; each number has a divergence speed"
 
     def __post_init__(self) -> None:
         if self.frame not in ("tangent", "pinned"):

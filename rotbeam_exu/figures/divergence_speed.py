@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 from .style import BLUE, COLUMN, ORANGE, STYLE, label, new_figure
 
 
-def critical_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the critical speed over the number of substructures, for either frame.
+def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw the divergence speed over the number of substructures, for either frame.
 
     Parameters
     ----------
     data : Dataset
-        As made by `rotbeam_exu.fem.stability.critical_speeds`.
+        As made by `rotbeam_exu.fem.stability.divergence_speeds`.
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
@@ -23,7 +23,7 @@ def critical_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         _, ax = new_figure(COLUMN, 2.6)
     assert ax is not None
     omega_0 = float(data.attrs["omega_0"])
-    speeds = data["critical_speed"]
+    speeds = data["divergence_speed"]
     with mpl.rc_context(STYLE):
         ax.axhline(omega_0, color="0.6", lw=0.5)
         last = int(data["substructures"][-1])
