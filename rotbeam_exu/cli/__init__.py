@@ -29,7 +29,7 @@ for _command in (
     "sweep",
     "backbone",
     "compare",
-    "compare_modes",
+    "campbell",
     "figure",
     "table",
     "verify",
@@ -37,7 +37,8 @@ for _command in (
     "animate",
     "doctor",
 ):
-    app.command(f"{__name__}.{_command}:{_command}", name=_command.replace("_", "-"))
+    app.command(f"{__name__}.{_command}:{_command}", name=_command)
+app.command(f"{__name__}.campbell:campbell", name="compare-modes", show=False)  # its former name
 
 _SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
 """Options that are none, and what one of their units is in rad/s."""

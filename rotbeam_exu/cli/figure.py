@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 
-from .. import comparison, figures
-from ..figures.captions import CAPTIONS
+from ..figures.style import save_figure
 from ..files.results import save, save_tables, whole_file, writable_folder
+from ..paper_figures import PAPER_FIGURES
 from .options import Jobs
 from .output import new_console
 from .sweep import counter
@@ -40,11 +39,12 @@ def figure(
     force
         Replace data that are not this figure's.
     """
-    wanted = list(CAPTIONS) if number == "all" else [int(number)] if number.isdecimal() else []
-    if not wanted or wanted[0] not in CAPTIONS:
+    every = list(PAPER_FIGURES)
+    wanted = every if number == "all" else [int(number)] if number.isdecimal() else []
+    if not wanted or wanted[0] not in PAPER_FIGURES:
         raise ValueError(
-            f"there is no data behind figure {number!r}; known are "
-            f"{', '.join(map(str, CAPTIONS))} and all"
+            f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
+            "and all"
         )
     folder = writable_folder(out)
     console = new_console()
@@ -59,19 +59,19 @@ def _made(
     n: int, folder: Path, console: Console, *, jobs: int | None, cache: Path, force: bool
 ) -> list[Path]:
     """Make one figure and return its files."""
-    make = getattr(comparison, f"figure_{n}")
+    made = PAPER_FIGURES[n]
     with counter(console, f"figure {n}") as progress:
-        sweeps = "options" in inspect.signature(make).parameters and n != 15
-        data = make(**({"jobs": jobs, "cache": cache, "progress": progress} if sweeps else {}))
+        options = {"jobs": jobs, "cache": cache, "progress": progress} if made.sweeps else {}
+        data = made.data(**options)
     name = folder / f"figure_{n}"
     refuse_to_replace(data, name.with_suffix(".nc"), force=force)
     written = [save(data, name.with_suffix(".nc"))]
     written += save_tables(data, name.with_suffix(".csv"))
-    axes = getattr(figures, f"figure_{n}")(data)
-    written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
+    axes = made.draw(data)
+    written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
     caption = name.with_suffix(".txt")
     with whole_file(caption) as partial:
-        partial.write_text(f"Figure {n}. {CAPTIONS[n]}\n", encoding="utf-8")
+        partial.write_text(f"Figure {n}. {made.caption}\n", encoding="utf-8")
     written.append(caption)
     console.print(f"figure {n}: {listed(written)}")
     return written

@@ -17,8 +17,7 @@ from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedC
 from analytic import Beam, SpinUp
 from analytic.input_checks import positive, whole_number
 
-from ..comparison.backbones import PAPER_RAMP_TIMES
-from ..comparison.theory import PAPER_SPEEDS
+from .. import paper
 from ..fem.case import Case
 from ..fem.solver import Frame
 from ..files.beam_file import load_beam
@@ -99,8 +98,8 @@ def sweep(
         Replace a table of another grid or of other inputs that has the same name.
     """
     beam = Beam.reference() if config is None else load_beam(config)
-    omegas = chosen_speeds(beam, *PAPER_SPEEDS) if omega is None else omega
-    ramp_times = chosen_times(beam, *PAPER_RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
+    omegas = chosen_speeds(beam, *paper.SPEEDS) if omega is None else omega
+    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
     refuse_rest(*omegas)
     motion = _motion(beam, omegas, ramp_times, step, duration)
     model = chosen_formulation(element, option)

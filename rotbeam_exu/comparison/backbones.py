@@ -11,14 +11,9 @@ import xarray as xr
 from analytic import Beam, periodic_orbits, reduced_model
 
 from ..fem.solver import Frame
+from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
-from .theory import PAPER_SPEEDS, beyond_range
-
-PAPER_RAMP_TIMES = (3.375, 3.25, 3.0, 2.75, 2.5, 2.0)
-"""Ramp times of Sec. 6 [s]."""
-
-MODELS = ("CI", "CE", "FrI", "FrE", "FrC", "FrM")
-"""Reduced models drawn beside the exact backbone: the paper's four, and ours."""
+from .theory import beyond_range
 
 _FITTED = 0.6
 """Amplitude up to which Figure 5's curves are fitted: beyond, a⁶ counts too."""
@@ -37,8 +32,8 @@ _AMPLITUDE = {"units": "1", "long_name": "amplitude a = q/L"}
 def finite_element_points(
     beam: Beam | None = None,
     *,
-    omegas: Sequence[float] = PAPER_SPEEDS,
-    ramp_times: Sequence[float] = PAPER_RAMP_TIMES,
+    omegas: Sequence[float] = SPEEDS,
+    ramp_times: Sequence[float] = RAMP_TIMES,
     mesh: Mesh = "paper",
     **options: Any,
 ) -> xr.Dataset:
@@ -160,8 +155,8 @@ def figure_5(beam: Beam | None = None, **options: Any) -> xr.Dataset:
 def figure_14(
     beam: Beam | None = None,
     *,
-    omegas: Sequence[float] = PAPER_SPEEDS,
-    ramp_times: Sequence[float] = PAPER_RAMP_TIMES,
+    omegas: Sequence[float] = SPEEDS,
+    ramp_times: Sequence[float] = RAMP_TIMES,
     amplitudes: Sequence[float] = tuple(np.linspace(0.02, 0.6, 30).round(3).tolist()),
     meshes: Sequence[Mesh] = ("paper", "converged"),
     **options: Any,

@@ -13,9 +13,10 @@ import xarray as xr
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 
+from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
-from .backbones import MODELS, PAPER_RAMP_TIMES, finite_element_points
-from .theory import PAPER_SPEEDS, beyond_range
+from .backbones import finite_element_points
+from .theory import beyond_range
 
 SOURCES = (
     "linear frequency",
@@ -32,7 +33,7 @@ SOURCES = (
 def model_budget(
     beam: Beam | None = None,
     *,
-    omegas: Sequence[float] = PAPER_SPEEDS,
+    omegas: Sequence[float] = SPEEDS,
     amplitudes: Sequence[float] = (0.05, 0.1, 0.15, 0.2),
 ) -> xr.Dataset:
     """Frequency error of CI, CE, FrI, FrE, FrC and FrM, source by source.
@@ -92,8 +93,8 @@ def _stages(variant: Variant) -> list[Variant]:
 def finite_element_budget(
     beam: Beam | None = None,
     *,
-    omegas: Sequence[float] = PAPER_SPEEDS,
-    ramp_times: Sequence[float] = PAPER_RAMP_TIMES,
+    omegas: Sequence[float] = SPEEDS,
+    ramp_times: Sequence[float] = RAMP_TIMES,
     largest_amplitude: float = 0.6,
     **options: Any,
 ) -> xr.Dataset:

@@ -14,7 +14,7 @@ from analytic.reduced.model import ReducedModel
 
 from ..fem.simulation import simulate
 from ..oscillation import steady_oscillation
-from .backbones import MODELS
+from ..paper import MODELS
 from .theory import beyond_range
 
 

@@ -15,8 +15,7 @@ from analytic.input_checks import RotbeamWarning
 from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
 from analytic.reduced.shapes import CantileverMode
 
-PAPER_SPEEDS = (2.0, 4.0, 6.0, 8.0)
-"""Angular velocities of Secs. 5 and 6 [rad/s]."""
+from ..paper import SPEEDS
 
 _A = {"units": "1", "long_name": "amplitude a = q/L"}
 _RATIO = {"units": "1", "long_name": "frequency ratio ω_NL/ω_n"}
@@ -106,7 +105,7 @@ def figure_11(
 
 def figure_12(
     beam: Beam | None = None,
-    omegas: Sequence[float] = PAPER_SPEEDS,
+    omegas: Sequence[float] = SPEEDS,
     degrees: Sequence[int] = tuple(range(8, 61, 2)),
 ) -> xr.Dataset:
     """Frobenius' natural frequency against the degree of its polynomials (Fig. 12)."""
@@ -143,7 +142,7 @@ def figure_12(
     )
 
 
-def figure_13(beam: Beam | None = None, omegas: Sequence[float] = PAPER_SPEEDS) -> xr.Dataset:
+def figure_13(beam: Beam | None = None, omegas: Sequence[float] = SPEEDS) -> xr.Dataset:
     """First mode shape at rest and in rotation (Fig. 13); speed 0 is the cantilever's."""
     beam = beam or Beam.reference()
     eta = np.linspace(0.0, 1.0, 201)

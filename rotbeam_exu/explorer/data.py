@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 
-from ..comparison.backbones import PAPER_RAMP_TIMES
-from ..comparison.theory import PAPER_SPEEDS, beyond_range
+from ..comparison.theory import beyond_range
+from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
 
@@ -40,8 +40,8 @@ def explorer_data(
     *,
     omegas: Sequence[float] = OMEGAS,
     amplitudes: Sequence[float] = AMPLITUDES,
-    finite_element_omegas: Sequence[float] = PAPER_SPEEDS,
-    ramp_times: Sequence[float] = PAPER_RAMP_TIMES,
+    finite_element_omegas: Sequence[float] = SPEEDS,
+    ramp_times: Sequence[float] = RAMP_TIMES,
     elements: int = 16,
     executor: Executor | None = None,
     jobs: int | None = None,

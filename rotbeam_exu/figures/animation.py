@@ -17,7 +17,8 @@ from scipy.interpolate import CubicSpline
 from analytic import SpinUpResponse
 from analytic.arrays import FloatArray
 
-from .style import BLUE, ORANGE, STYLE, new_figure
+from ..paper import BLUE, ORANGE
+from .style import STYLE, new_figure
 
 _DPI = 100
 _TRAIL = 0.6  # seconds of the tip's path that stay visible

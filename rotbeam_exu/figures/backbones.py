@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import COLUMN, COLUMNS, CYCLE, MODEL_LINES, STYLE, label, new_figure
+from ..paper import MODEL_LINES
+from .style import COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
 
 
 def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:

@@ -6,7 +6,8 @@ import matplotlib as mpl
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import BLUE, COLUMN, ORANGE, STYLE, label, new_figure
+from ..paper import BLUE, ORANGE
+from .style import COLUMN, STYLE, label, new_figure
 
 
 def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:

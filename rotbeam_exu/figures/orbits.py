@@ -6,7 +6,8 @@ import matplotlib as mpl
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import COLUMN, MODEL_LINES, STYLE, label, new_figure
+from ..paper import MODEL_LINES
+from .style import COLUMN, STYLE, label, new_figure
 
 
 def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:

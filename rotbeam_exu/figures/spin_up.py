@@ -8,7 +8,8 @@ import matplotlib as mpl
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import BLUE, ORANGE, STYLE, label, new_figure
+from ..paper import BLUE, ORANGE
+from .style import STYLE, label, new_figure
 
 
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:

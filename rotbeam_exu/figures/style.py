@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..files.results import whole_file
+from ..paper import BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 
 COLUMN = 3.5
 """Width of a journal's column [in]."""
@@ -19,28 +20,7 @@ COLUMN = 3.5
 COLUMNS = 7.2
 """Width of two columns [in]."""
 
-# Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the exact beam.
-BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
-    "#0072B2",
-    "#E69F00",
-    "#009E73",
-    "#D55E00",
-    "#CC79A7",
-    "#56B4E9",
-)
-
 CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
-
-MODEL_LINES: dict[str, dict[str, Any]] = {
-    "CI": {"color": RED, "ls": (0, (1, 1))},
-    "CE": {"color": PURPLE, "ls": (0, (3, 1))},
-    "FrI": {"color": ORANGE, "ls": (0, (5, 1, 1, 1))},
-    "FrE": {"color": GREEN, "ls": "--"},
-    "FrC": {"color": SKY, "ls": (0, (4, 1, 1, 1, 1, 1))},
-    "FrM": {"color": BLUE, "ls": "-"},
-    "exact": {"color": "black", "ls": "-", "lw": 0.7},
-}
-"""One line per model in every figure; black is the exact beam."""
 
 STYLE: Any = {
     "font.size": 8.0,

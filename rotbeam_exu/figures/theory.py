@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import BLUE, COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
+from ..paper import BLUE
+from .style import COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
 
 
 def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:

@@ -21,7 +21,8 @@ from ..verdict import beam_attributes
 from .peers import Entry
 
 SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
-"""Speeds [rad/s] at which the first linear frequency is compared."""
+"""Speeds [rad/s] at which the first linear frequency is compared, of a beam as fast as the paper's;
+others have the same ratios to their ω_0."""
 
 THRESHOLDS = {
     "linear frequency": 1e-3,
@@ -39,7 +40,7 @@ phase of twelve seconds, 45 rad. An order of two, less what coarse meshes are of
 """
 
 LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
-"""Meshes and steps [s] by which the cost at equal error is found."""
+"""Meshes and steps [s] by which the cost at equal error is found; steps scaled as speeds are."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,14 +187,20 @@ def cost_at_error(
             beam,
             spin_up,
             elements=LADDER[0][0],
-            duration=2.0 * spin_up.ramp_time,
-            step=LADDER[0][1],
+            duration=_whole(2.0 * spin_up.ramp_time, LADDER[0][1] / _faster(beam)),
+            step=LADDER[0][1] / _faster(beam),
         )
-    for rung, (elements, step) in zip(ladder, LADDER, strict=True):
+    for rung, (elements, step_of_paper) in zip(ladder, LADDER, strict=True):
+        step = step_of_paper / _faster(beam)
+        duration = _whole(2.0 * spin_up.ramp_time, step)
         started = clock.perf_counter()
         try:
             run = entry.simulate(
-                beam, spin_up, elements=elements, duration=2.0 * spin_up.ramp_time, step=step
+                beam,
+                spin_up,
+                elements=elements,
+                duration=_whole(2.0 * spin_up.ramp_time, step),
+                step=step,
             )
         except RuntimeError:
             continue
@@ -205,6 +212,16 @@ def cost_at_error(
     errors, seconds = np.log(finished[np.argsort(finished[:, 0])]).T
     at_error = np.interp(math.log(error), errors, seconds, left=math.nan)
     return math.exp(float(at_error)), ladder
+
+
+def _faster(beam: Beam) -> float:
+    """How many times faster the beam is than the paper's."""
+    return beam.omega_0 / Beam.reference().omega_0
+
+
+def _whole(duration: float, step: float) -> float:
+    """Return the duration, or what is a little longer and a whole number of steps."""
+    return math.ceil(duration / step * (1.0 - 1e-12)) * step
 
 
 def _judged(name: str, value: float) -> Measure:
@@ -225,7 +242,7 @@ def _linear_frequency(entry: Entry, beam: Beam) -> Measure:
             entry.first_frequency(beam, omega, entry.elements)
             / linear_modes(beam, omega, 1).frequencies[0]
             - 1.0
-            for omega in SPEEDS
+            for omega in (speed * _faster(beam) for speed in SPEEDS)
         ]
     except RuntimeError as error:
         return Measure(name=name, value=math.nan, passed=False, note=str(error))
@@ -261,11 +278,11 @@ def _history_error(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> float:
 
 def _orders(entry: Entry, beam: Beam, spin_up: SpinUp) -> list[Measure]:
     def history(elements: int, step: float) -> xr.Dataset:
-        return entry.simulate(
-            beam, spin_up, elements=elements, duration=spin_up.ramp_time + 1.0, step=step
-        )
+        return entry.simulate(beam, spin_up, elements=elements, duration=duration, step=step)
 
     mesh, step = entry.elements, entry.step
+    # A second after the ramp of the paper's beam, and four steps of the judged one a step.
+    duration = _whole(spin_up.ramp_time + 1.0 / _faster(beam), 4.0 * step)
     steps = [history(max(mesh // 4, 1), n * step) for n in (4, 2, 1)]
     meshes = [history(elements, 4 * step) for elements in (max(mesh // 2, 1), mesh, 2 * mesh)]
     return [

@@ -4,13 +4,11 @@ import time
 
 import pytest
 
-from rotbeam_exu import sweep
-from rotbeam_exu.comparison.backbones import PAPER_RAMP_TIMES
-from rotbeam_exu.comparison.theory import PAPER_SPEEDS
+from rotbeam_exu import paper, sweep
 
 pytestmark = pytest.mark.benchmarks
 
-GRID = {"omegas": PAPER_SPEEDS, "ramp_times": PAPER_RAMP_TIMES}
+GRID = {"omegas": paper.SPEEDS, "ramp_times": paper.RAMP_TIMES}
 
 
 def timed(beam, **options):

@@ -50,10 +50,12 @@ def test_the_verdict_tables(call, monkeypatch):
     found = {name: Measure(name=name, value=1.23e-4, passed=True) for name in (*THRESHOLDS, "cost")}
     monkeypatch.setattr(
         verify_job,
-        "judge",
-        lambda entry: Verification(name=entry.name, elements=16, step=1e-3, measures=found),
+        "verification_of",
+        lambda entry, **_: Verification(name=entry.name, elements=16, step=1e-3, measures=found),
     )
-    monkeypatch.setattr(verify_job, "cost_at_error", lambda *_: (1.25, [(1e-3, 2.5)] * len(LADDER)))
+    monkeypatch.setattr(
+        verify_job, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER))
+    )
     monkeypatch.setenv("COLUMNS", "40")
     code, out, _ = call("verify", "--element", "cable", "--element", "exact")
     assert code == 0

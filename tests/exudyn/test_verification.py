@@ -112,3 +112,15 @@ def test_command_line_refuses_what_it_does_not_know(capsys):
 def test_unknown_peer():
     with pytest.raises(ValueError, match="unknown code 'ansys'; known are 'kratos'"):
         peer("ansys")
+
+
+def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys):
+    """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
+    (tmp_path / "beam.toml").write_text(
+        "[beam]\nlength = 0.4\naxial_stiffness = 2e9\n"
+        "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
+    )
+    main(["verify", "--element", "cable", "--config", str(tmp_path / "beam.toml")])
+    shown = capsys.readouterr().out
+    assert "ω = 2400 rad/s in T = 0.0075 s" in shown
+    assert "passed" in shown

@@ -8,14 +8,18 @@ from typing import Any
 
 from .ancf3 import Ancf3
 from .cable import Cable
-from .exact import Exact
 from .formulation import Chain, Formulation
 from .linear_frames import Linear, Substructures
+from .reissner import Exact
 
 FORMULATIONS: dict[str, type[Any]] = {
     cls.name: cls for cls in (Cable, Exact, Ancf3, Linear, Substructures)
 }
 """The class of each formulation, a frozen dataclass whose fields are its options."""
+
+
+ALIASES = {"reissner": "exact"}
+"""Other names of formulations: "exact" is Reissner's beam, not the exact continuum."""
 
 
 def formulation(
@@ -30,6 +34,7 @@ def formulation(
     """
     if not isinstance(element, str):
         return element
+    element = ALIASES.get(element, element)
     if element not in FORMULATIONS:
         names = ", ".join(repr(name) for name in FORMULATIONS)
         raise ValueError(
@@ -52,6 +57,7 @@ def options_of(element: Formulation) -> dict[str, Any]:
 
 
 __all__ = [
+    "ALIASES",
     "FORMULATIONS",
     "Ancf3",
     "Cable",
