@@ -199,7 +199,7 @@ def cost_at_error(
                 beam,
                 spin_up,
                 elements=elements,
-                duration=_whole(2.0 * spin_up.ramp_time, step),
+                duration=duration,
                 step=step,
             )
         except RuntimeError:
