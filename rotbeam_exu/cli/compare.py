@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from .. import comparison
 from ..files.results import save, save_tables, writable_folder
-from .options import Jobs
+from .options import Results, Workers
 from .output import new_console, print_columns
 from .sweep import counter
-from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
+from .targets import listed, refuse_to_replace, telling_what_is_kept
+
+_WORKERS, _RESULTS = Workers(), Results()
 
 
 def compare(
     *,
     amplitude: float = 0.1,
-    jobs: Jobs = None,
-    cache: Path = Path("results/cache"),
-    out: Path = Path("results"),
-    force: Force = False,
+    workers: Workers = _WORKERS,
+    results: Results = _RESULTS,
 ) -> None:
     """Write the data of Figures 14 and 15 and the error budgets; print the budgets.
 
@@ -27,22 +26,18 @@ def compare(
     ----------
     amplitude
         Amplitude over the length at which the models' budget is printed.
-    jobs
-        Processes at a time; by default the cores.
-    cache
-        Folder with one file per finished spin-up.
-    out
-        Folder for the results.
-    force
-        Replace a budget at another amplitude.
     """
-    folder = writable_folder(out)
+    folder = writable_folder(results.out)
     console = new_console()
     models = comparison.model_budget(amplitudes=(amplitude,))
-    refuse_to_replace(models, folder / "budget_models.nc", force=force)
-    spin_ups = f"finished spin-ups are kept in the cache {cache}"
+    refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
+    spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
     with telling_what_is_kept(lambda: spin_ups), counter(console, "spin-ups") as progress:
-        options: dict[str, Any] = {"jobs": jobs, "cache": cache, "progress": progress}
+        options: dict[str, Any] = {
+            "jobs": workers.jobs,
+            "cache": workers.cache,
+            "progress": progress,
+        }
         data = {
             "figure_14": comparison.figure_14(**options),
             "figure_15": comparison.figure_15(),

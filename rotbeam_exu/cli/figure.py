@@ -10,19 +10,19 @@ from rich.console import Console
 from ..figures.style import save_figure
 from ..files.results import save, save_tables, whole_file, writable_folder
 from ..paper_figures import PAPER_FIGURES
-from .options import Jobs
+from .options import Results, Workers
 from .output import new_console
 from .sweep import counter
-from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
+from .targets import listed, refuse_to_replace, telling_what_is_kept
+
+_WORKERS, _RESULTS = Workers(), Results()
 
 
 def figure(
     number: str,
     *,
-    jobs: Jobs = None,
-    cache: Path = Path("results/cache"),
-    out: Path = Path("results"),
-    force: Force = False,
+    workers: Workers = _WORKERS,
+    results: Results = _RESULTS,
 ) -> None:
     """Make a figure of the paper: netCDF, CSV, PNG, PDF and a caption.
 
@@ -30,14 +30,6 @@ def figure(
     ----------
     number
         3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
-    jobs
-        Processes at a time; by default the cores.
-    cache
-        Folder with one file per finished spin-up.
-    out
-        Folder for the results.
-    force
-        Replace data that are not this figure's.
     """
     every = list(PAPER_FIGURES)
     wanted = every if number == "all" else [int(number)] if number.isdecimal() else []
@@ -46,22 +38,24 @@ def figure(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
         )
-    folder = writable_folder(out)
+    folder = writable_folder(results.out)
     console = new_console()
     done: list[Path] = []
-    spin_ups = f"finished spin-ups are kept in the cache {cache}"
+    spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
     with telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])])):
         for n in wanted:
-            done += _made(n, folder, console, jobs=jobs, cache=cache, force=force)
+            done += _made(n, folder, console, workers, force=results.force)
 
 
-def _made(
-    n: int, folder: Path, console: Console, *, jobs: int | None, cache: Path, force: bool
-) -> list[Path]:
+def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bool) -> list[Path]:
     """Make one figure and return its files."""
     made = PAPER_FIGURES[n]
     with counter(console, f"figure {n}") as progress:
-        options = {"jobs": jobs, "cache": cache, "progress": progress} if made.sweeps else {}
+        options = (
+            {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
+            if made.sweeps
+            else {}
+        )
         data = made.data(**options)
     name = folder / f"figure_{n}"
     refuse_to_replace(data, name.with_suffix(".nc"), force=force)

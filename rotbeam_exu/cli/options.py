@@ -1,14 +1,22 @@
-"""Options that several commands share: whole numbers, and a formulation's own as name=value."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from ..fem.elements import Formulation, formulation
+from analytic import Beam
+
+from ..fem.case import Case
+from ..fem.elements import formulation
+from ..fem.solver import Frame
+from .motion import Motion
+from .targets import Force
 
 
 def _whole(_: Any, tokens: Sequence[Token]) -> int:
@@ -28,14 +36,90 @@ Jobs = Annotated[int | None, Parameter(converter=_whole)]
 """A number of processes, or as many as there are cores."""
 
 
-def label(element: str, options: Sequence[str] | None) -> str:
-    """Return the formulation with its options as part of a file's name."""
-    return "-".join([element, *(text.replace("=", "-") for text in options or [])])
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Discretization:
+    """How a run is computed.
+
+    Parameters
+    ----------
+    element
+        Beam formulation.
+    option
+        Option of the formulation as name=value; may be given again for another.
+    elements
+        Number of elements.
+    step
+        Step size of the integrator [s].
+    duration
+        End of the run [s].
+    frame
+        Coordinates of the model.
+    """
+
+    element: str = "cable"
+    option: list[str] | None = None
+    elements: Whole = 16
+    step: float | None = None
+    duration: float | None = None
+    frame: Frame = "inertial"
+
+    @property
+    def name(self) -> str:
+        """Formulation, options and mesh as part of a file's name."""
+        options = [text.replace("=", "-") for text in self.option or []]
+        return "-".join([self.element, *options, str(self.elements)])
+
+    @property
+    def title(self) -> str:
+        """Formulation and options for a reader."""
+        return ", ".join([self.element, *(self.option or [])])
+
+    def case(self, beam: Beam, motion: Motion) -> Case:
+        """Return the case of a motion, whose step and duration are chosen."""
+        return Case(
+            beam=beam,
+            spin_up=motion.spin_up,
+            element=formulation(self.element, dict(map(_name_and_value, self.option or []))),
+            elements=self.elements,
+            duration=motion.duration,
+            step=motion.step,
+            frame=self.frame,
+        )
 
 
-def chosen_formulation(element: str, options: Sequence[str] | None) -> Formulation:
-    """Return the formulation with its options, each given as name=value."""
-    return formulation(element, dict(map(_name_and_value, options or [])))
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Results:
+    """Where results go.
+
+    Parameters
+    ----------
+    out
+        Folder for the results.
+    force
+        Replace a result of other inputs that has the same name.
+    """
+
+    out: Path = Path("results")
+    force: Force = False
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Workers:
+    """Who does the work.
+
+    Parameters
+    ----------
+    jobs
+        Processes at a time; by default the cores.
+    cache
+        Folder with one file per finished spin-up, from which a stopped command goes on.
+    """
+
+    jobs: Jobs = None
+    cache: Path = Path("results/cache")
 
 
 def _name_and_value(text: str) -> tuple[str, object]:

@@ -15,31 +15,26 @@ from analytic.input_checks import RotbeamWarning
 from ..fem.case import Case
 from ..fem.linearization import natural_frequencies
 from ..fem.simulation import run_case
-from ..fem.solver import Frame
 from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..oscillation import SteadyOscillation, steady_oscillation
 from ..verdict import SimulationError, energy_drift
 from .assessment import Assessment, assess
 from .motion import chosen_motion, refuse_rest
-from .options import Whole, chosen_formulation, label
+from .options import Discretization, Results
 from .output import new_console
-from .targets import Force, free_name, listed, refuse_to_replace, telling_what_is_kept
+from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
+
+_DISCRETIZATION, _RESULTS = Discretization(), Results()
 
 
 def run(
     *,
     omega: float | None = None,
     ramp_time: float | None = None,
-    elements: Whole = 16,
-    step: float | None = None,
-    duration: float | None = None,
-    element: str = "cable",
-    option: list[str] | None = None,
-    frame: Frame = "inertial",
+    discretization: Discretization = _DISCRETIZATION,
     config: Path | None = None,
-    out: Path = Path("results"),
-    force: Force = False,
+    results: Results = _RESULTS,
 ) -> None:
     """Spin a beam up in Exudyn, measure its steady oscillation, write data and figure.
 
@@ -49,88 +44,75 @@ def run(
         Steady angular velocity [rad/s].
     ramp_time
         Time from rest to the steady angular velocity, T in Eq. 1 [s].
-    elements
-        Number of elements.
-    step
-        Step size of the integrator [s].
-    duration
-        End of the run [s].
-    element
-        Beam formulation.
-    option
-        Option of the formulation as name=value; may be given again for another.
-    frame
-        Coordinates of the model.
     config
         TOML file with the beam; without it, the paper's beam.
-    out
-        Folder for the results.
-    force
-        Replace a result of other inputs that has the same name.
     """
     beam = Beam.reference() if config is None else load_beam(config)
-    motion = chosen_motion(beam, omega=omega, ramp_time=ramp_time, duration=duration, step=step)
+    motion = chosen_motion(
+        beam,
+        omega=omega,
+        ramp_time=ramp_time,
+        duration=discretization.duration,
+        step=discretization.step,
+    )
     refuse_rest(motion.spin_up.omega)
-    model = chosen_formulation(element, option)
-    case = Case(
-        beam=beam,
-        spin_up=motion.spin_up,
-        element=model,
-        elements=elements,
-        duration=motion.duration,
-        step=motion.step,
-        frame=frame,
+    case = discretization.case(beam, motion)
+    path = writable_folder(results.out) / (
+        f"{discretization.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
     )
-    folder = writable_folder(out)
-    name = (
-        f"{label(element, option)}-{elements}"
-        f"-omega-{motion.spin_up.omega:g}-ramp-{motion.spin_up.ramp_time:g}"
-    )
-    refuse_to_replace(case.describe(), folder / f"{name}.nc", folder / f"{name}.csv", force=force)
+    refuse_to_replace(case.describe(), *_data_files(path), force=results.force)
     console = new_console()
     if config is not None:
         _line(console, "motion", f"{motion} (where not given, the paper's, scaled by ω_0)")
     written: list[Path] = []
     with telling_what_is_kept(lambda: f"kept: {listed(written)}" if written else ""):
-        try:
-            data = _computed(case, console)
-        except SimulationError as error:
-            if error.run is None:
-                raise
-            failed = error.run.assign_attrs(verdict=f"failed: {error}")
-            written += _saved(failed, folder, free_name(failed, folder, f"{name}-failed"))
-            raise RuntimeError(
-                f"{error}; what was computed is in {written[0]}, marked failed"
-            ) from error
-        # What was computed is safe before anything else is tried with it.
-        written += _saved(data, folder, name)
-        try:
-            steady = steady_oscillation(data)
-        except ValueError as error:
-            raise RuntimeError(f"{error}; the run itself is in {written[0]}") from error
+        data, steady = _measured(case, path, written, console)
 
         from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
 
-        written += figures.save_figure(figures.spin_up(data)[0], folder / name)
+        written += figures.save_figure(figures.spin_up(data)[0], path)
         omega_n = natural_frequencies(
-            beam, case.spin_up.omega, element=model, elements=elements, count=1
+            beam, case.omega, element=case.element, elements=case.elements, count=1
         )[0]
-        assessment = assess(beam, case.spin_up.omega, float(omega_n), steady)
-    _print_inputs(console, case, ", ".join([element, *(option or [])]))
+        assessment = assess(beam, case.omega, float(omega_n), steady)
+    _print_inputs(console, case, discretization.title)
     _print_results(console, data, steady, assessment)
     _line(console, "written", listed(written))
-    for sentence in assessment.warnings(elements, case.step):
+    for sentence in assessment.warnings(case.elements, case.step):
         warnings.warn(sentence, RotbeamWarning, stacklevel=2)
+
+
+def _measured(
+    case: Case, path: Path, written: list[Path], console: Console
+) -> tuple[xr.Dataset, SteadyOscillation]:
+    """Compute, save, then measure: what was computed is safe before anything else is tried."""
+    try:
+        data = _computed(case, console)
+    except SimulationError as error:
+        if error.run is None:
+            raise
+        failed = error.run.assign_attrs(verdict=f"failed: {error}")
+        name = free_name(failed, path.parent, f"{path.name}-failed")
+        written += [save(failed, file) for file in _data_files(path.with_name(name))]
+        raise RuntimeError(
+            f"{error}; what was computed is in {written[0]}, marked failed"
+        ) from error
+    written += [save(data, file) for file in _data_files(path)]
+    try:
+        return data, steady_oscillation(data)
+    except ValueError as error:
+        raise RuntimeError(f"{error}; the run itself is in {written[0]}") from error
+
+
+def _data_files(path: Path) -> tuple[Path, Path]:
+    # Appended, not replaced: a name may have a point in it.
+    return path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
 
 
 def _computed(case: Case, console: Console) -> xr.Dataset:
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("spinning up", total=1.0)
         return run_case(case, progress=lambda done: bar.update(task, completed=done))
-
-
-def _saved(data: xr.Dataset, folder: Path, name: str) -> list[Path]:
-    return [save(data, folder / f"{name}.nc"), save(data, folder / f"{name}.csv")]
 
 
 def _line(console: Console, title: str, text: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -18,8 +19,6 @@ from analytic import Beam, SpinUp
 from analytic.input_checks import positive, whole_number
 
 from .. import paper
-from ..fem.case import Case
-from ..fem.solver import Frame
 from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..sweeps.dask import dask_executor
@@ -27,9 +26,9 @@ from ..sweeps.grid import failures
 from ..sweeps.grid import sweep as run_sweep
 from .cost import require_affordable
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, refuse_rest
-from .options import Jobs, Whole, chosen_formulation, label
+from .options import Discretization, Results, Workers
 from .output import new_console, print_columns
-from .targets import Force, listed, refuse_to_replace, telling_what_is_kept
+from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -38,25 +37,21 @@ _SECONDS_PER_ELEMENT_STEP = 2e-6
 """From below: a process manages less."""
 
 
+_DISCRETIZATION, _RESULTS, _WORKERS = Discretization(), Results(), Workers()
+
+
 def sweep(
     *,
     omega: Values = None,
     ramp_time: Values = None,
-    element: str = "cable",
-    option: list[str] | None = None,
-    elements: Whole = 16,
-    step: float | None = None,
-    duration: float | None = None,
-    frame: Frame = "inertial",
-    jobs: Jobs = None,
+    discretization: Discretization = _DISCRETIZATION,
+    workers: Workers = _WORKERS,
     executor: Literal["processes", "dask"] = "processes",
     scheduler: str | None = None,
-    cache: Path = Path("results/cache"),
     shard: str = "1/1",
     history: Annotated[bool, Parameter(negative=())] = False,
     config: Path | None = None,
-    out: Path = Path("results"),
-    force: Force = False,
+    results: Results = _RESULTS,
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times; failed cases stay on record.
 
@@ -66,65 +61,35 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    element
-        Beam formulation.
-    option
-        Option of the formulation as name=value; may be given again for another.
-    elements
-        Number of elements.
-    step
-        Step size of the integrator [s].
-    duration
-        End of the runs [s].
-    frame
-        Coordinates of the model.
-    jobs
-        Processes at a time; by default the cores.
     executor
         Where the cases run: processes here, or a Dask cluster.
     scheduler
         Address of the Dask scheduler, as tcp://host:8786.
-    cache
-        Folder with one file per finished case, from which a stopped sweep resumes.
     shard
         Part k of n of the grid, as 1/4, for job arrays that share a cache.
     history
         Also keep q over time.
     config
         TOML file with the beam; without it, the paper's beam.
-    out
-        Folder for the results.
-    force
-        Replace a table of another grid or of other inputs that has the same name.
     """
     beam = Beam.reference() if config is None else load_beam(config)
     omegas = chosen_speeds(beam, *paper.SPEEDS) if omega is None else omega
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
     refuse_rest(*omegas)
-    motion = _motion(beam, omegas, ramp_times, step, duration)
-    model = chosen_formulation(element, option)
+    motion = _motion(beam, omegas, ramp_times, discretization)
     part = _shard(shard)
-    workers = os.cpu_count() or 1 if jobs is None else whole_number("jobs", jobs)
     if executor == "dask" and scheduler is None:
         raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
-    cases = len(omegas) * len(ramp_times) // part[1]
-    require_affordable(
-        f"a sweep of {cases} spin-ups",
-        memory=_BYTES_PER_CASE * len(omegas) * len(ramp_times),
-        seconds=_SECONDS_PER_ELEMENT_STEP * cases * elements * motion.duration / motion.step
-        / (workers if executor == "processes" else math.inf),
-        days=30.0,
-        remedy="take fewer speeds and ramp times, or parts of them with --shard",
-    )  # fmt: skip
-    folder = writable_folder(out)
-    name = f"sweep-{label(element, option)}-{elements}"
+    count = len(omegas) * len(ramp_times)
+    at_once = math.inf if executor == "dask" else _cores(workers.jobs)
+    steps = discretization.elements * motion.duration / motion.step
+    _require_affordable(steps, count, count // part[1], at_once)
+    one = discretization.case(beam, motion)
+    name = f"sweep-{discretization.name}"
     name += "" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}"
-    one = Case(
-        beam=beam, spin_up=motion.spin_up, element=model, elements=elements,
-        duration=motion.duration, step=motion.step, frame=frame,
-    )  # fmt: skip
+    path = writable_folder(results.out) / f"{name}.nc"
     grid = {"omega": omegas, "ramp_time": ramp_times}
-    refuse_to_replace({**one.describe(), **grid}, folder / f"{name}.nc", force=force)
+    refuse_to_replace({**one.describe(), **grid}, path, force=results.force)
     console = new_console()
     if config is not None:
         console.print(
@@ -132,43 +97,34 @@ def sweep(
             f"duration {motion.duration:g} s, step {motion.step:g} s "
             "(where not given, the paper's, scaled by ω_0)"
         )
-    finished = 0
+    with (
+        _executor(scheduler if executor == "dask" else None) as pool,
+        _kept_and_counted(console, workers.cache, count // part[1]) as progress,
+    ):
+        result = run_sweep(
+            beam,
+            omegas=omegas,
+            ramp_times=ramp_times,
+            element=one.element,
+            elements=one.elements,
+            duration=one.duration,
+            step=one.step,
+            frame=one.frame,
+            executor=pool,
+            jobs=workers.jobs,
+            cache=workers.cache,
+            progress=progress,
+            on_error="record",
+            shard=part,
+            history=history,
+        )
+    _finish(console, result, path)
 
-    def kept() -> str:
-        where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
-        return f"{where}; the same command goes on from there" if finished else ""
 
-    pool, client = dask_executor(str(scheduler)) if executor == "dask" else (None, None)
-    try:
-        with telling_what_is_kept(kept), counter(console, "spin-ups") as shown:
-
-            def progress(done: int, number: int) -> None:
-                nonlocal finished, cases
-                finished, cases = done, number
-                shown(done, number)
-
-            result = run_sweep(
-                beam,
-                omegas=omegas,
-                ramp_times=ramp_times,
-                element=model,
-                elements=elements,
-                duration=motion.duration,
-                step=motion.step,
-                frame=frame,
-                executor=pool,
-                jobs=jobs,
-                cache=cache,
-                progress=progress,
-                on_error="record",
-                shard=part,
-                history=history,
-            )
-    finally:
-        if client is not None:
-            client.close()
+def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
+    """Write and print the result; refuse to call a sweep of which nothing passed a success."""
     measured = result.drop_dims("time", errors="ignore")
-    written = [save(result, folder / f"{name}.nc"), save(measured, folder / f"{name}.csv")]
+    written = [save(result, path), save(measured, path.with_name(f"{path.stem}.csv"))]
     _print_result(console, measured)
     console.print("written " + listed(written))
     verdicts = measured["verdict"].to_numpy()
@@ -176,18 +132,64 @@ def sweep(
         raise RuntimeError(f"no spin-up passed its checks; why is in {written[0]}")
 
 
+def _cores(jobs: int | None) -> int:
+    return os.cpu_count() or 1 if jobs is None else whole_number("jobs", jobs)
+
+
+def _require_affordable(steps: float, count: int, mine: int, at_once: float) -> None:
+    """Refuse `mine` of `count` spin-ups of so many steps, times elements, by an estimate."""
+    require_affordable(
+        f"a sweep of {mine} spin-ups",
+        memory=_BYTES_PER_CASE * count,
+        seconds=_SECONDS_PER_ELEMENT_STEP * steps * mine / at_once,
+        days=30.0,
+        remedy="take fewer speeds and ramp times, or parts of them with --shard",
+    )
+
+
+@contextmanager
+def _executor(scheduler: str | None) -> Iterator[Executor | None]:
+    """Give the executor of a Dask cluster, or None for processes here."""
+    if scheduler is None:
+        yield None
+        return
+    pool, client = dask_executor(scheduler)
+    try:
+        yield pool
+    finally:
+        client.close()
+
+
+@contextmanager
+def _kept_and_counted(
+    console: Console, cache: Path, cases: int
+) -> Iterator[Callable[[int, int], None]]:
+    """Show how many spin-ups are done, and say where they are should they not all be."""
+    finished = 0
+
+    def kept() -> str:
+        where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
+        return f"{where}; the same command goes on from there" if finished else ""
+
+    with telling_what_is_kept(kept), counter(console, "spin-ups") as shown:
+
+        def progress(done: int, number: int) -> None:
+            nonlocal finished, cases
+            finished, cases = done, number
+            shown(done, number)
+
+        yield progress
+
+
 def _motion(
-    beam: Beam,
-    omegas: list[float],
-    ramp_times: list[float],
-    step: float | None,
-    duration: float | None,
+    beam: Beam, omegas: list[float], ramp_times: list[float], discretization: Discretization
 ) -> Motion:
     """Return duration and step for a whole grid: of the longest ramp and the shortest."""
     for omega in omegas:
         SpinUp(omega=omega, ramp_time=1.0)
     checked = [positive("ramp_time", time, "s") for time in ramp_times]
     longest, shortest = max(checked, default=None), min(checked, default=None)
+    step, duration = discretization.step, discretization.duration
     if step is None:
         step = chosen_motion(beam, ramp_time=shortest, duration=duration).step
     return chosen_motion(beam, ramp_time=longest, duration=duration, step=step)
