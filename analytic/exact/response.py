@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -101,14 +102,7 @@ def spin_up_response(
     RuntimeError
         If the tolerance is not reached.
     """
-    time = finite_values("times", times, "s")
-    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
-        raise ValueError("times must ascend from 0 s on, for the beam is at rest before")
-    tolerance = positive("tolerance", tolerance)
-    if tolerance < _FINEST:
-        raise ValueError(
-            f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
-        )
+    time, tolerance = _checked(times, tolerance)
     if not isinstance(spin_up, SpinUp):
         raise TypeError(
             f"spin_up must be a SpinUp, from rest, got {spin_up!r}; for a beam that turns already "
@@ -132,10 +126,11 @@ def spin_up_response(
             coarser = None
             continue
         if coarser is not None:
-            size = float(np.abs(finer[0].imag).max())
-            error = float(np.abs(finer[0] - coarser[0]).max() / (size or 1.0))
+            size = float(np.abs(finer.tip.imag).max())
+            error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
             if error <= tolerance:
-                z, z_dot = beam.length * finer[0], beam.length * beam.frequency_scale * finer[1]
+                z = beam.length * finer.tip
+                z_dot = beam.length * beam.frequency_scale * finer.tip_rate
                 tip = z * np.exp(1j * spin_up.angle(time))
                 return SpinUpResponse(
                     beam=beam,
@@ -144,7 +139,7 @@ def spin_up_response(
                     q=z.imag,
                     q_dot=z_dot.imag,
                     tip=np.stack((tip.real, tip.imag), axis=-1),
-                    axis=beam.length * np.stack((finer[2].real, finer[2].imag), axis=-1),
+                    axis=beam.length * np.stack((finer.axis.real, finer.axis.imag), axis=-1),
                     error=error,
                     steps=grid.size - 1,
                     functions=functions,
@@ -153,6 +148,18 @@ def spin_up_response(
     raise RuntimeError(
         f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
     )
+
+
+def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:
+    time = finite_values("times", times, "s")
+    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
+        raise ValueError("times must ascend from 0 s on, for the beam is at rest before")
+    tolerance = positive("tolerance", tolerance)
+    if tolerance < _FINEST:
+        raise ValueError(
+            f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
+        )
+    return time, tolerance
 
 
 def _what_to_try(error: float, size: float, end: float) -> str:
@@ -208,6 +215,14 @@ def _grid(corners: list[float], counts: list[int]) -> FloatArray:
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
 
 
+class _Motion(NamedTuple):
+    """The tip's z and ż (times,), and z (times, points), in the rotating frame; nondimensional."""
+
+    tip: ComplexArray
+    tip_rate: ComplexArray
+    axis: ComplexArray
+
+
 def _integrated(
     beam: Beam,
     spin_up: SpinUp,
@@ -215,11 +230,8 @@ def _integrated(
     grid: FloatArray,
     time: FloatArray,
     points: FloatArray,
-) -> tuple[ComplexArray, ComplexArray, ComplexArray] | None:
-    """Return the tip's z and ż (times,) and z (times, points) in the rotating frame.
-
-    None where Newton's method fails.
-    """
+) -> _Motion | None:
+    """Return the motion on the grid of steps, None where Newton's method fails."""
     method, per_second = radau(_STAGES), beam.frequency_scale
     q, q_dot = np.zeros(model.size), np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
@@ -265,4 +277,4 @@ def _integrated(
             axis[inside] = model.integrated(model.slope(positions), points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return z, z_dot, axis
+    return _Motion(z, z_dot, axis)

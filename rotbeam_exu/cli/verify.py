@@ -16,13 +16,9 @@ from analytic.input_checks import positive
 
 from ..fem.elements import ALIASES, FORMULATIONS, formulation
 from ..files.beam_file import load_beam
+from ..verification.cost import LADDER, cost_at_error
 from ..verification.entries import entries_at_hand, formulation_entry
-from ..verification.measures import (
-    LADDER,
-    THRESHOLDS,
-    Measure,
-    cost_at_error,
-)
+from ..verification.measures import THRESHOLDS, Measure
 from ..verification.measures import verify as verification_of
 from ..verification.peers import PEERS, Entry, peer
 from .motion import Motion, chosen_motion, slower_than_paper

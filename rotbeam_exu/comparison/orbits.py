@@ -51,23 +51,9 @@ def figure_15(
     per_length = 1.0 / (beam.omega_0 * beam.length)
 
     q, q_dot = _from_the_peak(run, period, time)
-    orbits = {"finite element": (q / beam.length, q_dot * per_length)}
-    periods = {"finite element": period}
-    with beyond_range():
-        for name in MODELS:
-            model = reduced_model(beam, omega, name)
-            a0 = first_harmonic_of_peak(model, steady.amplitude)
-            frequency = model.frequency(a0)
-            velocity = -frequency * (
-                a0 * np.sin(frequency * time)
-                - 3.0 * model.lambda_x * a0**3 * np.sin(3.0 * frequency * time)
-            )
-            orbits[name] = (model.response(time, a0), velocity / beam.omega_0)
-            periods[name] = 2.0 * np.pi / frequency
-        exact = periodic_orbits(beam, omega, [steady.amplitude])
-    x, x_rate = _from_exact_peak(exact, time)
-    orbits["exact"] = (x, x_rate / beam.omega_0)
-    periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
+    orbits, periods = _of_theory(beam, omega, steady.amplitude, time)
+    orbits["finite element"] = (q / beam.length, q_dot * per_length)
+    periods["finite element"] = period
     names = ["finite element", *MODELS, "exact"]
     half_axes = np.array([np.abs(v).max() for v in orbits["finite element"]])
     paths = {name: np.stack(orbit, axis=-1) / half_axes for name, orbit in orbits.items()}
@@ -111,6 +97,29 @@ def figure_15(
             "element": run.attrs["element"],
         },
     )
+
+
+def _of_theory(
+    beam: Beam, omega: float, amplitude: float, time: FloatArray
+) -> tuple[dict[str, tuple[FloatArray, FloatArray]], dict[str, float]]:
+    """Return q/L and q̇/(ω0 L) of the models and the exact beam from their peak, and the periods."""
+    orbits, periods = {}, {}
+    with beyond_range():
+        for name in MODELS:
+            model = reduced_model(beam, omega, name)
+            a0 = first_harmonic_of_peak(model, amplitude)
+            frequency = model.frequency(a0)
+            velocity = -frequency * (
+                a0 * np.sin(frequency * time)
+                - 3.0 * model.lambda_x * a0**3 * np.sin(3.0 * frequency * time)
+            )
+            orbits[name] = (model.response(time, a0), velocity / beam.omega_0)
+            periods[name] = 2.0 * np.pi / frequency
+        exact = periodic_orbits(beam, omega, [amplitude])
+    x, x_rate = _from_exact_peak(exact, time)
+    orbits["exact"] = (x, x_rate / beam.omega_0)
+    periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
+    return orbits, periods
 
 
 def _distance(path: FloatArray, other: FloatArray) -> float:

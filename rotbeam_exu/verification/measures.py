@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import math
 import time as clock
@@ -38,9 +37,6 @@ A linear element of 16 is off by 5e-4 in frequency, and the paper's Fig. 14 reso
 passes can be told from the paper's models. A history drifts by its frequency error times the
 phase of twelve seconds, 45 rad. An order of two, less what coarse meshes are off their limit.
 """
-
-LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
-"""Meshes and steps [s] by which the cost at equal error is found; steps scaled as speeds are."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,63 +159,12 @@ def verify(
     )
 
 
-def cost_at_error(
-    entry: Entry, error: float = 1e-2, *, beam: Beam | None = None, spin_up: SpinUp | None = None
-) -> tuple[float, FloatArray]:
-    """Return the wall time [s] at which a code reaches an error, and the ladder it is read from.
-
-    LADDER's runs of twice the ramp time are timed one after the other, on one core if the caller
-    sees to it; the error is the largest of q(t) over max|q|; time over error is interpolated
-    between runs, logarithmically. NaN where the ladder does not reach the error; where even its
-    first run is better, the time of that, an upper bound.
-
-    Returns
-    -------
-    seconds : float
-    ladder : ndarray (runs, 2)
-        Error and seconds of each run.
-    """
-    beam = Beam.reference() if beam is None else beam
-    spin_up = SpinUp(omega=6.0, ramp_time=3.0) if spin_up is None else spin_up
-    ladder = np.full((len(LADDER), 2), math.nan)
-    with contextlib.suppress(RuntimeError):  # the first run loads the code; it does not count
-        entry.simulate(
-            beam,
-            spin_up,
-            elements=LADDER[0][0],
-            duration=_whole(2.0 * spin_up.ramp_time, LADDER[0][1] / _faster(beam)),
-            step=LADDER[0][1] / _faster(beam),
-        )
-    for rung, (elements, step_of_paper) in zip(ladder, LADDER, strict=True):
-        step = step_of_paper / _faster(beam)
-        duration = _whole(2.0 * spin_up.ramp_time, step)
-        started = clock.perf_counter()
-        try:
-            run = entry.simulate(
-                beam,
-                spin_up,
-                elements=elements,
-                duration=duration,
-                step=step,
-            )
-        except RuntimeError:
-            continue
-        rung[1] = clock.perf_counter() - started
-        rung[0] = _history_error(run, beam, spin_up)
-    finished = ladder[np.isfinite(ladder[:, 0])]
-    if not finished.size:
-        return math.nan, ladder
-    errors, seconds = np.log(finished[np.argsort(finished[:, 0])]).T
-    at_error = np.interp(math.log(error), errors, seconds, left=math.nan)
-    return math.exp(float(at_error)), ladder
-
-
-def _faster(beam: Beam) -> float:
+def faster_than_paper(beam: Beam) -> float:
     """How many times faster the beam is than the paper's."""
     return beam.omega_0 / Beam.reference().omega_0
 
 
-def _whole(duration: float, step: float) -> float:
+def whole_duration(duration: float, step: float) -> float:
     """Return the duration, or what is a little longer and a whole number of steps."""
     return math.ceil(duration / step * (1.0 - 1e-12)) * step
 
@@ -242,7 +187,7 @@ def _linear_frequency(entry: Entry, beam: Beam) -> Measure:
             entry.first_frequency(beam, omega, entry.elements)
             / linear_modes(beam, omega, 1).frequencies[0]
             - 1.0
-            for omega in (speed * _faster(beam) for speed in SPEEDS)
+            for omega in (speed * faster_than_paper(beam) for speed in SPEEDS)
         ]
     except RuntimeError as error:
         return Measure(name=name, value=math.nan, passed=False, note=str(error))
@@ -271,7 +216,8 @@ def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> Ste
         raise RuntimeError(str(error)) from error
 
 
-def _history_error(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> float:
+def history_error(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> float:
+    """Return the largest error of q(t) over max|q|, against the exact beam."""
     exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6).q
     return float(np.abs(run["q"] - exact).max() / np.abs(exact).max())
 
@@ -282,7 +228,7 @@ def _orders(entry: Entry, beam: Beam, spin_up: SpinUp) -> list[Measure]:
 
     mesh, step = entry.elements, entry.step
     # A second after the ramp of the paper's beam, and four steps of the judged one a step.
-    duration = _whole(spin_up.ramp_time + 1.0 / _faster(beam), 4.0 * step)
+    duration = whole_duration(spin_up.ramp_time + 1.0 / faster_than_paper(beam), 4.0 * step)
     steps = [history(max(mesh // 4, 1), n * step) for n in (4, 2, 1)]
     meshes = [history(elements, 4 * step) for elements in (max(mesh // 2, 1), mesh, 2 * mesh)]
     return [

@@ -6,7 +6,8 @@ import io
 import pytest
 
 from rotbeam_exu.cli import verify as verify_job
-from rotbeam_exu.verification.measures import LADDER, THRESHOLDS, Measure, Verification
+from rotbeam_exu.verification.cost import LADDER
+from rotbeam_exu.verification.measures import THRESHOLDS, Measure, Verification
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),

@@ -7,8 +7,9 @@ import xarray as xr
 from analytic import spin_up_response
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.verification.cost import cost_at_error
 from rotbeam_exu.verification.entries import formulation_entry
-from rotbeam_exu.verification.measures import THRESHOLDS, cost_at_error, verify
+from rotbeam_exu.verification.measures import THRESHOLDS, verify
 from rotbeam_exu.verification.peers import Entry, peer
 
 

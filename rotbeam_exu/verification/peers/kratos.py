@@ -21,6 +21,7 @@ import numpy as np
 import xarray as xr
 
 from analytic import Beam, SpinUp
+from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
 from ...resolution import require_resolved_ramp, sampling
@@ -67,63 +68,83 @@ def simulate(
         If steps did not converge.
     """
     elements, step = whole_number("elements", elements), positive("step", step, "s")
-    steps = round(positive("duration", duration, "s") / step)
     require_resolved_ramp(spin_up.ramp_time, step)
+    steps = round(positive("duration", duration, "s") / step)
     every = sampling(beam, spin_up.omega, steps, step)
     strategy, part, kratos, _model = _assembled(beam, elements, tolerance, iterations)
     root, tip = part.Nodes[1], part.Nodes[elements + 1]
-    time = step * np.arange(0, steps + 1, every)
+    time: FloatArray = step * np.arange(0.0, steps + 1.0, every)
     q, q_dot = np.zeros(time.size), np.zeros(time.size)
     unconverged, newton, started = 0, 0, clock.perf_counter()
     for k in range(1, steps + 1):
         t = k * step
-        angle = spin_up.angle(t)
         part.CloneTimeStep(t)
         part.ProcessInfo[kratos.STEP] = k
-        strategy.InitializeSolutionStep()
-        strategy.Predict()
-        root.SetSolutionStepValue(kratos.ROTATION_Z, angle)
-        unconverged += not strategy.SolveSolutionStep()
+        unconverged += not _turned_to(spin_up.angle(t), root, strategy, kratos)
         newton += part.ProcessInfo[kratos.NL_ITERATION_NUMBER]
-        strategy.FinalizeSolutionStep()
         if k % every:
             continue
         u = tip.GetSolutionStepValue(kratos.DISPLACEMENT)
         v = tip.GetSolutionStepValue(kratos.VELOCITY)
         x, y = beam.length + u[0], u[1]
-        sine, cosine = math.sin(angle), math.cos(angle)
-        q[k // every] = cosine * y - sine * x
-        q_dot[k // every] = cosine * v[1] - sine * v[0] - spin_up.rate(t) * (cosine * x + sine * y)
+        q[k // every], q_dot[k // every] = _from_the_clamp((x, y), (v[0], v[1]), spin_up, t)
         if not math.hypot(x, y) < 1.05 * beam.length:
             raise SimulationError(
                 f"the tip's distance from the clamp is {math.hypot(x, y):.4g} m at t = {t:.6g} s, "
                 f"beyond the beam's {beam.length:g} m: take a smaller step than {step:g} s"
             )
-        if progress is not None:
+        if progress:
             progress(k / steps)
     wall_time = clock.perf_counter() - started
     verdict = f"{unconverged} of {steps} steps did not converge to {tolerance:g}"
     if unconverged:
         warnings.warn(f"{verdict}; Kratos went on all the same", RotbeamWarning, stacklevel=2)
+    run = _dataset(time, q, q_dot)
+    run.attrs = {
+        **beam_attributes(beam),
+        **asdict(spin_up),
+        "element": "kratos",
+        "elements": elements,
+        "duration": duration,
+        "step": step,
+        "tolerance": tolerance,
+        "iterations_per_step": newton / steps,
+        "unconverged_steps": unconverged,
+        "wall_time": wall_time,
+        "verdict": verdict if unconverged else "passed",
+    }
+    return run
+
+
+def _dataset(time: FloatArray, q: FloatArray, q_dot: FloatArray) -> xr.Dataset:
     return xr.Dataset(
         {
             "q": ("time", q, {"units": "m", "long_name": "tip displacement q"}),
             "q_dot": ("time", q_dot, {"units": "m/s", "long_name": "tip velocity dq/dt"}),
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
-        attrs={
-            **beam_attributes(beam),
-            **asdict(spin_up),
-            "element": "kratos",
-            "elements": elements,
-            "duration": duration,
-            "step": step,
-            "tolerance": tolerance,
-            "iterations_per_step": newton / steps,
-            "unconverged_steps": unconverged,
-            "wall_time": wall_time,
-            "verdict": verdict if unconverged else "passed",
-        },
+    )
+
+
+def _turned_to(angle: float, root: Any, strategy: Any, kratos: Any) -> bool:
+    """Solve for the step at whose end the clamp stands at `angle`; say whether it converged."""
+    strategy.InitializeSolutionStep()
+    strategy.Predict()
+    root.SetSolutionStepValue(kratos.ROTATION_Z, angle)
+    converged = bool(strategy.SolveSolutionStep())
+    strategy.FinalizeSolutionStep()
+    return converged
+
+
+def _from_the_clamp(
+    position: tuple[float, float], velocity: tuple[float, float], spin_up: SpinUp, t: float
+) -> tuple[float, float]:
+    """Return q and q̇ of Eq. 16 from the tip's position and velocity in the inertial frame."""
+    (x, y), (u, v), angle = position, velocity, spin_up.angle(t)
+    sine, cosine = math.sin(angle), math.cos(angle)
+    return (
+        cosine * y - sine * x,
+        cosine * v - sine * u - spin_up.rate(t) * (cosine * x + sine * y),
     )
 
 
