@@ -1,0 +1,154 @@
+"""Who may import whom: what keeps the theory free of Exudyn, and each room free of those above."""
+
+import ast
+import graphlib
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+# From the ground up: a room imports from rooms below it only, and from itself.
+FLOORS = {
+    "analytic": [
+        {"arrays"},
+        {"input_checks", "quadrature", "methods"},
+        {"beam", "motion"},
+        {"reduced", "exact"},  # neither knows the other
+    ],
+    "rotbeam_exu": [
+        {"paper", "resolution", "tones", "verdict", "files"},
+        {"oscillation", "fem"},
+        {"sweeps", "verification"},
+        {"comparison", "figures"},
+        {"explorer", "paper_figures"},
+        {"cli"},
+    ],
+}
+ALLOWED = {
+    "exudyn": ("rotbeam_exu/fem/", "rotbeam_exu/verification/peers/"),
+    "matplotlib": ("rotbeam_exu/figures/",),
+    "KratosMultiphysics": ("rotbeam_exu/verification/peers/",),
+}
+
+
+def module_of(path):
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def modules():
+    return {
+        module_of(path): path
+        for package in FLOORS
+        for path in sorted((ROOT / package).rglob("*.py"))
+    }
+
+
+KNOWN = modules()
+
+
+def imports_of(name, source, is_package):
+    """Absolute names of what a module imports, functions' own imports included."""
+    package = name if is_package else name.rpartition(".")[0]
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package.split(".")[: len(package.split(".")) - node.level + 1]
+            start = ".".join([*base, *filter(None, [node.module])]) if node.level else node.module
+            for alias in node.names:
+                whole = f"{start}.{alias.name}"
+                yield whole if whole in KNOWN else start
+
+
+def arrows():
+    for name, path in KNOWN.items():
+        source = path.read_text(encoding="utf-8")
+        for target in imports_of(name, source, path.name == "__init__.py"):
+            yield name, target
+
+
+def forbidden(name, target):
+    """Why a module may not import another, or nothing."""
+    library = target.partition(".")[0]
+    path = KNOWN[name].relative_to(ROOT).as_posix()
+    if library in ALLOWED and not path.startswith(ALLOWED[library]):
+        return f"{path} imports {library}, which only {' and '.join(ALLOWED[library])} may"
+    package = name.partition(".")[0]
+    if package == "analytic" and library in ("rotbeam_exu", "xarray"):
+        return f"{path} is theory and imports {library}"
+    if library != package or target == package:
+        return ""
+    floors = [(floor, room) for floor, rooms in enumerate(FLOORS[package]) for room in rooms]
+    place = {room: floor for floor, room in floors}
+    above, below = (text.split(".")[1] if "." in text else "" for text in (name, target))
+    if above and above != below and place[below] >= place[above]:
+        return f"{path} imports {target}, from a room that is not below its own"
+    return ""
+
+
+def test_every_room_has_a_floor():
+    for package, floors in FLOORS.items():
+        rooms = {name.split(".")[1] for name in KNOWN if name.startswith(f"{package}.")}
+        assert rooms == set().union(*floors)
+
+
+def test_no_arrow_points_up_and_each_library_has_its_room():
+    assert [why for arrow in arrows() if (why := forbidden(*arrow))] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "target"),
+    [
+        ("analytic.beam", "exudyn"),
+        ("analytic.methods.harmonic_balance", "analytic.exact.continuum"),
+        ("analytic.reduced.model", "analytic.exact.modes"),
+        ("analytic.exact.modes", "rotbeam_exu.verdict"),
+        ("rotbeam_exu.verification.measures", "exudyn"),
+        ("rotbeam_exu.fem.simulation", "rotbeam_exu.sweeps.grid"),
+        ("rotbeam_exu.oscillation", "rotbeam_exu.fem.case"),
+        ("rotbeam_exu.cli.run", "matplotlib.pyplot"),
+    ],
+)
+def test_an_import_the_wrong_way_is_found(name, target):
+    assert forbidden(name, target)
+
+
+def test_there_is_no_circle():
+    graph = {name: set() for name in KNOWN}
+    for name, target in arrows():
+        # A package that only lists what it holds is no part of a circle with it.
+        if target in KNOWN and target != name and not name.startswith(f"{target}."):
+            graph[name].add(target)
+    graphlib.TopologicalSorter(graph).prepare()
+
+
+def test_what_is_judged_needs_no_fem():
+    inside = [
+        (name, target)
+        for name, target in arrows()
+        if name in ("rotbeam_exu.verification.measures", "rotbeam_exu.verification.cost")
+        and target.startswith("rotbeam_exu.fem")
+    ]
+    assert inside == []
+
+
+@pytest.mark.parametrize(
+    ("imported", "absent"),
+    [
+        ("analytic", ("exudyn", "matplotlib", "xarray", "sympy")),
+        ("rotbeam_exu", ("exudyn", "matplotlib", "xarray", "sympy")),
+        ("rotbeam_exu.verification.measures", ("exudyn", "matplotlib", "sympy")),
+        ("rotbeam_exu.verification.peers", ("exudyn", "matplotlib", "sympy")),
+    ],
+)
+def test_importing_loads_no_more_than_it_needs(imported, absent):
+    # What is None in sys.modules cannot be imported: as if it were not installed.
+    blocked = f"import sys; sys.modules.update(dict.fromkeys({absent!r}, None)); import {imported}"
+    done = subprocess.run(
+        [sys.executable, "-c", blocked], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
