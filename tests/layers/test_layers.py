@@ -1,12 +1,13 @@
 """Who may import whom: what keeps the theory free of Exudyn, and each room free of those above."""
 
-import ast
 import graphlib
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from docs._ext.derivation import imports_of, in_order, modules
 
 ROOT = Path(__file__).parents[2]
 
@@ -34,40 +35,12 @@ ALLOWED = {
 }
 
 
-def module_of(path):
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
-
-
-def modules():
-    return {
-        module_of(path): path
-        for package in FLOORS
-        for path in sorted((ROOT / package).rglob("*.py"))
-    }
-
-
-KNOWN = modules()
-
-
-def imports_of(name, source, is_package):
-    """Absolute names of what a module imports, functions' own imports included."""
-    package = name if is_package else name.rpartition(".")[0]
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = package.split(".")[: len(package.split(".")) - node.level + 1]
-            start = ".".join([*base, *filter(None, [node.module])]) if node.level else node.module
-            for alias in node.names:
-                whole = f"{start}.{alias.name}"
-                yield whole if whole in KNOWN else start
+KNOWN = modules(*FLOORS)
 
 
 def arrows():
-    for name, path in KNOWN.items():
-        source = path.read_text(encoding="utf-8")
-        for target in imports_of(name, source, path.name == "__init__.py"):
+    for name in KNOWN:
+        for target in imports_of(name, KNOWN):
             yield name, target
 
 
@@ -124,6 +97,22 @@ def test_there_is_no_circle():
         if target in KNOWN and target != name and not name.startswith(f"{target}."):
             graph[name].add(target)
     graphlib.TopologicalSorter(graph).prepare()
+
+
+def test_the_reference_lists_what_is_built_on_first():
+    for package in FLOORS:
+        order = in_order(package)
+        assert sorted(order) == sorted(name for name in KNOWN if name.split(".")[0] == package)
+    theory = in_order("analytic")
+    for first, then in (
+        ("analytic.beam", "analytic.reduced.shapes"),
+        ("analytic.reduced.shapes", "analytic.reduced.lagrangian"),
+        ("analytic.reduced.lagrangian", "analytic.reduced.model"),
+        ("analytic.reduced.model", "analytic.reduced.tables"),
+        ("analytic.methods.system", "analytic.exact.continuum"),
+        ("analytic.exact.continuum", "analytic.exact.periodic"),
+    ):
+        assert theory.index(first) < theory.index(then)
 
 
 def test_what_is_judged_needs_no_fem():
