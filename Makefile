@@ -1,13 +1,13 @@
 # Everything runs in a virtual environment of its own, made on first use.
 PYTHON ?= python3
 VENV ?= .venv
-BIN := $(VENV)/bin
+BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 # Linear algebra here is small: threads would only get in each other's way.
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures golden test test-all bench bench-peers lint docs check clean
+.PHONY: run figures golden test test-all coverage bench bench-peers lint docs check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -25,6 +25,10 @@ test: $(VENV)/.dev  ## the default test suite
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks"
 
+coverage: $(VENV)/.dev  ## which lines the default suite runs, in htmlcov/
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks" \
+	  --cov=analytic --cov=rotbeam_exu --cov-report=html --cov-report=term:skip-covered
+
 bench: $(VENV)/.dev  ## speed and memory, each against a reference measured in the same run
 	$(BIN)/python -m pytest -m benchmarks --benchmark-enable
 
@@ -41,24 +45,25 @@ docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
 
 check: lint test
 
-$(VENV)/.venv:
+$(VENV)/.pip:
 	$(PYTHON) -m venv $(VENV)
+	$(PIP) install "pip>=25.1"  # the first that knows dependency groups
 	touch $@
 
-$(VENV)/.run: pyproject.toml constraints.txt | $(VENV)/.venv
+$(VENV)/.run: pyproject.toml constraints.txt | $(VENV)/.pip
 	$(PIP) install -c constraints.txt -e .
 	touch $@
 
-$(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.venv
-	$(PIP) install -c constraints.txt -e ".[test,dev]"
+$(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.pip
+	$(PIP) install -c constraints.txt -e . --group test --group dev
 	touch $@ $(VENV)/.run
 
-$(VENV)/.docs: pyproject.toml constraints.txt | $(VENV)/.venv
-	$(PIP) install -c constraints.txt -e ".[docs]"
+$(VENV)/.docs: pyproject.toml constraints.txt | $(VENV)/.pip
+	$(PIP) install -c constraints.txt -e . --group docs
 	touch $@ $(VENV)/.run
 
 $(VENV)/.peers: $(VENV)/.dev
-	$(PIP) install -c constraints.txt -e ".[test,dev,peers]"
+	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev
 	touch $@
 
 clean:

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import difflib
 import os
-import sys
+import tomllib
 from dataclasses import fields
 from pathlib import Path
 
 from analytic import Beam
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")

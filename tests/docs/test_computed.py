@@ -40,8 +40,8 @@ def test_a_warning_in_a_block_is_an_error(blocks, tmp_path):
 
 
 def test_the_directive_inserts_what_is_printed_and_names_a_block_that_fails(tmp_path):
-    pytest.importorskip("sphinx", reason="the extra `docs` is not installed")
-    pytest.importorskip("myst_parser", reason="the extra `docs` is not installed")
+    pytest.importorskip("sphinx", reason="the group `docs` is not installed")
+    pytest.importorskip("myst_parser", reason="the group `docs` is not installed")
     from sphinx.errors import ExtensionError
     from sphinx.testing.util import SphinxTestApp
 
