@@ -125,7 +125,16 @@ def write_interactive() -> None:
     static = HERE / "_static"
     for arguments in (
         ["explore", "--cache", str(HERE / "_build" / "runs"), "--out", f"{static}/explorer.html"],
-        ["animate", "--omega", "6", "--ramp-time", "3", "--out", f"{static}/spin_up.gif"],
+        [
+            "animate",
+            "--omega",
+            "6",
+            "--ramp-time",
+            "3",
+            "--force",
+            "--out",
+            f"{static}/spin_up.gif",
+        ],
     ):
         rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
         subprocess.run([*rotbeam, *arguments], check=True, cwd=HERE, stdout=subprocess.DEVNULL)

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp
@@ -17,8 +18,6 @@ def spin_up():
 
 def observed_order(sizes, errors):
     """Slope of log error over log size, by least squares."""
-    import numpy as np
-
     return np.polyfit(np.log(sizes), np.log(errors), 1)[0]
 
 

@@ -138,7 +138,7 @@ def first_harmonic_of_peak(model: ReducedModel, peak: float) -> float:
 def _from_the_peak(
     run: xr.Dataset, period: float, time: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Q and q_dot of a run over one period from its first steady maximum, by cubic splines."""
+    """Return q and q_dot over one period from the first steady maximum, by cubic splines."""
     steady = run.where(run["time"] >= run.attrs["ramp_time"], drop=True)
     at = steady["time"].to_numpy()
     displacement = interpolate.CubicSpline(at, steady["q"].to_numpy())
@@ -149,7 +149,7 @@ def _from_the_peak(
 
 
 def _from_exact_peak(backbone: Backbone, time: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """X = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
+    """Return x = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
     x, rate = backbone.orbit(0, 401)
     period = 2.0 * np.pi / backbone.frequency[0]
     samples = np.linspace(0.0, period, x.size)

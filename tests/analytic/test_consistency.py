@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from analytic import Beam, Variant, reduced_model, softening_speed
+from analytic import Variant, reduced_model, softening_speed
 from analytic.beam import BETA_1
 from analytic.quadrature import gauss_points, transverse_basis
 from analytic.reduced.coriolis import (
@@ -17,7 +17,6 @@ from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
 
-BEAM = Beam.reference()
 STATIC = Variant(name="static", shape="rotating", axial="static")
 
 
@@ -32,9 +31,9 @@ STATIC = Variant(name="static", shape="rotating", axial="static")
     ],
     ids=["FrI", "FrE", "exact elongation", "FrC", "FrM"],
 )
-def test_lambda_omega_to_all_shown_digits(variant, digits, values):
+def test_lambda_omega_to_all_shown_digits(beam, variant, digits, values):
     for omega, value in zip((2.0, 4.0, 6.0, 8.0), values, strict=True):
-        assert round(reduced_model(BEAM, omega, variant).lambda_omega, digits) == value
+        assert round(reduced_model(beam, omega, variant).lambda_omega, digits) == value
 
 
 def test_consistent_foreshortening_of_the_cantilever_mode():
@@ -79,12 +78,12 @@ def test_the_solve_converges_spectrally(w_bar):
     assert coriolis_coupling(mode).g2 == pytest.approx(reference, rel=1e-11)
 
 
-def test_hardening_turns_to_softening():
+def test_hardening_turns_to_softening(beam):
     found = {
-        name: softening_speed(BEAM, name)
+        name: softening_speed(beam, name)
         for name in ("CI", "CE", "FrI", "FrE", "P3", "P4", "P5", "FrC", "FrM")
     }
-    turns = {name: None if omega is None else omega / BEAM.omega_0 for name, omega in found.items()}
+    turns = {name: None if omega is None else omega / beam.omega_0 for name, omega in found.items()}
     assert turns["FrM"] == pytest.approx(1.021902, abs=5e-7)
     assert found["FrM"] == pytest.approx(2.97295, abs=5e-6)
     # Eq. 64's numerator, 3.3504 Ω² - 0.23963, to its digits; Tables 1 and 3 exactly, though their
@@ -138,12 +137,12 @@ def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
     assert coupling_vector(mode, 3)[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
 
 
-def test_tip_of_frm_carries_the_other_modes():
+def test_tip_of_frm_carries_the_other_modes(beam):
     """It vanishes at rest; in rotation the tip's share is that of p in (K + M d²/dτ²) p = f."""
-    assert reduced_model(BEAM, 0.0, "FrM").tip_coupling == 0.0
-    assert reduced_model(BEAM, 6.0, "FrC").tip_coupling == 0.0
-    model = reduced_model(BEAM, 6.0, "FrM")
-    w_bar = 6.0 / BEAM.frequency_scale
+    assert reduced_model(beam, 0.0, "FrM").tip_coupling == 0.0
+    assert reduced_model(beam, 6.0, "FrC").tip_coupling == 0.0
+    model = reduced_model(beam, 6.0, "FrM")
+    w_bar = 6.0 / beam.frequency_scale
     K, M = rotating_eigenproblem(w_bar, 14)
     force = 4 * w_bar * coupling_vector(rotating_mode(w_bar), 14)
     # Forced at 2ω_n, mode by mode.

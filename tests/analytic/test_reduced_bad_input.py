@@ -6,28 +6,26 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import VARIANTS, Beam, Variant, paper_table, reduced_model
+from analytic import VARIANTS, Variant, paper_table, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.model_range import warn_if_resonant
 from analytic.reduced.shapes import static_deflection
 
-BEAM = Beam.reference()
 
-
-def test_unknown_variant_lists_the_known_ones():
+def test_unknown_variant_lists_the_known_ones(beam):
     with pytest.raises(ValueError, match="CI, CE, FrI, FrE, P3, P4, P5, FrC, FrM, got 'FRE'"):
-        reduced_model(BEAM, 4.0, "FRE")
+        reduced_model(beam, 4.0, "FRE")
 
 
 @pytest.mark.parametrize("omega", [-1.0, math.nan, math.inf])
-def test_rotation_speed(omega):
+def test_rotation_speed(beam, omega):
     with pytest.raises(ValueError, match=f"omega must .*{omega}"):
-        reduced_model(BEAM, omega)
+        reduced_model(beam, omega)
 
 
-def test_rotation_speed_is_a_number():
+def test_rotation_speed_is_a_number(beam):
     with pytest.raises(TypeError, match="omega must be a number in rad/s, got '4'"):
-        reduced_model(BEAM, "4")
+        reduced_model(beam, "4")
 
 
 @pytest.mark.parametrize("method", ["frequency", "exact_frequency", "orbit"])
@@ -40,24 +38,24 @@ def test_rotation_speed_is_a_number():
         (math.inf, "must be finite, got inf"),
     ],
 )
-def test_amplitude(method, amplitude, sentence):
+def test_amplitude(beam, method, amplitude, sentence):
     with pytest.raises(ValueError, match=sentence):
-        getattr(reduced_model(BEAM, 4.0), method)(amplitude)
+        getattr(reduced_model(beam, 4.0), method)(amplitude)
 
 
-def test_one_bad_amplitude_among_many():
+def test_one_bad_amplitude_among_many(beam):
     with pytest.raises(ValueError, match="finite, got nan"):
-        reduced_model(BEAM, 4.0).frequency([0.1, math.nan, 0.1])
+        reduced_model(beam, 4.0).frequency([0.1, math.nan, 0.1])
 
 
 @pytest.mark.parametrize("value", ["0.1", True, [0.1, None], 1j])
-def test_amplitude_is_a_number(value):
+def test_amplitude_is_a_number(beam, value):
     with pytest.raises(TypeError, match="amplitude must be numbers"):
-        reduced_model(BEAM, 4.0).frequency(value)
+        reduced_model(beam, 4.0).frequency(value)
 
 
-def test_no_periodic_orbit_names_the_largest_amplitude():
-    model = reduced_model(BEAM, 6.0, "FrI")
+def test_no_periodic_orbit_names_the_largest_amplitude(beam):
+    model = reduced_model(beam, 6.0, "FrI")
     with pytest.raises(ValueError, match=r"Eq. 41 has no periodic orbit .* below 0\.98721"):
         model.exact_frequency(0.99)
     with pytest.raises(ValueError, match=r"Eq. 41 has no periodic orbit"):
@@ -66,16 +64,16 @@ def test_no_periodic_orbit_names_the_largest_amplitude():
         assert model.exact_frequency(0.999 * model.largest_amplitude) > 0
 
 
-def test_no_frequency_of_equation_63_names_the_largest_amplitude():
+def test_no_frequency_of_equation_63_names_the_largest_amplitude(beam):
     with pytest.warns(RotbeamWarning, match="FrI leaves out"):
-        model = reduced_model(BEAM, 11.0, "FrI")
+        model = reduced_model(beam, 11.0, "FrI")
     largest = 1 / math.sqrt(model.lambda_omega)
     with pytest.raises(ValueError, match=f"Eq. 63 has no frequency .* below {largest:.6g}"):
         model.frequency([0.1, 0.999])
 
 
-def test_response_arguments():
-    model = reduced_model(BEAM, 4.0)
+def test_response_arguments(beam):
+    model = reduced_model(beam, 4.0)
     with pytest.raises(ValueError, match="t must be finite"):
         model.response([0.0, math.nan], 0.1)
     with pytest.raises(ValueError, match="phase must be finite"):
@@ -84,8 +82,8 @@ def test_response_arguments():
         model.orbit(0.1, n=1)
 
 
-def test_large_amplitude_warns_with_the_papers_bound():
-    model = reduced_model(BEAM, 4.0)
+def test_large_amplitude_warns_with_the_papers_bound(beam):
+    model = reduced_model(beam, 4.0)
     with pytest.warns(RotbeamWarning, match=r"amplitude 0\.3 is above 0\.2") as caught:
         model.frequency([0.1, 0.3])
     assert caught[0].filename == __file__
@@ -94,20 +92,20 @@ def test_large_amplitude_warns_with_the_papers_bound():
         model.frequency(0.2)
 
 
-def test_fast_rotation_warns_where_the_next_mode_matters():
+def test_fast_rotation_warns_where_the_next_mode_matters(beam):
     with pytest.warns(RotbeamWarning, match=r"2\.22 times .*29\.62 rad/s.*take FrM") as caught:
-        reduced_model(BEAM, 10.0, "FrE")
+        reduced_model(beam, 10.0, "FrE")
     assert caught[0].filename == __file__
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for variant in VARIANTS:
-            reduced_model(BEAM, 8.0, variant)
-        reduced_model(BEAM, 10.0, "FrM")
+            reduced_model(beam, 8.0, variant)
+        reduced_model(beam, 10.0, "FrM")
 
 
-def test_revolutions_per_minute_warn():
+def test_revolutions_per_minute_warn(beam):
     with pytest.warns(RotbeamWarning) as caught:
-        reduced_model(BEAM, 60.0, "CI")
+        reduced_model(beam, 60.0, "CI")
     assert "rpm?" in str(caught[0].message)
 
 
@@ -139,7 +137,7 @@ def test_degrees_of_static_deflections():
         static_deflection(6)
 
 
-def test_a_model_introduces_itself():
-    text = repr(reduced_model(BEAM, 6.0, "FrE"))
+def test_a_model_introduces_itself(beam):
+    text = repr(reduced_model(beam, 6.0, "FrE"))
     for part in ("FrE", "Ω = 2.062", "ω_n = 3.730549 rad/s", "g1 =", "g2 =", "0.0235487", "λ_x ="):
         assert part in text

@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial import Polynomial
 from scipy.optimize import brentq
 
-from analytic import Beam, paper_table, reduced_model
+from analytic import paper_table, reduced_model
 from analytic.beam import BETA_1
 from analytic.reduced.coriolis import rotating_frequencies
 from analytic.reduced.rotating_mode import (
@@ -15,8 +15,6 @@ from analytic.reduced.rotating_mode import (
     rotating_mode,
 )
 from analytic.reduced.tables import PRINTED_BETA, half_unit, table_5_by_the_print
-
-BEAM = Beam.reference()
 
 
 @pytest.mark.parametrize(
@@ -28,8 +26,8 @@ BEAM = Beam.reference()
         (8.0, 4.124206, 0.0306940, 0.0464458),
     ],
 )
-def test_converged_values(omega, omega_n, lambda_omega, lambda_x):
-    model = reduced_model(BEAM, omega, "FrE")
+def test_converged_values(beam, omega, omega_n, lambda_omega, lambda_x):
+    model = reduced_model(beam, omega, "FrE")
     assert model.omega_n == pytest.approx(omega_n, abs=1e-6)
     assert model.lambda_omega == pytest.approx(lambda_omega, abs=1e-6)
     assert model.lambda_x == pytest.approx(lambda_x, abs=1e-6)
@@ -92,8 +90,8 @@ def test_mode_solves_the_differential_equation(w_bar):
     assert v.deriv(3)(1.0) == pytest.approx(0.0, abs=1e-8)
 
 
-def test_degree_36_has_not_converged_at_8_rad_per_s():
-    scale = BEAM.frequency_scale
+def test_degree_36_has_not_converged_at_8_rad_per_s(beam):
+    scale = beam.frequency_scale
     w_bar = 8.0 / scale
     converged = rotating_mode(w_bar)
     assert rotating_frequency(w_bar, 36) * scale == pytest.approx(4.124777, abs=5e-7)
@@ -108,7 +106,7 @@ def test_degree_grows_with_speed():
     assert degrees == sorted(set(degrees))
 
 
-def test_equation_81_as_printed_is_wrong(monkeypatch):
+def test_equation_81_as_printed_is_wrong(beam, monkeypatch):
     """With the printed numerator the frequency at 2 rad/s is 5.140 rad/s instead of 3.035."""
 
     def as_printed(r, w_bar, w_n, degree):
@@ -122,9 +120,9 @@ def test_equation_81_as_printed_is_wrong(monkeypatch):
         return a
 
     monkeypatch.setattr("analytic.reduced.rotating_mode.frobenius_series", as_printed)
-    w_bar = 2.0 / BEAM.frequency_scale
+    w_bar = 2.0 / beam.frequency_scale
     w_n = brentq(lambda w: frequency_equation(w_bar, w, 40), 5.0, 8.0)
-    assert w_n * BEAM.frequency_scale == pytest.approx(5.140, abs=5e-4)
+    assert w_n * beam.frequency_scale == pytest.approx(5.140, abs=5e-4)
 
 
 def test_speed_beyond_the_series():

@@ -4,6 +4,9 @@ import re
 
 import pytest
 
+import rotbeam_exu.cli.run as run_job
+import rotbeam_exu.cli.sweep as sweep_job
+
 QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 
 
@@ -41,10 +44,8 @@ def test_an_option_is_suggested_only_if_it_is_alike(call, command, wrong, meant)
 
 
 def test_at_rest_nothing_oscillates_and_a_speed_helps(call, tmp_path, monkeypatch):
-    import rotbeam_exu.cli.run as job
-
     with monkeypatch.context() as patch:
-        patch.setattr(job, "run_case", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(run_job, "run_case", lambda *_, **__: pytest.fail("computed first"))
         code, _, error = run(call, tmp_path, omega=0)
     assert code == 2
     assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error
@@ -129,10 +130,8 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
 
 
 def test_a_sweep_too_large_is_let_through_in_parts(small_sweep, monkeypatch):
-    import rotbeam_exu.cli.sweep as job
-
     # As if a step of an element took an hour.
-    monkeypatch.setattr(job, "_SECONDS_PER_ELEMENT_STEP", 3000.0)
+    monkeypatch.setattr(sweep_job, "_SECONDS_PER_ELEMENT_STEP", 3000.0)
     code, _, error = small_sweep()
     assert code == 2
     assert "or parts of them with --shard" in error

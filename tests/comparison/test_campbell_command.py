@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from analytic import campbell
+from rotbeam_exu.cli import app
 from rotbeam_exu.cli.campbell import campbell as command
 
 
@@ -34,8 +35,6 @@ def test_one_speed_is_no_diagram():
 
 
 def test_the_former_name_still_does():
-    from rotbeam_exu.cli import app
-
     assert app["compare-modes"].default_command is app["campbell"].default_command
 
 

@@ -2,19 +2,21 @@
 
 import re
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 
+from analytic import SpinUp
 from rotbeam_exu import comparison, figures
 from rotbeam_exu.cli import main
+from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
 from rotbeam_exu.figures.captions import CAPTIONS
 
 
 @pytest.fixture(autouse=True)
 def without_display(monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "agg")
-    import matplotlib.pyplot as plt
-
     yield
     plt.close("all")
 
@@ -31,9 +33,6 @@ def test_figure_3_even_one_element_is_stable():
 
 
 def test_figure_4_normalization_has_the_units_of_a_velocity(beam):
-    from analytic import SpinUp
-    from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
-
     for scale in (1.0, 2.0):
         from analytic import Beam
 
@@ -116,8 +115,6 @@ def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
 
 @pytest.mark.parametrize("number", range(8, 14))
 def test_every_figure_draws_on_given_axes_with_units(number):
-    import matplotlib.pyplot as plt
-
     data = getattr(comparison, f"figure_{number}")()
     count = 2 if number in (9, 10, 11) else 1
     _, axes = plt.subplots(ncols=count)
@@ -136,8 +133,6 @@ def test_captions_name_every_figure_with_data():
 
 
 def test_figure_15_shows_where_each_orbit_ends():
-    import xarray as xr
-
     phase = np.linspace(0.0, 1.0, 201)
     names = ["finite element", "CI", "FrI", "exact"]
     turns = 2.0 * np.pi * np.outer([1.0, 1.01, 0.95, 1.0], phase)

@@ -22,6 +22,7 @@ from rotbeam_exu import SimulationError, load, save, simulate, steady_oscillatio
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.linearization import mesh_frequencies
 from rotbeam_exu.sweeps import grid as sweeps
+from rotbeam_exu.sweeps.dask import dask_executor
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
 COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
@@ -71,8 +72,6 @@ def test_dask_gives_the_same_bits(beam, serial):
 
 def test_a_scheduler_that_does_not_answer_is_a_sentence_within_the_time_it_gives():
     pytest.importorskip("distributed")
-    from rotbeam_exu.sweeps.dask import dask_executor
-
     started = time.monotonic()
     with pytest.raises(OSError, match="scheduler tcp://127.0.0.1:9 does not answer within 5 s"):
         dask_executor("tcp://127.0.0.1:9")

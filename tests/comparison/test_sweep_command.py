@@ -2,6 +2,7 @@
 
 import pytest
 
+import rotbeam_exu.cli.sweep as sweep_job
 from rotbeam_exu import load
 from rotbeam_exu.cli import main
 
@@ -83,15 +84,13 @@ def test_a_sweep_of_which_nothing_passes_exits_with_1(tmp_path, capsys):
 
 
 def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, monkeypatch):
-    import rotbeam_exu.cli.sweep as job
-
     asked = {}
 
     def stop(beam, **options):
         asked.update(options)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(job, "run_sweep", stop)
+    monkeypatch.setattr(sweep_job, "run_sweep", stop)
     config = tmp_path / "reed.toml"
     config.write_text(
         "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"

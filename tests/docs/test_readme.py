@@ -18,6 +18,7 @@ from analytic import (
 )
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Substructures
+from rotbeam_exu.files.beam_file import load_beam
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -50,8 +51,6 @@ def test_the_python_block_runs(tmp_path, monkeypatch, capsys):
 
 
 def test_the_toml_block_is_the_reference_beam(beam, tmp_path):
-    from rotbeam_exu.files.beam_file import load_beam
-
     block = re.search(r"```toml\n(.*?)```", README, re.DOTALL).group(1)
     (tmp_path / "beam.toml").write_text(block, encoding="utf-8")
     assert load_beam(tmp_path / "beam.toml") == beam

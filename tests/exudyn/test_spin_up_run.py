@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from analytic import SpinUp
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.verdict import energy_drift
 
@@ -130,8 +131,6 @@ def test_tip_stays_on_its_definition(main_job):
 
 
 def test_a_beam_at_rest_stays_at_rest(beam):
-    from analytic import SpinUp
-
     run = simulate(beam, SpinUp(omega=0.0, ramp_time=1.0), elements=4, duration=2.0, step=1e-2)
     assert np.abs(run["q"]).max() < 1e-15
 

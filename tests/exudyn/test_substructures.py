@@ -9,6 +9,7 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     SimulationError,
     divergence_speed,
+    figures,
     growth_rate,
     natural_frequencies,
     simulate,
@@ -105,8 +106,6 @@ def test_one_tangent_frame_diverges(beam, spin_up):
 
 
 def test_figure(beam):
-    from rotbeam_exu import figures
-
     mpl.use("agg")
     data = divergence_speeds(beam, [1, 2, 4])
     axes = figures.divergence_speed(data)

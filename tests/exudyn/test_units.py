@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam, SpinUp, linear_modes, spin_up_response
+from analytic import Beam, SpinUp, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_stretch
 from rotbeam_exu.fem.units import Units
 
@@ -228,8 +228,6 @@ def test_a_short_ramp_is_followed(beam):
 
 def test_scaling_points(beam):
     """Initial states and energies come back in SI units: a steady rotation keeps its energy."""
-    from analytic import SteadyRotation, periodic_orbits
-
     orbits = periodic_orbits(beam, 6.0, [0.1])
     run = simulate(
         beam, SteadyRotation(omega=6.0), elements=8, duration=0.5, frame="rotating",

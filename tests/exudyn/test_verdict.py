@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from analytic import SpinUp
+from analytic import Beam, SpinUp
 from rotbeam_exu import SimulationError, simulate
 from rotbeam_exu.verdict import check_run
 
@@ -69,8 +69,6 @@ def test_a_beam_that_breaks_into_waves_is_told_what_helps(beam):
 
 
 def test_a_beam_too_soft_to_hold_itself_is_not_returned(spin_up):
-    from analytic import Beam
-
     soft = Beam.from_stiffness(
         length=8.0, axial_stiffness=200.0, bending_stiffness=566.0, mass_per_length=0.2
     )

@@ -6,7 +6,7 @@ import xarray as xr
 
 from analytic import spin_up_response
 from rotbeam_exu.cli import main
-from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.fem.elements import Ancf3, Exact
 from rotbeam_exu.verification.cost import cost_at_error
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.measures import THRESHOLDS, verify
@@ -81,8 +81,6 @@ def test_a_formulation_passes():
 
 @pytest.mark.slow
 def test_the_locking_law_falls_short():
-    from rotbeam_exu.fem.elements import Ancf3
-
     found = verify(formulation_entry(Ancf3(law="coupled")))
     for name in ("linear frequency", "nonlinear frequency", "history"):
         assert found.measures[name].passed is False

@@ -5,6 +5,8 @@ import pytest
 
 from analytic import spin_up_response
 from analytic.input_checks import RotbeamWarning
+from rotbeam_exu.cli import main
+from rotbeam_exu.verification import peers
 from rotbeam_exu.verification.peers import NotInstalledError, installed, peer
 
 needs_kratos = pytest.mark.skipif(
@@ -19,9 +21,6 @@ def test_it_says_how_to_install_it():
 
 
 def test_the_command_line_says_so_too(capsys, monkeypatch):
-    from rotbeam_exu.cli import main
-    from rotbeam_exu.verification import peers
-
     monkeypatch.setattr(peers, "installed", lambda name: False)
     with pytest.raises(SystemExit) as stop:
         main(["verify", "--element", "kratos"])

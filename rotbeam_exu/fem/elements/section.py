@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
 
 from analytic import Beam
-from analytic.input_checks import positive
+from analytic.input_checks import finite_number, positive
 
 POISSON_RATIO = 0.3
 """Default ν; the paper gives neither ν nor a shear modulus."""
@@ -28,8 +27,6 @@ def rectangle(beam: Beam) -> tuple[float, float]:
 
 def checked_shear(poisson_ratio: float, shear_correction: float) -> None:
     """Refuse a Poisson ratio outside (-1, 1/2) and a shear correction that is not positive."""
-    if isinstance(poisson_ratio, bool) or not isinstance(poisson_ratio, Real):
-        raise TypeError(f"poisson_ratio must be a number, got {poisson_ratio!r}")
-    if not -1.0 < poisson_ratio < 0.5:
+    if not -1.0 < finite_number("poisson_ratio", poisson_ratio) < 0.5:
         raise ValueError(f"poisson_ratio must lie between -1 and 0.5, got {poisson_ratio!r}")
     positive("shear_correction", shear_correction)
