@@ -1,4 +1,8 @@
+import exudyn
+import numpy as np
 import pytest
+
+from rotbeam_exu.fem.system import exudyn_system
 
 
 @pytest.fixture(scope="session")
@@ -6,28 +10,24 @@ def elastic_force():
     """Elastic forces of a free chain as Exudyn adds them up, flat, and the chain's reference."""
 
     def evaluate(model, beam, elements, coordinates=None):
-        import exudyn
-        import numpy as np
-
-        container = exudyn.SystemContainer()
-        mbs = container.AddSystem()
-        chain = model.lay(mbs, beam, elements)
-        mbs.Assemble()
-        reference = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes])
-        force = np.zeros(reference.size)
-        if coordinates is not None:
-            displacement = (coordinates - reference).ravel()
-            mbs.systemData.SetODE2Coordinates(displacement)
-            settings = exudyn.SimulationSettings()
-            settings.solution.file.write = False
-            solver = exudyn.MainSolverStatic()
-            solver.InitializeSolver(mbs, settings)
-            mbs.systemData.SetODE2Coordinates(displacement)
-            solver.ComputeODE2RHS(mbs)
-            force = np.array(solver.GetSystemResidual())[: reference.size]
-            solver.FinalizeSolver(mbs, settings)
-        mbs.Reset()
-        container.Reset()
+        with exudyn_system() as mbs:
+            chain = model.lay(mbs, beam, elements)
+            mbs.Assemble()
+            reference = np.array(
+                [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
+            )
+            force = np.zeros(reference.size)
+            if coordinates is not None:
+                displacement = (coordinates - reference).ravel()
+                mbs.systemData.SetODE2Coordinates(displacement)
+                settings = exudyn.SimulationSettings()
+                settings.solution.file.write = False
+                solver = exudyn.MainSolverStatic()
+                solver.InitializeSolver(mbs, settings)
+                mbs.systemData.SetODE2Coordinates(displacement)
+                solver.ComputeODE2RHS(mbs)
+                force = np.array(solver.GetSystemResidual())[: reference.size]
+                solver.FinalizeSolver(mbs, settings)
         return force, reference
 
     return evaluate
