@@ -1,4 +1,8 @@
+from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
+from .blade import Blade as Blade
+from .blade import PointMass as PointMass
+from .blade import Section as Section
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
 from .exact.backbone import BeamState as BeamState
@@ -13,10 +17,10 @@ from .exact.response import spin_up_response as spin_up_response
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .reduced.model import ReducedModel as ReducedModel
-from .reduced.model import critical_speed as critical_speed
-from .reduced.model import divergence_speed as divergence_speed
 from .reduced.model import reduced_model as reduced_model
-from .reduced.softening import softening_speed as softening_speed
+from .reduced.speeds import critical_speed as critical_speed
+from .reduced.speeds import divergence_speed as divergence_speed
+from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant

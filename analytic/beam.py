@@ -6,7 +6,9 @@ import math
 import warnings
 from dataclasses import dataclass, fields
 
+from .blade import Blade, Section
 from .input_checks import RotbeamWarning, positive
+from .unit_blade import UNIFORM, UnitBlade
 
 BETA_1 = 1.8751040687119611
 """First root of cos β cosh β = -1: the first mode of the cantilever, ω0 = β² √(EI/mL³)."""
@@ -149,8 +151,49 @@ class Beam:
         """
         return 0.5 * math.pi * math.sqrt(self.youngs_modulus / self.density) / self.length
 
+    @property
+    def unit(self) -> UnitBlade:
+        """The beam without dimensions: the uniform blade."""
+        return UNIFORM
 
-def require_steady_state(beam: Beam, omega: float) -> None:
+    @property
+    def blade(self) -> Blade:
+        """The same as a `Blade`, without a hub."""
+        return Blade(
+            length=self.length,
+            section=Section(
+                axial_stiffness=self.axial_stiffness,
+                bending_stiffness=self.bending_stiffness,
+                mass_per_length=self.mass_per_length,
+            ),
+        )
+
+    def with_hub_radius(self, radius: float) -> Blade:
+        """Return the blade clamped at `radius` [m] from the axis."""
+        return self.blade.with_hub_radius(radius)
+
+    def with_setting_angle(self, angle: float) -> Blade:
+        """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
+        return self.blade.with_setting_angle(angle)
+
+    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with a mass [kg] at `position` [m] from the clamp."""
+        return self.blade.with_point_mass(mass, position, inertia)
+
+    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with a mass [kg] at its tip."""
+        return self.blade.with_tip_mass(mass, inertia)
+
+    def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
+        """Return the blade whose width and height fall to (1 - taper) of the root's at the tip."""
+        return self.blade.with_taper(width, height)
+
+
+AnyBlade = Beam | Blade
+"""What theory and simulation take."""
+
+
+def require_steady_state(beam: AnyBlade, omega: float) -> None:
     """Refuse a rotation speed `omega` [rad/s] at which no stretched state exists."""
     if omega >= beam.burst_speed:
         raise ValueError(
@@ -160,7 +203,7 @@ def require_steady_state(beam: Beam, omega: float) -> None:
         )
 
 
-def warn_if_rpm(beam: Beam, omega: float) -> None:
+def warn_if_rpm(beam: AnyBlade, omega: float) -> None:
     """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""
     ratio = omega / beam.omega_0
     if ratio > _RPM_SUSPECT:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import Beam
+from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import floquet_multipliers, is_stable
 from .steady import BeamOrbit
@@ -55,7 +55,7 @@ class Backbone:
 
     Attributes
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     mode : int
@@ -78,7 +78,7 @@ class Backbone:
         Change of the Jacobi integral along the orbit, relative to the largest kinetic energy.
     """
 
-    beam: Beam
+    beam: AnyBlade
     omega: float
     mode: int
     omega_n: float

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
 from ..arrays import FloatArray
-from ..beam import Beam
+from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
 from .continuum import Continuum
 from .modes import LinearModes, linear_modes, modes_on
@@ -46,7 +46,7 @@ class Campbell:
 
     Attributes
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
@@ -58,19 +58,19 @@ class Campbell:
         Where frequencies cross the lines kω, k from 1, within the speeds.
     """
 
-    beam: Beam
+    beam: AnyBlade
     omegas: FloatArray
     frequencies: FloatArray
     mac: FloatArray
     crossings: tuple[Crossing, ...]
 
 
-def campbell(beam: Beam, omegas: ArrayLike, count: int = 3, orders: int = 10) -> Campbell:
+def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10) -> Campbell:
     """Return the Campbell diagram of the first `count` in-plane modes.
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int

@@ -22,7 +22,6 @@ and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 -
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -30,7 +29,9 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..methods.system import Tangent
-from ..quadrature import axial_basis, gauss_points
+from ..unit_blade import UNIFORM, UnitBlade
+from .kinematics import Kinematics
+from .own_basis import turning_inertia
 
 
 class _Fields(NamedTuple):
@@ -45,7 +46,7 @@ class _Fields(NamedTuple):
     force: ComplexArray  # f, times the quadrature weights
 
 
-class Continuum:
+class Continuum(Kinematics):
     """Galerkin discretization of the exact beam in Legendre polynomials of θ and e.
 
     The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal and
@@ -60,6 +61,8 @@ class Continuum:
         Number of functions for θ and for e.
     rotary_inertia : float
         Inertia of the cross-sections against rotation per length: μ, or 0 to leave it out.
+    blade : UnitBlade
+        What is not the uniform beam: section, point masses, hub radius, setting angle.
 
     Attributes
     ----------
@@ -68,46 +71,25 @@ class Continuum:
     """
 
     def __init__(
-        self, slenderness: float, bending: int, axial: int, *, rotary_inertia: float = 0.0
+        self,
+        slenderness: float,
+        bending: int,
+        axial: int,
+        *,
+        rotary_inertia: float = 0.0,
+        blade: UnitBlade = UNIFORM,
     ) -> None:
-        self.slenderness = slenderness
-        self.bending = bending
-        self.axial = axial
-        self.size = bending + axial
+        super().__init__(slenderness, bending, axial, blade)
         self.rotary = rotary_inertia
-        self._epsilon = math.sqrt(slenderness)  # e = √μ ε makes the axial stiffness 1 as well
-        self.points, self.weights = gauss_points(2 * bending)
-        self._phi = axial_basis(bending, self.points).value
-        self._psi = axial_basis(axial, self.points).slope
-        legendre = axial_basis(self.points.size, self.points).slope
-        self._to_legendre = (legendre * self.weights[:, None]).T
         # One point more integrates the square of the integrated interpolant exactly.
-        finer, weights = gauss_points(self.points.size + 1)
-        integral = self._integral(finer)
-        self._green = integral.T @ (weights[:, None] * integral)
-        self._rotary_mass = self.rotary * (self._phi.T * self.weights) @ self._phi
-
-    def _integral(self, x: FloatArray) -> FloatArray:
-        """Matrix from values at the Gauss points to the integral from the clamp to `x`."""
-        return axial_basis(self.points.size, x).value @ self._to_legendre
-
-    def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the coordinates of θ and those of e, along the last axis."""
-        return q[..., : self.bending], q[..., self.bending :]
-
-    def padded(self, q: FloatArray, other: Continuum) -> FloatArray:
-        """Return the coordinates of the same shape in the larger basis of `other`."""
-        result = np.zeros((*q.shape[:-1], other.size))
-        theta, epsilon = self.split(q)
-        result[..., : self.bending] = theta
-        result[..., other.bending : other.bending + self.axial] = epsilon
-        return result
-
-    def _angle(self, q: FloatArray) -> FloatArray:
-        return q[..., : self.bending] @ self._phi.T
-
-    def _elongation(self, q: FloatArray) -> FloatArray:
-        return self._epsilon * (q[..., self.bending :] @ self._psi.T)
+        at, dm = blade.inertia(self.points.size + 1 + (blade.degree + 1) // 2)
+        integral = self._integral(at)
+        self._green = integral.T @ (dm[:, None] * integral)
+        self._outboard = integral.T @ dm
+        x, dj = turning_inertia(blade, rotary_inertia, self.points, self.weights)
+        phi = self._bases(x)[0]
+        self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
+        self._turns = bool(dj.any())
 
     def _fields(
         self,
@@ -120,18 +102,34 @@ class Continuum:
         turn = np.exp(1j * self._angle(q))
         stretch = 1.0 + self._elongation(q)
         stretch_rate = self._elongation(q_dot)
-        spin = self._angle(q_dot) + np.asarray(rate)[..., None]
-        spin_rate = self._angle(q_ddot) + np.asarray(rate_dot)[..., None]
+        # Coriolis and Euler forces know only what of the rotation is normal to the plane, c w.
+        turning = self.blade.setting * np.asarray(rate)
+        turning_rate = self.blade.setting * np.asarray(rate_dot)
+        spin = self._angle(q_dot) + turning[..., None]
+        spin_rate = self._angle(q_ddot) + turning_rate[..., None]
         p = (self._elongation(q_ddot) - stretch * spin**2) + 1j * (
             stretch * spin_rate + 2.0 * stretch_rate * spin
         )
-        force = turn.conj() * ((turn * p) @ self._green)
+        acceleration = (turn * p) @ self._green
+        hub, beyond = self.blade.hub, 1.0 - self.blade.setting**2
+        if hub:
+            clamp = (1j * turning_rate - np.asarray(rate) ** 2) * hub
+            acceleration = acceleration + np.asarray(clamp)[..., None] * self._outboard
+        if beyond:
+            # Along the blade the centrifugal force is w², not the c²w² that p has.
+            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None] * (stretch * turn.real)
+            acceleration = acceleration - along @ self._green
+        force = turn.conj() * acceleration
         return _Fields(turn, stretch, stretch_rate, spin, spin_rate, p, force)
 
-    def _residual(self, q: FloatArray, at: _Fields) -> FloatArray:
+    def _residual(
+        self, q: FloatArray, q_ddot: FloatArray, rate_dot: float | FloatArray, at: _Fields
+    ) -> FloatArray:
         theta = (at.stretch * at.force.imag) @ self._phi
-        if self.rotary:
-            theta = theta + self.rotary * (at.spin_rate * self.weights) @ self._phi
+        if self._turns:
+            theta = theta + q_ddot[..., : self.bending] @ self._rotary_mass
+            euler = self.blade.setting * np.asarray(rate_dot)
+            theta = theta + euler[..., None] * self._rotary_force
         epsilon = self._epsilon * (at.force.real @ self._psi)
         return q + np.concatenate((theta, epsilon), axis=-1)
 
@@ -147,7 +145,8 @@ class Continuum:
 
         The elastic part is q itself, so that a residual is measured in units of q.
         """
-        return self._residual(q, self._fields(q, q_dot, q_ddot, rate, rate_dot))
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot)
+        return self._residual(q, q_ddot, rate_dot, at)
 
     def tangent(
         self,
@@ -181,6 +180,11 @@ class Continuum:
             start = block * n
             right[..., start : start + nb] = (at.turn * theta)[..., None] * self._phi
             right[..., start + nb : start + n] = (at.turn * epsilon)[..., None] * psi
+        beyond = 1.0 - self.blade.setting**2
+        if beyond:
+            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None]
+            right[..., :nb] += (along * at.stretch * at.turn.imag)[..., None] * self._phi
+            right[..., nb:n] -= (along * at.turn.real)[..., None] * psi
         work = np.concatenate((left.real, -left.imag), axis=-1) @ np.concatenate(
             (right.real, right.imag), axis=-2
         )
@@ -191,55 +195,22 @@ class Continuum:
         stiffness[..., nb:, :nb] += psi.T @ (normal[..., None] * self._phi)
         stiffness[..., :nb, nb:] += self._phi.T @ (normal[..., None] * psi)
         mass[..., :nb, :nb] += self._rotary_mass
-        return Tangent(self._residual(q, at), stiffness, damping, mass)
-
-    def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
-        """Return z' = (1 + e) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""
-        phi, psi = self._bases(x)
-        theta, epsilon = self.split(q)
-        turn: ComplexArray = np.exp(1j * (theta @ phi.T))
-        return (1.0 + self._epsilon * (epsilon @ psi.T)) * turn
-
-    def slope_rate(
-        self, q: FloatArray, q_dot: FloatArray, x: FloatArray | None = None
-    ) -> ComplexArray:
-        """Return ż' at `x`, the Gauss points if None: (samples, points)."""
-        phi, psi = self._bases(x)
-        theta_dot, epsilon_dot = self.split(q_dot)
-        z = self.slope(q, x)
-        # ż' = z' (iθ̇ + ė/(1 + e)), which also serves for any small change of q.
-        return z * (1j * (theta_dot @ phi.T) + self._epsilon * (epsilon_dot @ psi.T) / np.abs(z))
-
-    def _bases(self, x: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        if x is None:
-            return self._phi, self._psi
-        return axial_basis(self.bending, x).value, axial_basis(self.axial, x).slope
-
-    def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:
-        """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
-        return slope @ self._integral(x).T
-
-    def tip(self, q: FloatArray) -> ComplexArray:
-        """Return the tip's position z(1), (samples,)."""
-        return self.slope(q) @ self.weights
-
-    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> ComplexArray:
-        """Return the tip's velocity ż(1) in the rotating frame, (samples,)."""
-        return self.slope_rate(q, q_dot) @ self.weights
-
-    def tip_gradient(self, q: FloatArray) -> ComplexArray:
-        """Return the derivatives of the tip's position to the coordinates, (samples, n)."""
-        turn = np.exp(1j * self._angle(q))
-        slope = 1j * (1.0 + self._elongation(q)) * turn * self.weights
-        return np.concatenate(
-            (slope @ self._phi, (self._epsilon * self.weights * turn) @ self._psi), axis=-1
-        )
+        return Tangent(self._residual(q, q_ddot, rate_dot, at), stiffness, damping, mass)
 
     def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
-        """Return ½∫|ż|² - ½w²∫|z|² + V, constant at a constant rate w of the frame, (samples,)."""
+        """Return the integral that is constant at a constant rate w of the frame, (samples,).
+
+        ½∫|ż|² dm - ½w²∫[(R + x)² + c²y²] dm + V, less what the hub adds at rest.
+        """
         elastic: FloatArray = 0.5 * np.sum(q**2, axis=-1)
-        centrifugal = 0.5 * rate**2 * self._squared(self.slope(q))
-        return self.kinetic_energy(q, q_dot) + elastic - centrifugal
+        z, blade = self.slope(q), self.blade
+        squared = self._squared(z)
+        if blade.hub:
+            squared = squared + 2.0 * blade.hub * (z @ self._outboard).real
+        if blade.setting != 1.0:
+            beyond = 1.0 - blade.setting**2
+            squared = squared - beyond * np.sum(z.imag * (z.imag @ self._green), axis=-1)
+        return self.kinetic_energy(q, q_dot) + elastic - 0.5 * rate**2 * squared
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""
@@ -269,14 +240,18 @@ class Continuum:
 
 @lru_cache(maxsize=32)
 def continuum(
-    slenderness: float, bending: int, axial: int, rotary_inertia: float = 0.0
+    slenderness: float,
+    bending: int,
+    axial: int,
+    rotary_inertia: float = 0.0,
+    blade: UnitBlade = UNIFORM,
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia)
+    return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia, blade=blade)
 
 
 def finer_model(model: Continuum) -> Continuum:
     """Return the discretization with half as many functions again."""
     bending = model.bending + model.bending // 2
     axial = model.axial + model.axial // 2
-    return continuum(model.slenderness, bending, axial, model.rotary)
+    return continuum(model.slenderness, bending, axial, model.rotary, model.blade)

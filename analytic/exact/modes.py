@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import Beam, warn_if_rpm
+from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
 from .continuum import Continuum, continuum
-from .steady import SteadyBeam, steady_rotation
+from .steady import SteadyBeam, section_inertia, steady_rotation
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""
@@ -26,7 +26,7 @@ class LinearModes:
 
     Attributes
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     frequencies : ndarray (count,)
@@ -35,7 +35,7 @@ class LinearModes:
         The modes in the energy norm of the discretization, by which `campbell` tells them apart.
     """
 
-    beam: Beam
+    beam: AnyBlade
     omega: float
     frequencies: FloatArray
     coordinates: FloatArray = field(repr=False)
@@ -62,7 +62,7 @@ class LinearModes:
 
 
 def linear_modes(
-    beam: Beam,
+    beam: AnyBlade,
     omega: float,
     count: int = 3,
     *,
@@ -78,7 +78,7 @@ def linear_modes(
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     count : int
@@ -106,13 +106,15 @@ def linear_modes(
     return _in_units(beam, omega, count, model, modes)
 
 
-def modes_on(model: Continuum, beam: Beam, omega: float, count: int) -> LinearModes:
+def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked."""
     modes = solve_modes(steady_rotation(beam, omega, model))
     return _in_units(beam, omega, count, model, modes)
 
 
-def _in_units(beam: Beam, omega: float, count: int, model: Continuum, modes: Modes) -> LinearModes:
+def _in_units(
+    beam: AnyBlade, omega: float, count: int, model: Continuum, modes: Modes
+) -> LinearModes:
     return LinearModes(
         beam=beam,
         omega=omega,
@@ -124,7 +126,12 @@ def _in_units(beam: Beam, omega: float, count: int, model: Continuum, modes: Mod
 
 
 def _settled_modes(
-    beam: Beam, omega: float, count: int, inextensible: bool, rotary_inertia: bool, functions: int
+    beam: AnyBlade,
+    omega: float,
+    count: int,
+    inextensible: bool,
+    rotary_inertia: bool,
+    functions: int,
 ) -> tuple[Continuum, Modes]:
     """Return the discretization that a finer one confirms, and its modes.
 
@@ -149,7 +156,7 @@ def _settled_modes(
 
 
 def resolved_model(
-    beam: Beam, mode: int, inextensible: bool, rotary_inertia: bool, functions: int
+    beam: AnyBlade, mode: int, inextensible: bool, rotary_inertia: bool, functions: int
 ) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
     functions = whole_number("functions", functions, least=4)
@@ -165,8 +172,9 @@ def resolved_model(
         )
     slenderness = 0.0 if inextensible else beam.slenderness
     axial = 1 if inextensible else max(4, 5 * functions // 8)
-    rotary = beam.slenderness if rotary_inertia else 0.0
-    return continuum(slenderness, functions, axial, rotary)
+    return continuum(
+        slenderness, functions, axial, section_inertia(beam, rotary_inertia), beam.unit
+    )
 
 
 class Modes(NamedTuple):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import Beam, warn_if_rpm
+from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
     MOST_FUNCTIONS,
@@ -25,7 +25,7 @@ from .steady import BeamOrbit, steady_rotation
 
 
 def periodic_orbits(
-    beam: Beam,
+    beam: AnyBlade,
     omega: float,
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
@@ -43,7 +43,7 @@ def periodic_orbits(
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     amplitudes : float or sequence of float
@@ -124,7 +124,7 @@ def _followed_up(branch: _Branch, ascending: FloatArray) -> tuple[dict[float, Be
 class _Branch:
     """What grows out of one linear mode: its two smallest orbits, on the same functions."""
 
-    beam: Beam
+    beam: AnyBlade
     omega: float
     mode: int
     modes: FloatArray  # nondimensional frequencies that the functions resolve
@@ -161,7 +161,7 @@ class _Branch:
         )
 
 
-def _branch(beam: Beam, omega: float, mode: int, model: Continuum) -> _Branch:
+def _branch(beam: AnyBlade, omega: float, mode: int, model: Continuum) -> _Branch:
     """Return the branch of a mode, with as many functions as its smallest orbits need."""
     steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:

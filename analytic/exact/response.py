@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import Beam, warn_if_rpm
+from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..methods.collocation import radau
 from ..motion import SpinUp
 from .continuum import Continuum, continuum
-from .steady import steady_rate
+from .steady import section_inertia, steady_rate
 
 _STAGES = 8
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
@@ -35,7 +35,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    beam : Beam
+    beam : Beam or Blade
     spin_up : SpinUp
     time : ndarray (times,)
         Times [s].
@@ -55,7 +55,7 @@ class SpinUpResponse:
         Steps of order 15 and functions for θ of the solution returned.
     """
 
-    beam: Beam
+    beam: AnyBlade
     spin_up: SpinUp
     time: FloatArray
     q: FloatArray = field(repr=False)
@@ -68,7 +68,7 @@ class SpinUpResponse:
 
 
 def spin_up_response(
-    beam: Beam,
+    beam: AnyBlade,
     spin_up: SpinUp,
     times: float | ArrayLike,
     *,
@@ -83,7 +83,7 @@ def spin_up_response(
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
     spin_up : SpinUp
     times : array_like
         Times of the response [s], ascending, not before 0.
@@ -109,13 +109,13 @@ def spin_up_response(
             f"take periodic_orbits"
         )
     warn_if_rpm(beam, spin_up.omega)
-    rotary = beam.slenderness if rotary_inertia else 0.0
+    rotary = section_inertia(beam, rotary_inertia)
     along = points_of_beam("points", points, beam.length)
     _require_feasible(beam, spin_up, time, along)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
         functions = _FUNCTIONS + _MORE_FUNCTIONS * level
-        model = continuum(beam.slenderness, functions, functions // 2, rotary)
+        model = continuum(beam.slenderness, functions, functions // 2, rotary, beam.unit)
         steady_rate(beam, spin_up.omega, model)
         corners, counts = _steps(beam, spin_up, float(time[-1]), level)
         if sum(counts) > _MOST_STEPS:
@@ -131,7 +131,10 @@ def spin_up_response(
             if error <= tolerance:
                 z = beam.length * finer.tip
                 z_dot = beam.length * beam.frequency_scale * finer.tip_rate
-                tip = z * np.exp(1j * spin_up.angle(time))
+                unit = beam.unit
+                # Out of the plane of rotation the deflection has a share that is not seen here.
+                seen = beam.length * unit.hub + z.real + 1j * unit.setting * z.imag
+                tip = seen * np.exp(1j * spin_up.angle(time))
                 return SpinUpResponse(
                     beam=beam,
                     spin_up=spin_up,
@@ -177,7 +180,7 @@ def _what_to_try(error: float, size: float, end: float) -> str:
     )
 
 
-def _require_feasible(beam: Beam, spin_up: SpinUp, time: FloatArray, along: FloatArray) -> None:
+def _require_feasible(beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: FloatArray) -> None:
     """Refuse what would take more time or memory than there is, before it starts."""
     end = float(time[-1])
     steps = sum(_steps(beam, spin_up, end, level=1)[1])  # two solutions are the least
@@ -193,7 +196,9 @@ def _require_feasible(beam: Beam, spin_up: SpinUp, time: FloatArray, along: Floa
         )
 
 
-def _steps(beam: Beam, spin_up: SpinUp, end: float, level: int) -> tuple[list[float], list[int]]:
+def _steps(
+    beam: AnyBlade, spin_up: SpinUp, end: float, level: int
+) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
     A corner is the end of the ramp, where Eq. 1 has a kink.
@@ -224,7 +229,7 @@ class _Motion(NamedTuple):
 
 
 def _integrated(
-    beam: Beam,
+    beam: AnyBlade,
     spin_up: SpinUp,
     model: Continuum,
     grid: FloatArray,

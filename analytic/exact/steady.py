@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..beam import Beam, require_steady_state
+from ..beam import AnyBlade, require_steady_state
+from ..blade import Blade
 from ..methods.harmonic_balance import PeriodicOrbit
 from ..methods.system import Tangent
 from .continuum import Continuum, finer_model
@@ -94,13 +95,25 @@ BeamOrbit = PeriodicOrbit[SteadyBeam]
 """A periodic orbit of the beam."""
 
 
-def steady_rate(beam: Beam, omega: float, model: Continuum) -> float:
+def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
     """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
     if model.slenderness > 0.0:
         require_steady_state(beam, omega)
     return omega / beam.frequency_scale
 
 
-def steady_rotation(beam: Beam, omega: float, model: Continuum) -> SteadyBeam:
+def section_inertia(beam: AnyBlade, wanted: bool) -> float:
+    """Return ρI of a uniform beam, nondimensional: μ if wanted. A blade has its own."""
+    if not wanted:
+        return 0.0
+    if isinstance(beam, Blade):
+        raise ValueError(
+            "rotary_inertia=True takes ρI of a uniform section from the Beam; a Blade has its "
+            "own: give Section(rotary_inertia=...) in kg m"
+        )
+    return beam.slenderness
+
+
+def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:
     """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
     return SteadyBeam(model, steady_rate(beam, omega, model))

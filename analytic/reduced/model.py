@@ -1,7 +1,4 @@
-"""The reduced models: one beam, rotation speed and variant, and what Eq. 41 answers for them.
-
-Variants are described in `analytic.reduced.variants`; which to trust is a matter of λ_ω, see there.
-"""
+"""The reduced models: one beam, rotation speed and variant, and what Eq. 41 answers for them."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import Beam, warn_if_rpm
+from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import (
     RotbeamWarning,
     finite_array,
@@ -24,12 +21,13 @@ from ..input_checks import (
     rotation_speed,
     whole_number,
 )
+from ..unit_blade import UNIFORM
+from .any_blade import blade_oscillator
 from .coriolis import coriolis_coupling
 from .lagrangian import energy_coefficients
 from .model_range import better_model, warn_beyond_range
 from .oscillator import Oscillator
 from .rotating_mode import RotatingMode
-from .shapes import CantileverMode
 from .variants import Variant, variant_named
 
 _PAPER_AMPLITUDE = 0.2
@@ -41,7 +39,7 @@ class ReducedModel:
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
         The beam.
     omega : float
         Rotation speed ω [rad/s].
@@ -54,7 +52,7 @@ class ReducedModel:
         second order. Their own third harmonics are not, so λ_x is the first mode's, not the tip's.
     """
 
-    beam: Beam
+    beam: AnyBlade
     omega: float
     variant: Variant
     oscillator: Oscillator
@@ -210,23 +208,24 @@ class ReducedModel:
         return amplitude
 
 
-def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
+def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
     """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
         The beam.
     omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
         "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC" or "FrM" of ours, or any
-        other setting of the switches.
+        other setting of the switches. A blade that is not the paper's kind of beam takes ours.
 
     Raises
     ------
     ValueError
-        If `omega` is negative or not finite, the variant unknown, or the model has no oscillation.
+        If `omega` is negative or not finite, the variant unknown, or the model has no oscillation;
+        if a variant assumes away what the blade has.
 
     Warns
     -----
@@ -246,23 +245,18 @@ def reduced_model(beam: Beam, omega: float, variant: str | Variant = "FrE") -> R
         variant = variant_named(variant)
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
-    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
+    others = None
+    if beam.unit != UNIFORM:
+        others = blade_oscillator(beam.unit, omega / beam.frequency_scale, True).others
+    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega, others)
     return model
 
 
-def divergence_speed(beam: Beam) -> float:
-    """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1."""
-    linear = energy_coefficients(CantileverMode(), "none")
-    return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
-
-
-critical_speed = divergence_speed
-"""The name the paper's readers know; in rotor dynamics a critical speed is something else."""
-
-
-def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
+def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
     w_bar = omega / beam.frequency_scale
+    if beam.unit != UNIFORM:
+        return _of_blade(beam, omega, variant)
     shape = variant.shape_at(w_bar)
     coefficients = energy_coefficients(shape, variant.axial)
     square = coefficients.omega_n_squared(w_bar, beam.slenderness)
@@ -284,4 +278,21 @@ def model_at(beam: Beam, omega: float, variant: Variant) -> ReducedModel:
             g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
         ),
         tip_coupling=coupling.tip if coupling else 0.0,
+    )
+
+
+def _of_blade(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
+    """Return FrC or FrM of a blade; the other variants are for the uniform beam without a hub."""
+    if variant.shape != "rotating" or variant.axial != "consistent":
+        raise ValueError(
+            f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
+            f"{beam.unit.differences}: take FrM"
+        )
+    found = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
+    return ReducedModel(
+        beam=beam,
+        omega=omega,
+        variant=variant,
+        oscillator=found.oscillator,
+        tip_coupling=found.tip,
     )

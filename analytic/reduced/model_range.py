@@ -7,7 +7,8 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..beam import Beam
+from ..arrays import FloatArray
+from ..beam import AnyBlade
 from ..input_checks import RotbeamWarning
 from .coriolis import rotating_frequencies
 from .rotating_mode import MAX_W_BAR
@@ -34,9 +35,17 @@ def better_model(w_bar: float) -> str:
 
 
 def warn_beyond_range(
-    beam: Beam, omega: float, variant: Variant, w_n: float, lambda_omega: float
+    beam: AnyBlade,
+    omega: float,
+    variant: Variant,
+    w_n: float,
+    lambda_omega: float,
+    others: FloatArray | None = None,
 ) -> None:
-    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant."""
+    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant.
+
+    `others` are the other modes' w̄_j, of a blade that is not the uniform beam.
+    """
     scale = beam.frequency_scale
     w_bar = omega / scale
     if omega >= beam.burst_speed:
@@ -49,8 +58,9 @@ def warn_beyond_range(
         )
     elif variant.coriolis:
         _warn_if_extended(beam, w_bar, lambda_omega)
-        warn_if_resonant(w_n * scale, rotating_frequencies(w_bar)[1:] * scale)
-    elif omega > _PAPER_SPEED_RATIO * beam.omega_0:
+        others = rotating_frequencies(w_bar)[1:] if others is None else others
+        warn_if_resonant(w_n * scale, others * scale)
+    elif others is None and omega > _PAPER_SPEED_RATIO * beam.omega_0:
         # The rotating beam's first frequency is never below ω0, so it is needed only here. Beyond
         # what its basis resolves, the values there are lower bounds, of the ratio as well.
         at = min(w_bar, _FASTEST_ORBITS)
@@ -68,10 +78,11 @@ def warn_beyond_range(
             )
 
 
-def _warn_if_extended(beam: Beam, w_bar: float, lambda_omega: float) -> None:
+def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None:
     """Warn where the extension, which FrM leaves out, changes λ_ω or ω_n noticeably."""
     mu = beam.slenderness
-    shift, stretch = 4.0 * mu, mu * w_bar**2
+    # A hub adds to the tension, and so to the stretch.
+    shift, stretch = 4.0 * mu, mu * w_bar**2 * (1.0 + 2.0 * beam.unit.hub)
     if shift > _NOTICEABLE_SHIFT or stretch > _NOTICEABLE_STRETCH:
         warnings.warn(
             f"FrM is inextensible, but this beam has the slenderness μ = I/(AL²) = {mu:.2g}: its "

@@ -44,6 +44,11 @@ class Case:
     frame: Frame = "inertial"
 
     def __post_init__(self) -> None:
+        if not isinstance(self.beam, Beam):
+            raise TypeError(
+                f"the finite element models take a Beam yet, got a {type(self.beam).__name__}: "
+                "analytic.spin_up_response takes any blade"
+            )
         for name, value in (
             ("element", formulation(self.element)),
             ("elements", whole_number("elements", self.elements)),

@@ -158,6 +158,11 @@ def linearized(
     beam: Beam, omega: float, element: str | Formulation, elements: int
 ) -> Linearization:
     """Return the model about its equilibrium at ω [rad/s], refusing what has none."""
+    if not isinstance(beam, Beam):
+        raise TypeError(
+            f"the finite element models take a Beam yet, got a {type(beam).__name__}: "
+            "analytic.linear_modes takes any blade"
+        )
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)

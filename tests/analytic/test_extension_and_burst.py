@@ -6,7 +6,7 @@ import pytest
 
 from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
-from analytic.reduced.softening import softening_speed
+from analytic.reduced.speeds import softening_speed
 
 
 def unit_beam(slenderness):

@@ -16,7 +16,10 @@ FLOORS = {
     "analytic": [
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
-        {"beam", "motion"},
+        {"profiles", "motion"},
+        {"unit_blade"},
+        {"blade"},
+        {"beam"},
         {"reduced", "exact"},  # neither knows the other
     ],
     "rotbeam_exu": [

@@ -1,12 +1,16 @@
-"""Where hardening turns into softening: the rotation speed at which λ_ω changes sign."""
+"""Speeds at which a model changes: it diverges, or hardening turns into softening."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from scipy.optimize import brentq
 
 from ..beam import Beam
+from .lagrangian import energy_coefficients
 from .model import model_at
+from .shapes import CantileverMode
 from .variants import Variant, variant_named
 
 _HIGHEST_SPEED_RATIO = 4.0
@@ -33,3 +37,13 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     first = turns[0]
     ratio = brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
     return float(ratio) * beam.omega_0
+
+
+def divergence_speed(beam: Beam) -> float:
+    """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1."""
+    linear = energy_coefficients(CantileverMode(), "none")
+    return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
+
+
+critical_speed = divergence_speed
+"""The name the paper's readers know; in rotor dynamics a critical speed is something else."""

@@ -1,0 +1,300 @@
+"""Any straight blade: variable section, hub radius, setting angle, point masses; SI units.
+
+The blade is clamped at the hub radius R from the axis of rotation and bends in one plane, which
+makes the setting angle ψ with the plane of rotation: lag at ψ = 0, flap at ψ = π/2. Values hash,
+compare and can be written to files; with_* return new ones.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import eigh
+
+from .input_checks import RotbeamWarning, finite_number, not_negative, positive
+from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
+from .quadrature import transverse_basis
+from .unit_blade import UnitBlade
+
+_FUNCTIONS = 24  # for scales: ω0 and the burst speed
+_HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """What a slice of the blade resists and weighs, each a `Profile` along x.
+
+    Parameters
+    ----------
+    axial_stiffness : Profile
+        EA [N].
+    bending_stiffness : Profile
+        EI [N m²] in the plane of bending.
+    mass_per_length : Profile
+        m [kg/m].
+    rotary_inertia : Profile
+        Inertia of the slices against rotation, ρI [kg m].
+    """
+
+    axial_stiffness: Profile
+    bending_stiffness: Profile
+    mass_per_length: Profile
+    rotary_inertia: Profile = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("axial_stiffness", "bending_stiffness", "mass_per_length", "rotary_inertia"):
+            object.__setattr__(self, name, checked_profile(name, getattr(self, name)))
+
+    def profiles(self) -> dict[str, Profile]:
+        """Return the profiles by name."""
+        return {
+            "axial_stiffness": self.axial_stiffness,
+            "bending_stiffness": self.bending_stiffness,
+            "mass_per_length": self.mass_per_length,
+            "rotary_inertia": self.rotary_inertia,
+        }
+
+    def tapered(self, width: float, height: float) -> Section:
+        """Return the section times (1 - width x/L)(1 - height x/L), and height cubed in bending."""
+        b, h = (1.0, -width), (1.0, -height)
+        slice_ = np.polynomial.polynomial.polymul(b, h)
+        bent = np.polynomial.polynomial.polymul(slice_, np.polynomial.polynomial.polypow(h, 2))
+        return Section(
+            axial_stiffness=times(self.axial_stiffness, slice_),
+            bending_stiffness=times(self.bending_stiffness, bent),
+            mass_per_length=times(self.mass_per_length, slice_),
+            rotary_inertia=times(self.rotary_inertia, bent),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointMass:
+    """A mass on the blade's axis.
+
+    Parameters
+    ----------
+    position : float
+        x from the clamp [m].
+    mass : float
+        [kg].
+    inertia : float
+        Against rotation in the plane of bending [kg m²].
+    """
+
+    position: float
+    mass: float
+    inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, value in (
+            ("position", positive("position", self.position, "m")),
+            ("mass", not_negative("mass", self.mass, "kg")),
+            ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
+        ):
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blade:
+    """A straight blade of variable section on a hub; SI units.
+
+    Parameters
+    ----------
+    length : float
+        L [m], from the clamp to the tip.
+    section : Section
+    hub_radius : float
+        R [m], from the axis to the clamp.
+    setting_angle : float
+        ψ [rad], of the plane of bending against the plane of rotation.
+    point_masses : tuple of PointMass
+
+    Raises
+    ------
+    ValueError
+        If a value is out of range, a mass or station off the blade, or the section vanishes.
+    """
+
+    length: float
+    section: Section
+    hub_radius: float = 0.0
+    setting_angle: float = 0.0
+    point_masses: tuple[PointMass, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name, value in (
+            ("length", positive("length", self.length, "m")),
+            ("hub_radius", not_negative("hub_radius", self.hub_radius, "m")),
+            ("setting_angle", finite_number("setting_angle", self.setting_angle, "rad")),
+            ("point_masses", tuple(self.point_masses)),
+        ):
+            object.__setattr__(self, name, value)
+        if abs(self.setting_angle) > 2.0 * math.pi:
+            warnings.warn(
+                f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "
+                f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad",
+                RotbeamWarning,
+                stacklevel=3,
+            )
+        self._require_section()
+        self._require_masses()
+
+    def _require_section(self) -> None:
+        x = np.linspace(0.0, 1.0, 257)
+        for name, profile in self.section.profiles().items():
+            at = stations(profile)
+            if at and (at[0] != 0.0 or not math.isclose(at[-1], self.length, rel_tol=1e-9)):
+                raise ValueError(
+                    f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from "
+                    f"0 to the length, {self.length:g} m"
+                )
+            values = evaluated(in_units(profile, self.length, 1.0), x)
+            if name == "rotary_inertia":
+                if values.min() < 0.0:
+                    raise ValueError(f"{name} must not be negative, got {values.min():g}")
+            elif not np.all(values > 1e-6 * values[0]):
+                first = x[np.argmin(values > 1e-6 * values[0])]
+                raise ValueError(
+                    f"{name} vanishes at x = {first * self.length:.4g} m, where it is "
+                    f"{values[x == first][0]:.3g}: end the blade before, or taper it less"
+                )
+
+    def _require_masses(self) -> None:
+        own = self.mass - sum(one.mass for one in self.point_masses)
+        for one in self.point_masses:
+            if one.position > self.length * (1.0 + 1e-12):
+                raise ValueError(
+                    f"a point mass at {one.position:g} m is beyond the tip at {self.length:g} m: "
+                    "take a position from the clamp, not from the axis"
+                )
+            if one.mass > _HEAVY * own:
+                raise ValueError(
+                    f"a point mass of {one.mass:g} kg is {one.mass / own:.3g} times the blade's "
+                    f"{own:.4g} kg: give it in kg, or clamp the blade there"
+                )
+
+    def with_hub_radius(self, radius: float) -> Blade:
+        """Return the blade clamped at `radius` [m] from the axis."""
+        return replace(self, hub_radius=radius)
+
+    def with_setting_angle(self, angle: float) -> Blade:
+        """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
+        return replace(self, setting_angle=angle)
+
+    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with one mass [kg] more at `position` [m]."""
+        more = (PointMass(position=position, mass=mass, inertia=inertia),)
+        return replace(self, point_masses=self.point_masses + more)
+
+    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with one mass [kg] more at its tip."""
+        return self.with_point_mass(mass, self.length, inertia)
+
+    def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
+        """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
+
+        Mass and EA go with width times height, EI with width times height cubed; the height is
+        the dimension in the plane of bending.
+        """
+        return replace(self, section=self.section.tapered(width, height))
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg], point masses included."""
+        return float(self.unit.inertia(_FUNCTIONS)[1].sum()) * self.mass_per_length * self.length
+
+    @property
+    def axial_stiffness(self) -> float:
+        """EA at the root [N]."""
+        return self._root("axial_stiffness")
+
+    @property
+    def bending_stiffness(self) -> float:
+        """EI at the root [N m²]."""
+        return self._root("bending_stiffness")
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass per length at the root [kg/m]."""
+        return self._root("mass_per_length")
+
+    @property
+    def slenderness(self) -> float:
+        """μ = EI/(EA L²) at the root [-]."""
+        return self.bending_stiffness / (self.axial_stiffness * self.length**2)
+
+    @property
+    def frequency_scale(self) -> float:
+        """√(EI/(mL⁴)) at the root, by which w̄ = ω over it [rad/s]."""
+        return math.sqrt(self.bending_stiffness / (self.mass_per_length * self.length**4))
+
+    @cached_property
+    def omega_0(self) -> float:
+        """First frequency of bending at rest [rad/s]."""
+        unit = self.unit
+        x, weights = unit.quadrature(_FUNCTIONS + 8)
+        bent = transverse_basis(_FUNCTIONS, x).curvature
+        at, dm = unit.inertia(_FUNCTIONS + 8)
+        moved = transverse_basis(_FUNCTIONS, at).value
+        M = moved.T @ (dm[:, None] * moved)
+        for position, _, inertia in unit.masses:
+            slope = transverse_basis(_FUNCTIONS, np.array([position])).slope
+            M += inertia * slope.T @ slope
+        K = bent.T @ ((weights * evaluated(unit.bending, x))[:, None] * bent)
+        return self.frequency_scale / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
+
+    @cached_property
+    def burst_speed(self) -> float:
+        """Speed [rad/s] at which the rotation stretches the blade without bound.
+
+        That is its first axial frequency at rest: at it no stretched state exists any more.
+        """
+        unit = self.unit
+        x, weights = unit.quadrature(_FUNCTIONS + 8)
+        # Slopes of the transverse basis are zero at the clamp and complete: displacements.
+        strained = transverse_basis(_FUNCTIONS, x).curvature
+        at, dm = unit.inertia(_FUNCTIONS + 8)
+        moved = transverse_basis(_FUNCTIONS, at).slope
+        M = moved.T @ (dm[:, None] * moved)
+        K = strained.T @ ((weights * evaluated(unit.axial, x))[:, None] * strained)
+        first = 1.0 / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
+        return first * self.frequency_scale / math.sqrt(self.slenderness)
+
+    @cached_property
+    def unit(self) -> UnitBlade:
+        """The blade without dimensions."""
+        m0, length, section = self._root("mass_per_length"), self.length, self.section
+        return UnitBlade(
+            hub=self.hub_radius / length,
+            setting=math.cos(self.setting_angle),
+            masses=tuple(
+                (one.position / length, one.mass / (m0 * length), one.inertia / (m0 * length**3))
+                for one in self.point_masses
+            ),
+            mass=in_units(section.mass_per_length, length, m0),
+            bending=in_units(section.bending_stiffness, length, self.bending_stiffness),
+            axial=in_units(section.axial_stiffness, length, self.axial_stiffness),
+            rotary=in_units(section.rotary_inertia, length, m0 * length**2),
+        )
+
+    def _root(self, name: str) -> float:
+        return float(evaluated(self.section.profiles()[name], np.zeros(1))[0])
+
+    def __str__(self) -> str:
+        tip = {
+            name: float(evaluated(in_units(profile, self.length, 1.0), np.ones(1))[0])
+            for name, profile in self.section.profiles().items()
+        }
+        masses = ", ".join(f"{one.mass:g} kg at {one.position:g} m" for one in self.point_masses)
+        return (
+            f"Blade of {self.length:g} m on a hub of {self.hub_radius:g} m, "
+            f"set at {self.setting_angle:.4g} rad\n"
+            f"  EI {self.bending_stiffness:.4g} to {tip['bending_stiffness']:.4g} N m², "
+            f"EA {self.axial_stiffness:.4g} to {tip['axial_stiffness']:.4g} N, "
+            f"m {self.mass_per_length:.4g} to {tip['mass_per_length']:.4g} kg/m\n"
+            f"  point masses: {masses or 'none'}"
+        )

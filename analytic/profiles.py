@@ -1,0 +1,79 @@
+"""Profiles: how a quantity varies along the blade, as values that hash and compare."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .arrays import FloatArray
+from .input_checks import finite_number
+
+Profile = float | tuple[float, ...] | tuple[tuple[float, float], ...]
+"""A number, coefficients of 1, x/L, (x/L)² ..., or stations (x [m], value), linear in between."""
+
+
+def evaluated(profile: Profile, x: FloatArray) -> FloatArray:
+    """Return the values of a profile at `x`, in the units of its stations or, else, over L."""
+    if not isinstance(profile, tuple):
+        return np.full_like(x, profile)
+    at = stations(profile)
+    if at:
+        return np.interp(x, at, [pair[1] for pair in profile])  # type: ignore[index]
+    return np.asarray(np.polynomial.polynomial.polyval(x, np.array(profile, dtype=float)))
+
+
+def stations(profile: Profile) -> list[float]:
+    """Return where the stations are; none of a number or a polynomial."""
+    if isinstance(profile, tuple) and profile and isinstance(profile[0], tuple):
+        return [pair[0] for pair in profile]
+    return []
+
+
+def degree_of(profile: Profile) -> int:
+    """Return the degree between stations."""
+    if not isinstance(profile, tuple):
+        return 0
+    return 1 if stations(profile) else len(profile) - 1
+
+
+def in_units(profile: Profile, length: float, root: float) -> Profile:
+    """Return the profile over its value at the root, stations over the length."""
+    if not isinstance(profile, tuple):
+        return profile / root
+    if stations(profile):
+        return tuple((x / length, value / root) for x, value in profile)  # type: ignore[misc]
+    return tuple(c / root for c in profile)  # type: ignore[operator]
+
+
+def times(profile: Profile, factor: Any) -> Profile:
+    """Return a profile times a polynomial in x/L; stations are refused."""
+    if stations(profile):
+        raise ValueError(
+            "with_taper multiplies numbers and polynomials; a section given by stations has its "
+            "taper in them: scale their values"
+        )
+    polynomial: Any = profile if isinstance(profile, tuple) else (profile,)
+    return tuple(np.polynomial.polynomial.polymul(polynomial, factor).tolist())
+
+
+def checked_profile(name: str, profile: object) -> Profile:
+    """Return a profile of plain numbers and tuples, so that it hashes."""
+    if not isinstance(profile, tuple | list | np.ndarray):
+        return finite_number(name, profile)
+    items = list(profile)
+    if not items:
+        raise ValueError(f"{name} is empty: give a number, coefficients or stations")
+    if not isinstance(items[0], tuple | list | np.ndarray):
+        return tuple(finite_number(f"{name}[{k}]", value) for k, value in enumerate(items))
+    pairs = []
+    for k, pair in enumerate(items):
+        if np.shape(pair) != (2,):
+            raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
+        pairs.append((finite_number(f"{name}[{k}]", pair[0], "m"),
+                      finite_number(f"{name}[{k}]", pair[1])))  # fmt: skip
+    back = [k for k in range(1, len(pairs)) if pairs[k][0] <= pairs[k - 1][0]]
+    if back or len(pairs) < 2:
+        where = f": station {back[0]} is at {pairs[back[0]][0]:g} m" if back else ""
+        raise ValueError(f"the stations of {name} must ascend, two at least{where}; sort them")
+    return tuple(pairs)

@@ -1,0 +1,84 @@
+"""A blade without dimensions: all that the theory reads of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .arrays import FloatArray
+from .profiles import Profile, degree_of, evaluated, stations
+from .quadrature import gauss_points
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitBlade:
+    """What of a blade is not the uniform beam, in units of L and the root's m, EI and EA.
+
+    Attributes
+    ----------
+    hub : float
+        δ = R/L.
+    setting : float
+        c = cos ψ.
+    masses : tuple of (position, mass, inertia)
+        Point masses over L, m0 L and m0 L³.
+    mass, bending, axial, rotary : Profile
+        Over the root's m, EI and EA, and m0 L² for the rotary inertia; stations over L.
+    """
+
+    hub: float = 0.0
+    setting: float = 1.0
+    masses: tuple[tuple[float, float, float], ...] = ()
+    mass: Profile = 1.0
+    bending: Profile = 1.0
+    axial: Profile = 1.0
+    rotary: Profile = 0.0
+
+    @cached_property
+    def panels(self) -> FloatArray:
+        """Ends of the panels on which all profiles are smooth, 0 to 1."""
+        inner = {x for profile in (self.mass, self.bending, self.axial, self.rotary)
+                 for x in stations(profile)}  # fmt: skip
+        return np.array(sorted(inner | {0.0, 1.0}))
+
+    @property
+    def degree(self) -> int:
+        """Highest degree of a profile on a panel."""
+        return max(map(degree_of, (self.mass, self.bending, self.axial, self.rotary)))
+
+    @property
+    def differences(self) -> str:
+        """What makes it other than the uniform beam, in words."""
+        sections = {self.mass, self.bending, self.axial}
+        return " and ".join(
+            name
+            for name, there in (
+                ("a hub", self.hub != 0.0),
+                ("point masses", bool(self.masses)),
+                ("a setting angle", self.setting != 1.0),
+                ("a variable section", sections != {1.0}),
+                ("rotary inertia", self.rotary != 0.0),
+            )
+            if there
+        )
+
+    def quadrature(self, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return points and weights on [0, 1], `count` Gauss points a panel."""
+        x, weights = gauss_points(count)
+        ends = zip(self.panels[:-1], self.panels[1:], strict=True)
+        parts = [(a + (b - a) * x, (b - a) * weights) for a, b in ends]
+        points, measure = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return points, measure
+
+    def inertia(self, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return the measure dm: points and masses, the point masses' at the end."""
+        x, weights = self.quadrature(count)
+        at = np.array([position for position, _, _ in self.masses])
+        lumped = np.array([mass for _, mass, _ in self.masses])
+        return np.append(x, at), np.append(weights * evaluated(self.mass, x), lumped)
+
+
+UNIFORM = UnitBlade()
+"""The uniform beam without a hub, turning in its plane."""

@@ -1,0 +1,296 @@
+"""Blades: values, what is refused, and the frequencies of hub, masses, taper and setting."""
+
+import math
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+from analytic import (
+    Beam,
+    Blade,
+    PointMass,
+    Section,
+    SpinUp,
+    campbell,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    spin_up_response,
+)
+from analytic.exact.continuum import Continuum
+from analytic.input_checks import RotbeamWarning
+
+UNIFORM = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
+UNIT = Blade(length=1.0, section=UNIFORM)
+"""EI = m = L = 1, so that ω is w̄."""
+HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2, 0.3)
+FLAP = 0.5 * math.pi
+
+
+def lag(blade, *speeds):
+    return [linear_modes(blade, w, 1, inextensible=True).frequencies[0] for w in speeds]
+
+
+# Converged to the digits printed by another code, which shares nothing with this one.
+LAG = [
+    (UNIT.with_hub_radius(0.1), (1, 2, 4, 8), (3.5653093, 3.7071591, 4.2035350, 5.6050692)),
+    (UNIT.with_tip_mass(0.5), (0, 2, 4, 8), (2.0162990, 2.1898275, 2.5566268, 3.3103344)),
+    (UNIT.with_tip_mass(1.0, 0.1), (4,), (2.0230279,)),
+    (UNIT.with_taper(height=0.5), (0, 4, 10), (3.8237848, 4.3081132, 5.6820445)),
+    (UNIT.with_taper(width=0.5), (0, 4, 10), (4.3151703, 4.6722333, 5.8585246)),
+    (UNIT.with_setting_angle(math.pi / 4), (4,), (4.8158323,)),
+]
+
+
+@pytest.mark.parametrize(("blade", "speeds", "frequencies"), LAG, ids=range(len(LAG)))
+def test_lag_frequencies_to_all_printed_digits(blade, speeds, frequencies):
+    assert lag(blade, *speeds) == pytest.approx(frequencies, rel=2e-8)
+
+
+def test_published_frequencies_of_a_tip_mass_at_rest():
+    found = linear_modes(UNIT.with_tip_mass(1.0), 0.0, 5, inextensible=True).frequencies
+    published = [1.557298, 16.25009, 50.89584, 105.1983, 179.2320]
+    assert found == pytest.approx(published, rel=5e-7)
+
+
+@pytest.mark.parametrize("blade", [UNIT, HUB_AND_ALL.with_hub_radius(2.0)])
+def test_flap_squared_is_lag_squared_and_the_speed_squared(blade):
+    """What the rotation adds to the frequency of flap and lag differs by w̄² only."""
+    slices = blade.with_tip_mass(0.0) if not blade.point_masses else blade
+    # A turning inertia of a mass is not softened by the rotation: none here.
+    plain = Blade(length=1.0, section=slices.section, hub_radius=slices.hub_radius)
+    w = 6.0
+    in_plane, out = (
+        linear_modes(plain.with_setting_angle(psi), w, 3, inextensible=True).frequencies
+        for psi in (0.0, FLAP)
+    )
+    assert out**2 - in_plane**2 == pytest.approx(w**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("psi", [0.0, 0.7, FLAP])
+def test_the_tangent_is_the_derivative_of_the_residual(psi):
+    unit = HUB_AND_ALL.with_setting_angle(psi).unit
+    model = Continuum(1e-3, 6, 4, blade=unit)
+    rng = np.random.default_rng(0)
+    state = [0.3 * rng.standard_normal((2, model.size)) for _ in range(3)]
+    rate, rate_dot = np.array([1.3, 0.7]), np.array([0.4, -0.2])
+    tangent = model.tangent(*state, rate, rate_dot)
+    h = 1e-6
+    for k, matrix in enumerate((tangent.stiffness, tangent.damping, tangent.mass)):
+        for j in range(model.size):
+            there, back = (
+                [s + sign * h * (i == k) * np.eye(model.size)[j] for i, s in enumerate(state)]
+                for sign in (1.0, -1.0)
+            )
+            column = (
+                model.residual(*there, rate, rate_dot) - model.residual(*back, rate, rate_dot)
+            ) / (2.0 * h)
+            # Central differences: h² times third derivatives, and round-off over h.
+            assert column == pytest.approx(matrix[:, :, j], abs=1e-8)
+
+
+@pytest.mark.parametrize("psi", [0.0, 0.7, FLAP])
+def test_a_free_motion_conserves_the_jacobi_integral(psi):
+    """The residual is that of the energies: its power is the rate of the integral."""
+    model = Continuum(1e-2, 5, 3, blade=HUB_AND_ALL.with_setting_angle(psi).unit)
+    rng = np.random.default_rng(1)
+    q, q_dot = (0.2 * rng.standard_normal((1, model.size)) for _ in range(2))
+    w, h = 1.7, 1e-5
+    at = model.tangent(q, q_dot, 0.0 * q, w)
+    q_ddot = -np.linalg.solve(at.mass[0], at.residual[0])[None]
+    after, before = (
+        model.jacobi_integral(q + s * h * q_dot + 0.5 * h**2 * q_ddot, q_dot + s * h * q_ddot, w)
+        for s in (1.0, -1.0)
+    )
+    assert (after - before) / (2.0 * h) == pytest.approx(0.0, abs=1e-7)
+
+
+BACKBONES = [
+    (UNIT.with_hub_radius(0.5), 2, 4.0303159, 0.00277992, -0.000968,
+     (0.999972, 0.999884, 0.999726, 0.999474)),
+    (UNIT.with_hub_radius(1.0), 6, 8.5483527, 0.05566458, 0.042729,
+     (0.999441, 0.997737, 0.994800, 0.990465)),
+    (UNIT.with_hub_radius(5.0), 2, 6.6471464, 0.04001529, 0.037099,
+     (0.999597, 0.998361, 0.996204, 0.992985)),
+    (UNIT.with_tip_mass(0.5), 4, 2.5566268, 0.02047189, 0.000171,
+     (0.999795, 0.999168, 0.998091, 0.996502)),
+    (UNIT.with_tip_mass(1.0), 0, 1.5572979, -0.02404413, -0.024044,
+     (1.000241, 1.000976, 1.002238, 1.004095)),
+    (UNIT.with_tip_mass(1.0, 0.1), 4, 2.0230279, 0.02882529, 0.005548,
+     (0.999711, 0.998827, 0.997303, 0.995045)),
+    (UNIT.with_hub_radius(1.0).with_tip_mass(0.5), 2, 3.1543064, 0.03907575, 0.030266,
+     (0.999607, 0.998405, 0.996316, 0.993180)),
+    (UNIT.with_taper(width=0.5), 8, 5.4409021, 0.01936820, -0.001220,
+     (0.999806, 0.999214, 0.998196, 0.996697)),
+    (UNIT.with_taper(height=0.5), 2, 3.9604557, -0.01641008, -0.022822,
+     (1.000165, 1.000666, 1.001525, 1.002785)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("blade", "w", "omega_n", "coefficient", "alone", "ratios"), BACKBONES, ids=range(9)
+)
+def test_softening_of_every_blade_to_all_printed_digits(
+    blade, w, omega_n, coefficient, alone, ratios
+):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)  # of resonances, at larger amplitudes
+        frm, frc = (reduced_model(blade, w, name) for name in ("FrM", "FrC"))
+        orbits = periodic_orbits(blade, w, [0.1, 0.2, 0.3, 0.4], inextensible=True)
+    assert frm.omega_n == pytest.approx(omega_n, rel=1e-7 / 2.0)
+    assert frm.lambda_omega == pytest.approx(coefficient, abs=1e-8)
+    assert frc.lambda_omega == pytest.approx(alone, abs=1e-6)
+    assert orbits.lambda_omega == pytest.approx(coefficient, abs=1e-6)
+    assert orbits.frequency / orbits.omega_n == pytest.approx(ratios, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("w", "coefficient"),
+    [(0, -0.019383), (1, 0.004096), (2, 0.054402), (4, 0.138560), (8, 0.199522)],
+)
+def test_softening_of_flap(w, coefficient):
+    found = reduced_model(UNIT.with_setting_angle(FLAP), w, "FrM")
+    assert found.lambda_omega == pytest.approx(coefficient, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("blade", "zero"),
+    [
+        (UNIT, 3.59302),
+        (UNIT.with_hub_radius(0.1), 2.81734),
+        (UNIT.with_hub_radius(10.0), 0.49112),
+        (UNIT.with_tip_mass(0.1), 3.03517),
+        (UNIT.with_taper(width=0.5), 4.25104),
+        (UNIT.with_setting_angle(FLAP), 0.900803),
+    ],
+)
+def test_softening_begins_where_it_should(blade, zero):
+    below, above = (reduced_model(blade, w, "FrM").lambda_omega for w in (zero - 1e-5, zero + 1e-5))
+    assert below < 0.0 < above
+
+
+def test_a_blade_that_is_the_beam_has_its_numbers(beam):
+    blade = beam.blade
+    assert (blade.mass, blade.omega_0, blade.burst_speed) == pytest.approx(
+        (beam.mass, beam.omega_0, beam.burst_speed), rel=1e-13
+    )
+    for variant in ("CI", "FrE", "FrM"):
+        one, other = (reduced_model(b, 6.0, variant) for b in (beam, blade))
+        assert one.lambda_omega == pytest.approx(other.lambda_omega, rel=1e-12)
+    assert linear_modes(blade, 6.0).frequencies == pytest.approx(
+        linear_modes(beam, 6.0).frequencies, rel=1e-13
+    )
+    # By Galerkin's method, which shares no mode shape with Frobenius' series.
+    almost = beam.with_hub_radius(1e-12)
+    assert reduced_model(almost, 6.0, "FrM").lambda_omega == pytest.approx(
+        reduced_model(beam, 6.0, "FrM").lambda_omega, rel=1e-10
+    )
+
+
+def test_stations_of_a_taper_come_near_it(fitted_order):
+    smooth = lag(UNIT.with_taper(width=0.5), 4.0)[0]
+    counts, errors = np.array([4, 8, 16]), []
+    for n in counts:
+        at = [(x, 1.0 - 0.5 * x) for x in np.linspace(0.0, 1.0, n + 1)]
+        flat = Section(axial_stiffness=tuple((x, 1e9 * y) for x, y in at), bending_stiffness=at,
+                       mass_per_length=at)  # fmt: skip
+        assert lag(Blade(length=1.0, section=flat), 4.0)[0] == pytest.approx(smooth, rel=1e-9)
+        cubed = [(x, y**3) for x, y in at]
+        bent = Section(axial_stiffness=1e9, bending_stiffness=cubed, mass_per_length=1.0)
+        exact = Section(
+            axial_stiffness=1e9, mass_per_length=1.0,
+            bending_stiffness=tuple(np.polynomial.polynomial.polypow([1.0, -0.5], 3)),
+        )  # fmt: skip
+        wanted = lag(Blade(length=1.0, section=exact), 4.0)[0]
+        errors.append(abs(lag(Blade(length=1.0, section=bent), 4.0)[0] / wanted - 1.0))
+    # A straight line between stations is off by the square of their distance.
+    assert fitted_order(1.0 / counts, errors) == pytest.approx(2.0, abs=0.1)
+
+
+def test_a_spin_up_on_a_hub_ends_on_the_backbone(beam):
+    """Until the ramp is long, the tip lags behind; after it, the first mode rings on."""
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.2, 0.2)
+    time = np.linspace(0.0, 8.0, 1601)
+    found = spin_up_response(blade, SpinUp(omega=4.0, ramp_time=3.0), time, tolerance=1e-7)
+    assert found.q.min() < -0.1
+    late = found.q[time > 3.0]
+    rises = np.flatnonzero((late[:-1] < 0.0) & (late[1:] >= 0.0))
+    crossing = time[time > 3.0][rises] - late[rises] * 0.005 / (late[rises + 1] - late[rises])
+    period = np.diff(crossing).mean()
+    exact = periodic_orbits(blade, 4.0, [0.5 * np.ptp(late) / blade.length])
+    # Other modes shift single crossings.
+    assert 2.0 * np.pi / period == pytest.approx(exact.frequency[0], rel=5e-3)
+    reach = np.hypot(*found.tip.T)
+    assert blade.hub_radius < reach.min()
+    assert reach.max() <= (blade.hub_radius + blade.length) * 1.0001
+
+
+def test_blades_are_values():
+    one = UNIT.with_point_mass(0.1, 0.5).with_taper(0.1)
+    same = UNIT.with_point_mass(0.1, 0.5).with_taper(0.1)
+    assert one == same
+    assert hash(one) == hash(same)
+    assert pickle.loads(pickle.dumps(one)) == one
+    assert len({one, same, UNIT}) == 2
+    assert "0.1 kg at 0.5 m" in str(one)
+    stations = np.array([[0.0, 2.0], [1.0, 1.0]])
+    section = Section(axial_stiffness=1e9, bending_stiffness=stations, mass_per_length=1.0)
+    assert section.bending_stiffness == ((0.0, 2.0), (1.0, 1.0))
+
+
+def test_campbell_of_flap_on_a_hub(beam):
+    blade = beam.with_hub_radius(1.0).with_setting_angle(FLAP)
+    diagram = campbell(blade, [0.0, 2.0, 4.0], 2, 3)
+    assert np.all(np.diff(diagram.frequencies[:, 0]) > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: UNIT.with_hub_radius(-1.0), "hub_radius must not be negative"),
+        (lambda: UNIT.with_tip_mass(-1.0), "mass must not be negative"),
+        (lambda: UNIT.with_tip_mass(2000.0), "2e\\+03 times the blade's 1 kg: give it in kg"),
+        (lambda: UNIT.with_point_mass(0.1, 1.5), "is beyond the tip at 1 m: take a position from"),
+        (lambda: UNIT.with_point_mass(0.1, 0.0), "position must be positive"),
+        (lambda: UNIT.with_taper(1.0), "axial_stiffness vanishes at x = 1 m"),
+        (lambda: UNIT.with_taper(height=1.5), "vanishes at x = 0\\.6"),
+        (
+            lambda: Section(axial_stiffness=1.0, mass_per_length=1.0,
+                            bending_stiffness=((0.0, 1.0), (0.5, 1.0), (0.4, 1.0))),
+            "must ascend, two at least: station 2 is at 0.4 m; sort them",
+        ),
+        (
+            lambda: Blade(length=2.0, section=Section(
+                axial_stiffness=1.0, mass_per_length=1.0,
+                bending_stiffness=((0.0, 1.0), (1.0, 1.0)))),
+            "run from 0 to 1 m: give them from 0 to the length, 2 m",
+        ),
+        (lambda: reduced_model(HUB_AND_ALL, 1.0, "FrE"), "a hub and point masses and a variable"),
+        (
+            lambda: linear_modes(HUB_AND_ALL, 1.0, rotary_inertia=True),
+            "give Section\\(rotary_inertia",
+        ),
+    ],
+)  # fmt: skip
+def test_bad_blades_are_refused(make, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        make()
+
+
+def test_a_setting_angle_in_degrees_is_warned_of():
+    with pytest.warns(RotbeamWarning, match=r"degrees\? 45 degrees are 0.7854 rad"):
+        UNIT.with_setting_angle(45.0)
+
+
+def test_a_stocky_blade_on_a_hub_is_warned_of():
+    stocky = Blade(length=1.0, section=Section(
+        axial_stiffness=1e5, bending_stiffness=1.0, mass_per_length=1.0))  # fmt: skip
+    with pytest.warns(RotbeamWarning, match="FrM is inextensible"):
+        reduced_model(stocky.with_hub_radius(5.0), 5.0, "FrM")
+
+
+def test_point_masses_are_plain_numbers():
+    assert PointMass(position=np.float64(1.0), mass=1).position == 1.0
+    assert isinstance(Beam.reference().with_tip_mass(0.5), Blade)
