@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.linalg import eigh
@@ -96,6 +98,17 @@ class PointMass:
             ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
         ):
             object.__setattr__(self, name, value)
+
+
+def blade_from(values: Mapping[str, Any]) -> Blade:
+    """Return the blade of which `dataclasses.asdict` made `values`, lists for tuples or not."""
+    return Blade(
+        **{
+            **values,
+            "section": Section(**values["section"]),
+            "point_masses": tuple(PointMass(**one) for one in values.get("point_masses", ())),
+        }
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

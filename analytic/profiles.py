@@ -53,6 +53,8 @@ def times(profile: Profile, factor: Any) -> Profile:
             "with_taper multiplies numbers and polynomials; a section given by stations has its "
             "taper in them: scale their values"
         )
+    if profile == 0.0:
+        return 0.0
     polynomial: Any = profile if isinstance(profile, tuple) else (profile,)
     return tuple(np.polynomial.polynomial.polymul(polynomial, factor).tolist())
 

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, linear_modes
+from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
@@ -188,7 +188,7 @@ def _natural_frequency(run: xr.Dataset) -> float | None:
 
 
 @lru_cache(maxsize=64)
-def _exact_frequency(beam: Beam, omega: float) -> float | None:
+def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # said when the run was made
         try:

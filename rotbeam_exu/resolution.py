@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 
-from analytic import Beam, linear_modes
+from analytic import AnyBlade, linear_modes
 from analytic.beam import require_steady_state
 from analytic.input_checks import RotbeamWarning
 
@@ -32,7 +32,7 @@ _SECONDS_PER_ELEMENT_STEP = 2e-6
 
 
 def checked_steps(
-    beam: Beam, omega: float, ramp_time: float, elements: int, duration: float, step: float
+    beam: AnyBlade, omega: float, ramp_time: float, elements: int, duration: float, step: float
 ) -> tuple[int, int]:
     """Return how many steps a run has, and of how many one is kept.
 
@@ -63,7 +63,7 @@ def checked_steps(
     return steps, every
 
 
-def sampling(beam: Beam, omega: float, steps: int, step: float) -> int:
+def sampling(beam: AnyBlade, omega: float, steps: int, step: float) -> int:
     """Return how many steps lie between two samples: a divisor of `steps`.
 
     Raises
@@ -92,7 +92,7 @@ def require_resolved_ramp(ramp_time: float, step: float) -> None:
         )
 
 
-def require_stretch(beam: Beam) -> None:
+def require_stretch(beam: AnyBlade) -> None:
     """Refuse a beam so stiff along its axis that double precision does not hold its stretch."""
     if beam.slenderness < LEAST_SLENDERNESS:
         raise ValueError(
@@ -103,7 +103,7 @@ def require_stretch(beam: Beam) -> None:
         )
 
 
-def warn_if_rounded(beam: Beam, elements: int) -> None:
+def warn_if_rounded(beam: AnyBlade, elements: int) -> None:
     """Warn where the round-off of the stretch may show in q(t).
 
     Over seconds of the paper's spin-up it does by up to 1e-16 n/μ of the length, as measured with
@@ -138,7 +138,7 @@ def require_feasible(elements: int, steps: int = 0, samples: int = 0) -> None:
         )
 
 
-def warn_if_coarse(beam: Beam, omega: float, elements: int) -> None:
+def warn_if_coarse(beam: AnyBlade, omega: float, elements: int) -> None:
     """Warn where the root's boundary layer is shorter than half an element.
 
     The tension N bends a rotating beam within √(EI/N) = √2 L/w̄ of its clamp; there, cubic

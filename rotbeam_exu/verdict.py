@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
@@ -11,7 +12,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from analytic import Beam
+from analytic import AnyBlade, Beam, Blade
+from analytic.blade import blade_from
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -61,13 +63,17 @@ class _Check:
         )
 
 
-def beam_of(attrs: Mapping[Any, Any]) -> Beam:
-    """Return the beam that the attributes of a run describe."""
+def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
+    """Return the beam or blade that the attributes of a run describe."""
+    if "blade" in attrs:
+        return blade_from(json.loads(attrs["blade"]))
     return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
 
 
-def beam_attributes(beam: Beam) -> dict[str, float]:
+def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
     """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
+    if isinstance(beam, Blade):
+        return {"beam_length": beam.length, "blade": json.dumps(asdict(beam))}
     return {f"beam_{name}": value for name, value in asdict(beam).items()}
 
 
@@ -91,8 +97,9 @@ def remedy(run: xr.Dataset, t: float) -> str:
             f"substructures or another element, or {smaller.removeprefix('take ')}"
         )
     beam = beam_of(attrs)
-    # ½ρω²L² at the root, Eq. 67's strain; bending adds to it.
-    strain = 0.5 * beam.density * (omega * beam.length) ** 2 / beam.youngs_modulus
+    # ½mω²L²/EA at the root, Eq. 67's strain; a hub and bending add to it.
+    strain = 0.5 * beam.mass_per_length * (omega * beam.length) ** 2 / beam.axial_stiffness
+    strain *= 1.0 + 2.0 * beam.unit.hub
     if strain > 0.2 * STRAIN_LIMIT:
         return (
             f"the rotation alone strains the root by {strain:.2g}: lower omega below "
@@ -108,6 +115,13 @@ def remedy(run: xr.Dataset, t: float) -> str:
             f"too short for any step: take a longer ramp_time, or a duration below {t:.4g} s"
         )
     return smaller
+
+
+def _reach(run: xr.Dataset) -> NDArray[np.float64]:
+    """Return the tip's distance from the clamp [m], (samples,)."""
+    radius = beam_of(run.attrs).unit.hub * float(run.attrs["beam_length"])
+    tip = run["tip_x"].to_numpy() + 1j * run["tip_y"].to_numpy()
+    return np.asarray(np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy())))
 
 
 def check_run(run: xr.Dataset) -> str:
@@ -143,7 +157,7 @@ def check_run(run: xr.Dataset) -> str:
     checks = (
         _Check(
             name="the tip's distance from the clamp over the length",
-            size=np.hypot(run["tip_x"].to_numpy(), run["tip_y"].to_numpy()) / length,
+            size=_reach(run) / length,
             limit=1.0 + STRAIN_LIMIT,
         ),
         _Check(

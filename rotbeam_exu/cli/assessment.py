@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from analytic import Beam, linear_modes, periodic_orbits
+from analytic import AnyBlade, linear_modes, periodic_orbits
 
 from ..oscillation import SteadyOscillation
 
@@ -101,7 +101,7 @@ class Assessment:
         ]
 
 
-def assess(beam: Beam, omega: float, omega_n: float, steady: SteadyOscillation) -> Assessment:
+def assess(beam: AnyBlade, omega: float, omega_n: float, steady: SteadyOscillation) -> Assessment:
     """Compare a run's ω_n and ω_NL with the exact beam's, the latter at the run's own amplitude.
 
     Parameters

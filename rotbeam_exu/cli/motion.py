@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
@@ -33,12 +33,12 @@ class Motion:
         )
 
 
-def chosen_speeds(beam: Beam, *of_paper: float) -> list[float]:
+def chosen_speeds(beam: AnyBlade, *of_paper: float) -> list[float]:
     """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits."""
     return [_rounded(omega / slower_than_paper(beam), 2) for omega in of_paper]
 
 
-def chosen_times(beam: Beam, *of_paper: float, digits: int = 2) -> list[float]:
+def chosen_times(beam: AnyBlade, *of_paper: float, digits: int = 2) -> list[float]:
     """Return times [s] of the paper's beam, scaled to the same ω_0 t, to two digits or more."""
     return [_rounded(time * slower_than_paper(beam), digits) for time in of_paper]
 
@@ -53,7 +53,7 @@ def refuse_rest(*speeds: float) -> None:
 
 
 def chosen_motion(
-    beam: Beam,
+    beam: AnyBlade,
     *,
     omega: float | None = None,
     ramp_time: float | None = None,
@@ -90,7 +90,7 @@ def chosen_motion(
     return Motion(spin_up=spin_up, duration=duration, step=step)
 
 
-def slower_than_paper(beam: Beam) -> float:
+def slower_than_paper(beam: AnyBlade) -> float:
     """How many times slower the beam is than the paper's."""
     slower = Beam.reference().omega_0 / positive("the beam's ω_0", beam.omega_0, "rad/s")
     return positive("the paper's ω_0 over the beam's", slower)

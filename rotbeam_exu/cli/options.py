@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from analytic import Beam
+from analytic import AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import formulation
@@ -75,7 +75,7 @@ class Discretization:
         """Formulation and options for a reader."""
         return ", ".join([self.element, *(self.option or [])])
 
-    def case(self, beam: Beam, motion: Motion) -> Case:
+    def case(self, beam: AnyBlade, motion: Motion) -> Case:
         """Return the case of a motion, whose step and duration are chosen."""
         return Case(
             beam=beam,

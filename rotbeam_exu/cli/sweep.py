@@ -15,7 +15,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, whole_number
 
 from .. import paper
@@ -182,7 +182,7 @@ def _kept_and_counted(
 
 
 def _motion(
-    beam: Beam, omegas: list[float], ramp_times: list[float], discretization: Discretization
+    beam: AnyBlade, omegas: list[float], ramp_times: list[float], discretization: Discretization
 ) -> Motion:
     """Return duration and step for a whole grid: of the longest ramp and the shortest."""
     for omega in omegas:

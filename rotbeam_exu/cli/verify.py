@@ -11,7 +11,7 @@ from rich import box
 from rich.console import Console
 from rich.progress import track
 
-from analytic import Beam
+from analytic import AnyBlade, Beam
 from analytic.input_checks import positive
 
 from ..fem.elements import ALIASES, FORMULATIONS, formulation
@@ -67,7 +67,7 @@ def _entry(name: str) -> Entry:
 
 
 def _print_verdicts(
-    console: Console, entries: tuple[Entry, ...], beam: Beam, motion: Motion
+    console: Console, entries: tuple[Entry, ...], beam: AnyBlade, motion: Motion
 ) -> None:
     headers = {
         "linear frequency": "ω_n", "amplitude": "a", "nonlinear frequency": "ω_NL",
@@ -94,7 +94,7 @@ def _print_verdicts(
 
 
 def _print_costs(
-    console: Console, entries: tuple[Entry, ...], error: float, beam: Beam, motion: Motion
+    console: Console, entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion
 ) -> None:
     rows = []
     for entry in _tracked(console, entries):

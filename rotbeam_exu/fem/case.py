@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
-from analytic import Beam, SpinUp, SteadyRotation
+from analytic import AnyBlade, SpinUp, SteadyRotation
 from analytic.input_checks import positive, whole_number
 
 from ..resolution import checked_steps
 from ..verdict import beam_attributes
-from .elements import Formulation, formulation, options_of
+from .elements import Formulation, formulation, options_of, require_modeled
 from .solver import Frame
 
 
@@ -22,7 +22,7 @@ class Case:
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
     spin_up : SpinUp or SteadyRotation
     element : str or Formulation
         A name becomes the formulation.
@@ -35,7 +35,7 @@ class Case:
         If an input is refused.
     """
 
-    beam: Beam
+    beam: AnyBlade
     spin_up: SpinUp | SteadyRotation
     element: str | Formulation = "cable"
     elements: int = 16
@@ -44,11 +44,6 @@ class Case:
     frame: Frame = "inertial"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.beam, Beam):
-            raise TypeError(
-                f"the finite element models take a Beam yet, got a {type(self.beam).__name__}: "
-                "analytic.spin_up_response takes any blade"
-            )
         for name, value in (
             ("element", formulation(self.element)),
             ("elements", whole_number("elements", self.elements)),
@@ -58,6 +53,7 @@ class Case:
             object.__setattr__(self, name, value)
         if self.frame not in ("inertial", "rotating"):
             raise ValueError(f"unknown frame {self.frame!r}; known are 'inertial' and 'rotating'")
+        require_modeled(self.beam, self.model)
         _ = self.steps_and_sampling
         try:
             json.dumps([options_of(self.model), hash(self.model)])

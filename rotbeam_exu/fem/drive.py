@@ -11,6 +11,7 @@ exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and a is o
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import exudyn
@@ -36,6 +37,8 @@ def fix_root(
 ) -> None:
     """Hold the root at its reference values, with `direction` its direction as well."""
     coordinates = list(element.fixed_at_root)
+    if not direction and _hub_radius(mbs, chain):
+        return  # it goes around the axis: see `prescribe_rotation`
     if direction:
         # At θ = 0 each constraint of the clamp holds one coordinate.
         coordinates += list(np.flatnonzero(element.clamp(0.0)[0].any(axis=0)))
@@ -57,7 +60,9 @@ def prescribe_rotation(
     root = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
     size = element.quarter_turn.shape[0]
     # Each constraint holds a direction: two coordinates at most, the same at every angle.
-    pairs = [tuple(np.resize(np.flatnonzero(row), 2).tolist()) for row in element.clamp(1.0)[0]]
+    radius = _hub_radius(mbs, chain)
+    rows_at_1 = _clamp(element, radius, 1.0)[0]
+    pairs = [tuple(np.resize(np.flatnonzero(row), 2).tolist()) for row in rows_at_1]
     held = len(pairs)
     # Called seven times a step: nothing is done twice for one t, and numbers are plain.
     time, gradient, rows = np.nan, np.zeros((held, size)), [(0.0, 0, 0.0, 0, 0.0)] * held
@@ -65,7 +70,7 @@ def prescribe_rotation(
     def turn_to(t: float) -> None:
         nonlocal time, gradient, rows
         time = t
-        gradient, target = element.clamp(rotation.angle(t))
+        gradient, target = _clamp(element, radius, rotation.angle(t))
         rows = [
             (row[i], i, row[j] if j != i else 0.0, j, d)
             for (i, j), row, d in zip(pairs, gradient.tolist(), target.tolist(), strict=True)
@@ -96,6 +101,24 @@ def prescribe_rotation(
     )
 
 
+def _hub_radius(mbs: exudyn.MainSystem, chain: Chain) -> float:
+    """Return how far from the axis the root stands."""
+    return float(mbs.GetNodeParameter(chain.nodes[0], "referenceCoordinates")[0])
+
+
+def _clamp(element: Formulation, radius: float, angle: float) -> tuple[FloatArray, FloatArray]:
+    """Return C and d of the constraints C e = d of the root at `angle`, on a hub of `radius`.
+
+    On a hub the root's place goes around as well; at the axis it stands still and is fixed.
+    """
+    gradient, target = element.clamp(angle)
+    if not radius:
+        return gradient, target
+    place = np.eye(gradient.shape[1])[list(element.fixed_at_root)]
+    around = radius * np.array([math.cos(angle), math.sin(angle)])
+    return np.vstack([place, gradient]), np.concatenate([around, target])
+
+
 def add_inertial_forces(
     mbs: exudyn.MainSystem,
     chain: Chain,
@@ -105,7 +128,7 @@ def add_inertial_forces(
 ) -> None:
     """Load the beam with centrifugal, Euler and Coriolis forces (rotating frame).
 
-    `mass` is the mass matrix of the chain alone, over all its coordinates, root first.
+    The mass matrix is that of the chain alone, over all its coordinates, root first.
     """
     turn = sparse.kron(sparse.eye_array(len(chain.nodes)), element.quarter_turn, format="csr")
     gyroscopic = (mass @ turn).tocsr()

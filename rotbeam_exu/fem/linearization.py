@@ -9,7 +9,7 @@ import exudyn
 import numpy as np
 from scipy import linalg, sparse
 
-from analytic import Beam, SteadyRotation
+from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_steady_state, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
@@ -17,7 +17,7 @@ from analytic.input_checks import rotation_speed, whole_number
 from ..resolution import require_feasible, require_stretch, warn_if_coarse
 from ..verdict import SimulationError
 from . import drive
-from .elements import Formulation, formulation
+from .elements import Formulation, formulation, require_modeled
 from .system import exudyn_system
 from .units import Units
 
@@ -53,7 +53,7 @@ class Linearization:
         return np.asarray(inverse, dtype=np.complex128)
 
 
-def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_array:
+def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:
     """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
     with exudyn_system() as mbs:
         model.lay(mbs, beam, elements)
@@ -63,7 +63,7 @@ def mass_matrix(model: Formulation, beam: Beam, elements: int) -> sparse.csr_arr
 
 
 def natural_frequencies(
-    beam: Beam,
+    beam: AnyBlade,
     omega: float,
     *,
     element: str | Formulation = "cable",
@@ -102,7 +102,7 @@ def natural_frequencies(
 
 
 def mesh_frequencies(
-    beam: Beam, omega: float, element: str | Formulation, elements: int, count: int
+    beam: AnyBlade, omega: float, element: str | Formulation, elements: int, count: int
 ) -> FloatArray:
     """Return what `natural_frequencies` does, of a mesh however coarse: its own ω_n."""
     whole_number("count", count)
@@ -126,7 +126,7 @@ def mesh_frequencies(
 
 
 def growth_rate(
-    beam: Beam, omega: float, *, element: str | Formulation = "linear", elements: int = 16
+    beam: AnyBlade, omega: float, *, element: str | Formulation = "linear", elements: int = 16
 ) -> float:
     """Rate [1/s] at which a small disturbance of the steady rotation grows; zero where stable.
 
@@ -144,7 +144,7 @@ def _growth(inverse: ComplexArray) -> float:
 
 
 def steady_stretch(
-    beam: Beam, omega: float, *, element: str | Formulation = "cable", elements: int = 16
+    beam: AnyBlade, omega: float, *, element: str | Formulation = "cable", elements: int = 16
 ) -> float:
     """Tip displacement [m] along the beam in steady rotation without vibration.
 
@@ -155,18 +155,14 @@ def steady_stretch(
 
 
 def linearized(
-    beam: Beam, omega: float, element: str | Formulation, elements: int
+    beam: AnyBlade, omega: float, element: str | Formulation, elements: int
 ) -> Linearization:
     """Return the model about its equilibrium at ω [rad/s], refusing what has none."""
-    if not isinstance(beam, Beam):
-        raise TypeError(
-            f"the finite element models take a Beam yet, got a {type(beam).__name__}: "
-            "analytic.linear_modes takes any blade"
-        )
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
     model, units = formulation(element), Units.of(beam)
+    require_modeled(beam, model)
     rotation = units.rotation(SteadyRotation(omega=omega))
     unit_beam = units.beam(beam)
     elements = whole_number("elements", elements)
@@ -194,7 +190,7 @@ def linearized(
     )
 
 
-def _static_settings(beam: Beam, elements: int) -> exudyn.SimulationSettings:
+def _static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
     settings.staticSolver.verboseMode = 0
@@ -202,7 +198,7 @@ def _static_settings(beam: Beam, elements: int) -> exudyn.SimulationSettings:
     return settings
 
 
-def round_off(beam: Beam, elements: int) -> float:
+def round_off(beam: AnyBlade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
     The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².

@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 from scipy import sparse
 
-from analytic import Beam, BeamState, SpinUp, SteadyRotation
+from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.input_checks import RotbeamWarning
@@ -35,7 +35,7 @@ from .units import Units
 
 
 def simulate(
-    beam: Beam,
+    beam: AnyBlade,
     spin_up: SpinUp | SteadyRotation,
     *,
     element: str | Formulation = "cable",
@@ -54,7 +54,7 @@ def simulate(
 
     Parameters
     ----------
-    beam : Beam
+    beam : Beam or Blade
         The beam.
     spin_up : SpinUp or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, or constant from the start.
@@ -257,7 +257,11 @@ def _dataset(case: Case, units: Units, mass: Any, trajectory: Trajectory) -> xr.
             "J",
             "Jacobi energy E - ω L_z",
         ),
-        "clamp_residual": (np.hypot(root[:, 0], root[:, 1]), "m", "position error of the clamp"),
+        "clamp_residual": (
+            np.hypot(root[:, 0] - beam.length * beam.unit.hub, root[:, 1]),
+            "m",
+            "position error of the clamp",
+        ),
         "direction_residual": (
             np.abs(root @ gradient.T - target).max(axis=1),
             "1",

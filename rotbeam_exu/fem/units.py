@@ -11,8 +11,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from analytic import Beam, BeamState
+from analytic import AnyBlade, Beam, BeamState, Blade, PointMass, Section
 from analytic.motion import Rotation
+from analytic.profiles import in_units
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +25,7 @@ class Units:
     time: float
 
     @classmethod
-    def of(cls, beam: Beam, step: float | None = None) -> Units:
+    def of(cls, beam: AnyBlade, step: float | None = None) -> Units:
         """Return L, m and √(mL³/EI), or the nearest 2^k times a `step` [s]."""
         time = 1.0 / beam.frequency_scale
         if step is not None:
@@ -41,14 +42,42 @@ class Units:
         """Unit of energy [J]."""
         return self.mass * self.velocity**2
 
-    def beam(self, beam: Beam) -> Beam:
-        """Return the beam in these units."""
+    def beam(self, beam: AnyBlade) -> AnyBlade:
+        """Return the beam or blade in these units."""
+        if isinstance(beam, Blade):
+            return self._blade(beam)
         return Beam(
             length=beam.length / self.length,
             area=beam.area / self.length**2,
             second_moment=beam.second_moment / self.length**4,
             youngs_modulus=beam.youngs_modulus * self.length**3 / self.energy,
             density=beam.density * self.length**3 / self.mass,
+        )
+
+    def _blade(self, blade: Blade) -> Blade:
+        force = self.energy / self.length
+        per = {
+            "axial_stiffness": force,
+            "bending_stiffness": force * self.length**2,
+            "mass_per_length": self.mass / self.length,
+            "rotary_inertia": self.mass * self.length,
+        }
+        profiles = blade.section.profiles()
+        return Blade(
+            length=blade.length / self.length,
+            section=Section(
+                **{name: in_units(profiles[name], self.length, unit) for name, unit in per.items()}
+            ),
+            hub_radius=blade.hub_radius / self.length,
+            setting_angle=blade.setting_angle,
+            point_masses=tuple(
+                PointMass(
+                    position=one.position / self.length,
+                    mass=one.mass / self.mass,
+                    inertia=one.inertia / (self.mass * self.length**2),
+                )
+                for one in blade.point_masses
+            ),
         )
 
     def rotation(self, rotation: Rotation) -> Rotation:

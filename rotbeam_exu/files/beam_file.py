@@ -1,4 +1,4 @@
-"""A beam from a TOML file."""
+"""A beam or a blade from a TOML file."""
 
 from __future__ import annotations
 
@@ -7,18 +7,23 @@ import os
 import tomllib
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
-from analytic import Beam
+from analytic import AnyBlade, Beam, Blade
+from analytic.blade import blade_from
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
 
 
-def load_beam(path: str | os.PathLike[str]) -> Beam:
-    """Read a beam from the table [beam] of a TOML file, in SI units.
+def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
+    """Read a beam from the table [beam] of a TOML file, or a blade from [blade], in SI units.
 
-    The table gives length, area, second_moment, youngs_modulus and density, or length,
-    axial_stiffness, bending_stiffness and mass_per_length.
+    [beam] gives length, area, second_moment, youngs_modulus and density, or length,
+    axial_stiffness, bending_stiffness and mass_per_length. [blade] gives length and, where they are
+    not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
+    bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
+    stations [x, value]; each [[blade.point_mass]] position, mass and inertia.
 
     Raises
     ------
@@ -39,22 +44,62 @@ def load_beam(path: str | os.PathLike[str]) -> Beam:
     except ValueError as error:  # of TOML, of UTF-8, or of an integer with too many digits
         raise ValueError(f"{source} is not valid TOML: {error}") from error
     for name in document:
-        if name != "beam":
-            raise ValueError(f"{source}: unknown table or key {name!r}; the beam is in [beam]")
-    table = document.get("beam")
+        if name not in ("beam", "blade"):
+            raise ValueError(
+                f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
+                "[blade]"
+            )
+    if len(document) == 2:
+        raise ValueError(f"{source} has both [beam] and [blade]: keep one")
+    kind = "blade" if "blade" in document else "beam"
+    table = document.get(kind)
     if not isinstance(table, dict):
         raise ValueError(f"{source} has no table [beam] with {', '.join(_MATERIAL)}")
+    try:
+        return _blade(table, source) if kind == "blade" else _beam(table, source)
+    except (OverflowError, TypeError, ValueError) as error:
+        text = str(error)
+        raise ValueError(text if text.startswith(str(source)) else f"{source}: {text}") from error
+
+
+def _beam(table: dict[str, Any], source: Path) -> Beam:
     by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
     wanted = _STIFFNESS if by_stiffness else _MATERIAL
+    _require_keys(table, "[beam]", source, wanted)
+    return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
+
+
+def _blade(table: dict[str, Any], source: Path) -> Blade:
+    _require_keys(
+        table, "[blade]", source, ("length", "section"),
+        ("hub_radius", "setting_angle", "point_mass"),
+    )  # fmt: skip
+    section, masses = table["section"], table.get("point_mass", [])
+    if not isinstance(section, dict) or not isinstance(masses, list):
+        raise ValueError(
+            f"{source}: write [blade.section] and, for each mass, [[blade.point_mass]] as tables"
+        )
+    _require_keys(section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia",))
+    for one in masses:
+        _require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
+    values = {name: value for name, value in table.items() if name != "point_mass"}
+    return blade_from({**values, "point_masses": masses})
+
+
+def _require_keys(
+    table: dict[str, Any],
+    title: str,
+    source: Path,
+    wanted: tuple[str, ...],
+    optional: tuple[str, ...] = (),
+) -> None:
+    """Refuse keys that are unknown, with a near one, and such as are missing."""
+    known = (*wanted, *optional)
     for key in table:
-        if key not in wanted:
-            close = difflib.get_close_matches(key, wanted, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(wanted)}"
-            raise ValueError(f"{source}: unknown key {key!r} in [beam]; {hint}")
+        if key not in known:
+            close = difflib.get_close_matches(key, known, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
+            raise ValueError(f"{source}: unknown key {key!r} in {title}; {hint}")
     missing = [key for key in wanted if key not in table]
     if missing:
-        raise ValueError(f"{source}: [beam] lacks {', '.join(missing)}")
-    try:
-        return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
-    except (OverflowError, TypeError, ValueError) as error:
-        raise ValueError(f"{source}: {error}") from error
+        raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")

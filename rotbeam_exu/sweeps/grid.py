@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, SpinUp
 from analytic.input_checks import RotbeamWarning, finite_values, whole_number
 
 from ..fem.case import Case
@@ -30,7 +30,7 @@ OnError = Literal["raise", "record"]
 
 
 def sweep(
-    beam: Beam,
+    beam: AnyBlade,
     *,
     omegas: Sequence[float],
     ramp_times: Sequence[float],

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import xarray as xr
 
-from analytic import Beam
+from analytic import AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
@@ -79,5 +79,5 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 
 
 @lru_cache(maxsize=64)
-def _omega_n(beam: Beam, omega: float, element: Formulation, elements: int) -> float:
+def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
     return float(mesh_frequencies(beam, omega, element, elements, 1)[0])

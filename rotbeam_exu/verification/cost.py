@@ -8,7 +8,7 @@ import time as clock
 
 import numpy as np
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 
 from .measures import faster_than_paper, history_error, whole_duration
@@ -19,7 +19,11 @@ LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
 
 
 def cost_at_error(
-    entry: Entry, error: float = 1e-2, *, beam: Beam | None = None, spin_up: SpinUp | None = None
+    entry: Entry,
+    error: float = 1e-2,
+    *,
+    beam: AnyBlade | None = None,
+    spin_up: SpinUp | None = None,
 ) -> tuple[float, FloatArray]:
     """Return the wall time [s] at which a code reaches an error, and the ladder it is read from.
 

@@ -6,7 +6,7 @@ import dataclasses
 
 import xarray as xr
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, SpinUp
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
 from ..fem.linearization import natural_frequencies
@@ -23,13 +23,13 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
     ]
 
     def spin(
-        beam: Beam, spin_up: SpinUp, *, elements: int, duration: float, step: float
+        beam: AnyBlade, spin_up: SpinUp, *, elements: int, duration: float, step: float
     ) -> xr.Dataset:
         return simulate(
             beam, spin_up, element=model, elements=elements, duration=duration, step=step
         )
 
-    def first(beam: Beam, omega: float, elements: int) -> float:
+    def first(beam: AnyBlade, omega: float, elements: int) -> float:
         return float(natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0])
 
     return Entry(

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import AnyBlade, Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 
 from ..oscillation import SteadyOscillation, steady_oscillation
@@ -99,7 +99,7 @@ class Verification:
 def verify(
     entry: Entry,
     *,
-    beam: Beam | None = None,
+    beam: AnyBlade | None = None,
     spin_up: SpinUp | None = None,
     duration: float = 15.0,
 ) -> Verification:
@@ -159,7 +159,7 @@ def verify(
     )
 
 
-def faster_than_paper(beam: Beam) -> float:
+def faster_than_paper(beam: AnyBlade) -> float:
     """How many times faster the beam is than the paper's."""
     return beam.omega_0 / Beam.reference().omega_0
 
@@ -178,7 +178,7 @@ def _judged(name: str, value: float) -> Measure:
     )
 
 
-def _linear_frequency(entry: Entry, beam: Beam) -> Measure:
+def _linear_frequency(entry: Entry, beam: AnyBlade) -> Measure:
     name = "linear frequency"
     if entry.first_frequency is None:
         return Measure(name=name, value=math.nan, passed=None, note="not offered")
@@ -194,7 +194,7 @@ def _linear_frequency(entry: Entry, beam: Beam) -> Measure:
     return _judged(name, float(np.abs(errors).max()))
 
 
-def _against_exact(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> list[Measure]:
+def _against_exact(run: xr.Dataset, beam: AnyBlade, spin_up: SpinUp) -> list[Measure]:
     time = run["time"].to_numpy()
     exact = spin_up_response(beam, spin_up, time, tolerance=1e-6)
     found = _steady(time, run["q"].to_numpy(), beam, spin_up)
@@ -207,7 +207,7 @@ def _against_exact(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> list[Measure
     ]
 
 
-def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> SteadyOscillation:
+def _steady(time: FloatArray, q: FloatArray, beam: AnyBlade, spin_up: SpinUp) -> SteadyOscillation:
     """Measure q, or fail as the code does, where q does not swing as this beam can."""
     attrs = beam_attributes(beam) | dataclasses.asdict(spin_up)
     try:
@@ -216,13 +216,13 @@ def _steady(time: FloatArray, q: FloatArray, beam: Beam, spin_up: SpinUp) -> Ste
         raise RuntimeError(str(error)) from error
 
 
-def history_error(run: xr.Dataset, beam: Beam, spin_up: SpinUp) -> float:
+def history_error(run: xr.Dataset, beam: AnyBlade, spin_up: SpinUp) -> float:
     """Return the largest error of q(t) over max|q|, against the exact beam."""
     exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6).q
     return float(np.abs(run["q"] - exact).max() / np.abs(exact).max())
 
 
-def _orders(entry: Entry, beam: Beam, spin_up: SpinUp) -> list[Measure]:
+def _orders(entry: Entry, beam: AnyBlade, spin_up: SpinUp) -> list[Measure]:
     def history(elements: int, step: float) -> xr.Dataset:
         return entry.simulate(beam, spin_up, elements=elements, duration=duration, step=step)
 

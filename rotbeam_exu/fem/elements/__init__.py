@@ -6,6 +6,9 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+from analytic import AnyBlade
+from analytic.unit_blade import UNIFORM
+
 from .ancf3 import Ancf3
 from .cable import Cable
 from .formulation import Chain, Formulation
@@ -51,6 +54,30 @@ def formulation(
     return model
 
 
+def require_modeled(beam: AnyBlade, model: Formulation) -> None:
+    """Refuse a blade that the formulation does not model.
+
+    Raises
+    ------
+    ValueError
+        Naming what it is that the blade has, and which formulations take it.
+    """
+    unit = beam.unit
+    if unit == UNIFORM:
+        return
+    if unit.setting != 1.0:
+        raise ValueError(
+            "the finite element models turn in the plane of bending, and this blade has a setting "
+            f"angle with the cosine {unit.setting:.4g}: take analytic.spin_up_response"
+        )
+    if not getattr(model, "takes_blades", False):
+        takes = [name for name, cls in FORMULATIONS.items() if getattr(cls, "takes_blades", False)]
+        raise ValueError(
+            f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
+            f"{unit.differences}: take {' or '.join(map(repr, takes))}"
+        )
+
+
 def options_of(element: Formulation) -> dict[str, Any]:
     """Return the options of a formulation by name, such that `formulation` makes it again."""
     return dataclasses.asdict(element)  # type: ignore[call-overload, no-any-return]
@@ -68,4 +95,5 @@ __all__ = [
     "Substructures",
     "formulation",
     "options_of",
+    "require_modeled",
 ]

@@ -8,11 +8,12 @@ from typing import ClassVar
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
+from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D, ObjectMassPoint2D
 
-from analytic import Beam
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
 
+from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import SlopeNodes
 
@@ -22,31 +23,34 @@ class Cable(SlopeNodes, NoDivergence):
     """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|²."""
 
     name: ClassVar[str] = "cable"
+    takes_blades: ClassVar[bool] = True
     summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
-        """Add `elements` cables of equal length along the x axis."""
-        length = beam.length / elements
+    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+        """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
+        mesh = Mesh(blade=beam, elements=elements)
         nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[i * length, 0.0, 1.0, 0.0]))
-            for i in range(elements + 1)
+            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 1.0, 0.0]))
+            for x in mesh.positions
         )
         bodies = tuple(
             mbs.AddObject(
                 ObjectANCFCable2D(
                     nodeNumbers=list(pair),
-                    length=length,
-                    massPerLength=beam.mass_per_length,
-                    bendingStiffness=beam.bending_stiffness,
-                    axialStiffness=beam.axial_stiffness,
+                    length=mesh.length,
+                    massPerLength=section.mass_per_length,
+                    bendingStiffness=section.bending_stiffness,
+                    axialStiffness=section.axial_stiffness,
                     # Lobatto points for the axial strain: coarse meshes gain a digit.
                     useReducedOrderIntegration=2,
                 )
             )
-            for pair in pairwise(nodes)
+            for pair, section in zip(pairwise(nodes), mesh.sections(), strict=True)
         )
+        for node, mass in mesh.lumped():
+            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=mass))
         return Chain(nodes=nodes, bodies=bodies)
 
-    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""
         return np.asarray(np.hypot(coordinates[..., 2], coordinates[..., 3]) - 1.0)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 import exudyn
 import numpy as np
 
-from analytic import Beam, BeamState
+from analytic import BeamState
 from analytic.arrays import FloatArray
 
 
@@ -58,7 +58,7 @@ class Formulation(Protocol):
     def __hash__(self) -> int:
         """Equal options, equal hash: a formulation is a value."""
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
@@ -67,17 +67,19 @@ class Formulation(Protocol):
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
 
-    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
 
-    def divergence_speed(self, beam: Beam, elements: int) -> float:
+    def divergence_speed(self, beam: Any, elements: int) -> float:
         """Speed [rad/s] above which the model diverges, infinite where its strains are exact."""
 
 
 class NoDivergence:
     """The answer of formulations that describe large deformation exactly."""
 
-    def divergence_speed(self, beam: Beam, elements: int) -> float:
+    takes_blades: ClassVar[bool] = False
+
+    def divergence_speed(self, beam: Any, elements: int) -> float:
         """Return infinity: divergence is an artifact of linear elastic frames (Sec. 1)."""
         return math.inf
 

@@ -12,6 +12,7 @@ from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
 from analytic import Beam
 from analytic.arrays import FloatArray
 
+from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
 from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
@@ -47,20 +48,20 @@ class Exact(AngleNodes, NoDivergence):
 
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
-        inner = self.nodes - 1
-        positions = np.linspace(0.0, beam.length, inner * elements + 1)
+        mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
         nodes = tuple(
-            mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0])) for x in positions
+            mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0])) for x in mesh.positions
         )
-        for i in range(0, inner * elements, inner):
+        inner = self.nodes - 1
+        for i, section in zip(range(0, inner * elements, inner), mesh.sections(), strict=True):
             mbs.AddObject(
                 ObjectBeamGeometricallyExact2D(
                     nodeNumbers=list(nodes[i : i + self.nodes]),
-                    length=beam.length / elements,
-                    massPerLength=beam.mass_per_length,
-                    crossSectionInertia=beam.density * beam.second_moment,
-                    bendingStiffness=beam.bending_stiffness,
-                    axialStiffness=beam.axial_stiffness,
+                    length=mesh.length,
+                    massPerLength=section.mass_per_length,
+                    crossSectionInertia=section.rotary_inertia,
+                    bendingStiffness=section.bending_stiffness,
+                    axialStiffness=section.axial_stiffness,
                     shearStiffness=self._shear_stiffness(beam),
                 )
             )

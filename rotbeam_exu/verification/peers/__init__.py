@@ -23,9 +23,9 @@ from typing import Protocol
 
 import xarray as xr
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp
 
-FrequenciesOf = Callable[[Beam, float, int], float]
+FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""
 
 
@@ -33,7 +33,7 @@ class Code(Protocol):
     """A code that spins a beam up."""
 
     def __call__(
-        self, beam: Beam, spin_up: SpinUp, *, elements: int, duration: float, step: float
+        self, beam: AnyBlade, spin_up: SpinUp, *, elements: int, duration: float, step: float
     ) -> xr.Dataset:
         """Return q [m] and q_dot [m/s], Eq. 16, over `time` [s]; raise RuntimeError on failure."""
 

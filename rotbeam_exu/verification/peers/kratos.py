@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
@@ -29,7 +29,7 @@ from ...verdict import SimulationError, beam_attributes
 
 
 def simulate(
-    beam: Beam,
+    beam: AnyBlade,
     spin_up: SpinUp,
     *,
     elements: int = 32,
@@ -67,6 +67,8 @@ def simulate(
     RotbeamWarning
         If steps did not converge.
     """
+    if not isinstance(beam, Beam):
+        raise SimulationError("the adapter to Kratos takes the uniform Beam, not a Blade")
     elements, step = whole_number("elements", elements), positive("step", step, "s")
     require_resolved_ramp(spin_up.ramp_time, step)
     steps = round(positive("duration", duration, "s") / step)

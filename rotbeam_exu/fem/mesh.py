@@ -1,0 +1,111 @@
+"""A beam or blade on a mesh: where its nodes are, and the section and masses of each element."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from analytic import AnyBlade, Blade
+from analytic.arrays import FloatArray
+from analytic.profiles import evaluated
+from analytic.quadrature import gauss_points
+
+
+@dataclass(frozen=True, kw_only=True)
+class ElementSection:
+    """What an element of constant section has: m [kg/m], EI [N m²], EA [N], ρI [kg m]."""
+
+    mass_per_length: float
+    bending_stiffness: float
+    axial_stiffness: float
+    rotary_inertia: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mesh:
+    """Elements of equal length on a beam or blade.
+
+    Each element has a constant section: the mean of its mass and EI, and of its compliance 1/EA.
+    Of a blade that tapers the elements converge to second order, whatever their own: with height
+    and width tapered by a half and a third, 64 cables are off by 1.1e-4 in frequency.
+    """
+
+    blade: AnyBlade
+    elements: int
+    nodes_of_element: int = 2
+
+    @property
+    def length(self) -> float:
+        """Length of an element."""
+        return self.blade.length / self.elements
+
+    @property
+    def hub_radius(self) -> float:
+        """Where the root is, from the axis."""
+        return self.blade.hub_radius if isinstance(self.blade, Blade) else 0.0
+
+    @cached_property
+    def positions(self) -> FloatArray:
+        """Where the nodes are along the undeformed blade, from the axis."""
+        count = self.elements * (self.nodes_of_element - 1) + 1
+        return self.hub_radius + np.linspace(0.0, self.blade.length, count)
+
+    def sections(self) -> Iterator[ElementSection]:
+        """Yield the section of each element, from the root."""
+        blade = self.blade
+        if not isinstance(blade, Blade):
+            uniform = ElementSection(
+                mass_per_length=blade.mass_per_length,
+                bending_stiffness=blade.bending_stiffness,
+                axial_stiffness=blade.axial_stiffness,
+                rotary_inertia=blade.density * blade.second_moment,
+            )
+            for _ in range(self.elements):
+                yield uniform
+            return
+        unit = blade.unit
+        m0, length = blade.mass_per_length, blade.length
+        inner, weights = gauss_points(8)
+        for i in range(self.elements):
+            x = (i + inner) / self.elements
+
+            def mean(values: FloatArray, weights: FloatArray = weights) -> float:
+                return float(weights @ values)
+
+            yield ElementSection(
+                mass_per_length=m0 * mean(evaluated(unit.mass, x)),
+                bending_stiffness=blade.bending_stiffness * mean(evaluated(unit.bending, x)),
+                axial_stiffness=blade.axial_stiffness / mean(1.0 / evaluated(unit.axial, x)),
+                rotary_inertia=m0 * length**2 * mean(evaluated(unit.rotary, x)),
+            )
+
+    def lumped(self) -> Iterator[tuple[int, float]]:
+        """Yield the nodes that carry a mass, and the masses.
+
+        Raises
+        ------
+        ValueError
+            If a mass is not at a node, or has an inertia, which these elements do not model.
+        """
+        if not isinstance(self.blade, Blade):
+            return
+        for one in self.blade.point_masses:
+            node = round((self.positions.size - 1) * one.position / self.blade.length)
+            off = abs(self.hub_radius + one.position - self.positions[node])
+            if off > 1e-9 * self.blade.length:
+                raise ValueError(
+                    f"no node of {self.elements} elements is at the point mass at "
+                    f"{one.position / self.blade.length:.6g} of the length, the nearest is "
+                    f"{off / self.blade.length:.2g} of it away: take a number of elements that "
+                    "puts one there"
+                )
+            if one.inertia:
+                raise ValueError(
+                    "the finite elements take point masses without inertia: leave it out, or "
+                    "take analytic.spin_up_response"
+                )
+            if one.mass:
+                yield node, one.mass

@@ -1,0 +1,147 @@
+"""Blades in Exudyn: hub, point masses and taper against the exact blade, and their files."""
+
+import numpy as np
+import pytest
+
+from analytic import Blade, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from rotbeam_exu import load, natural_frequencies, save, simulate, steady_oscillation, sweep
+from rotbeam_exu.cli import main
+from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.verdict import beam_of
+
+
+def frequency_errors(blade, *meshes):
+    exact = linear_modes(blade, 6.0, 2).frequencies
+    return np.array(
+        [np.abs(natural_frequencies(blade, 6.0, elements=n, count=2) / exact - 1.0) for n in meshes]
+    )
+
+
+def test_a_hub_and_a_tip_mass_keep_the_fourth_order(beam, fitted_order):
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.5)
+    meshes = np.array([16, 32, 64])
+    errors = frequency_errors(blade, *meshes)
+    assert errors[-1].max() < 1e-6
+    for mode in errors.T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
+
+
+def test_a_taper_in_steps_is_of_second_order(beam, fitted_order):
+    blade = beam.with_hub_radius(0.8).with_taper(0.3, 0.5)
+    meshes = np.array([16, 32, 64])
+    errors = frequency_errors(blade, *meshes)
+    assert errors[-1].max() < 1.2e-4
+    for mode in errors.T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(2.0, abs=0.05)
+
+
+def test_a_spin_up_follows_the_exact_blade(beam):
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.1, 0.1)
+    spin_up = SpinUp(omega=3.0, ramp_time=4.0)
+    run = simulate(blade, spin_up, elements=64, duration=10.0, step=2e-3, frame="rotating")
+    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+    assert run.attrs["verdict"] == "passed"
+    size = np.abs(exact.q).max()
+    # The taper's second order leaves 6e-4 with 64 elements.
+    assert np.abs(run["q"] - exact.q).max() < 1e-3 * size
+    assert np.abs(run["tip_x"] - exact.tip[:, 0]).max() < 1e-2 * size
+    steady = steady_oscillation(run)
+    orbit = periodic_orbits(blade, 3.0, [steady.amplitude])
+    assert steady.frequency == pytest.approx(orbit.frequency[0], rel=2e-4)
+
+
+def test_both_frames_agree_to_second_order_in_the_step(beam):
+    blade, spin_up = beam.with_hub_radius(4.0).with_tip_mass(0.3), SpinUp(omega=4.0, ramp_time=3.0)
+
+    def apart(step):
+        inertial, rotating = (
+            simulate(blade, spin_up, elements=8, duration=5.0, step=step, frame=frame)["q"]
+            for frame in ("inertial", "rotating")
+        )
+        return float(abs(inertial - rotating).max())
+
+    assert apart(2e-3) / apart(1e-3) == pytest.approx(4.0, rel=0.05)
+
+
+def test_a_run_tells_its_blade(beam, tmp_path):
+    blade = beam.with_hub_radius(0.5).with_tip_mass(0.2).with_taper(0.1)
+    run = simulate(blade, SpinUp(omega=4.0, ramp_time=3.0), elements=4, duration=6.0, step=5e-3)
+    for ending in ("nc", "csv"):
+        save(run, tmp_path / f"run.{ending}")
+        assert beam_of(load(tmp_path / f"run.{ending}").attrs) == blade
+
+
+def test_a_sweep_of_a_blade_resumes(beam, tmp_path):
+    blade = beam.with_hub_radius(0.5)
+    options = {"omegas": [4.0], "ramp_times": [3.0], "elements": 2, "duration": 8.0, "step": 1e-2}
+    first = sweep(blade, **options, jobs=1, cache=tmp_path)
+    again = sweep(blade, **options, jobs=1, cache=tmp_path)
+    assert first.drop_attrs().identical(again.drop_attrs())
+    assert len(list(tmp_path.rglob("*.nc"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("make", "element", "sentence"),
+    [
+        (lambda b: b.with_setting_angle(0.3), "cable", "take analytic.spin_up_response"),
+        (lambda b: b.with_hub_radius(1.0), "linear", "has a hub: take 'cable'"),
+        (lambda b: b.with_taper(0.1), "ancf3", "has a variable section: take 'cable'"),
+        (lambda b: b.with_point_mass(0.1, 3.3), "cable", "take a number of elements that puts one"),
+        (lambda b: b.with_tip_mass(0.1, 0.1), "cable", "take point masses without inertia"),
+    ],
+)
+def test_what_is_not_modeled_is_refused(beam, make, element, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        simulate(make(beam), SpinUp(omega=1.0, ramp_time=3.0), element=element)
+
+
+TOML = """
+[blade]
+length = 8.0
+hub_radius = 0.5
+
+[blade.section]
+axial_stiffness = 5.03e6
+bending_stiffness = [[0.0, 600.0], [4.0, 550.0], [8.0, 500.0]]
+mass_per_length = [0.2, -0.02]
+
+[[blade.point_mass]]
+position = 4.0
+mass = 0.1
+"""
+
+
+def test_a_blade_from_toml_is_run(tmp_path, capsys):
+    (tmp_path / "blade.toml").write_text(TOML)
+    blade = load_beam(tmp_path / "blade.toml")
+    assert blade == Blade(
+        length=8.0,
+        hub_radius=0.5,
+        section=Section(
+            axial_stiffness=5.03e6,
+            bending_stiffness=((0.0, 600.0), (4.0, 550.0), (8.0, 500.0)),
+            mass_per_length=(0.2, -0.02),
+        ),
+    ).with_point_mass(0.1, 4.0)
+    main(
+        ["run", "--config", str(tmp_path / "blade.toml"), "--omega", "3", "--ramp-time", "4",
+         "--elements", "4", "--step", "0.01", "--duration", "14", "--out", str(tmp_path / "out")]
+    )  # fmt: skip
+    assert "checks passed" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("hub_radius", "hub_radios", r"unknown key 'hub_radios' in \[blade\]; did you mean 'hub_r"),
+        ("mass_per_length", "mass_length", r"did you mean 'mass_per_length'\?"),
+        ("position = 4.0", "", r"\[\[blade.point_mass\]\] lacks position"),
+        ("[4.0, 550.0]", "[9.0, 550.0]", "must ascend"),
+        ("0.5", "-0.5", "hub_radius must not be negative"),
+        ("[blade.section]", "[beam]", r"has both \[beam\] and \[blade\]"),
+    ],
+)
+def test_a_bad_blade_file_is_one_sentence(tmp_path, old, new, sentence):
+    (tmp_path / "blade.toml").write_text(TOML.replace(old, new, 1))
+    with pytest.raises(ValueError, match=sentence):
+        load_beam(tmp_path / "blade.toml")
