@@ -2,7 +2,6 @@ from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .blade import PointMass as PointMass
-from .blade import Section as Section
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
 from .exact.backbone import BeamState as BeamState
@@ -24,3 +23,4 @@ from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
+from .section import Section as Section

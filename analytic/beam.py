@@ -6,8 +6,9 @@ import math
 import warnings
 from dataclasses import dataclass, fields
 
-from .blade import Blade, Section
+from .blade import Blade
 from .input_checks import RotbeamWarning, positive
+from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
 
 BETA_1 = 1.8751040687119611

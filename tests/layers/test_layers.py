@@ -17,7 +17,7 @@ FLOORS = {
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
         {"profiles", "motion"},
-        {"unit_blade"},
+        {"unit_blade", "section"},
         {"blade"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other

@@ -23,7 +23,7 @@ from typing import Protocol
 
 import xarray as xr
 
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import AnyBlade, SpinUp
 
 FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""
