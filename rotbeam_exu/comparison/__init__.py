@@ -9,6 +9,7 @@ from .backbones import figure_5, figure_14, finite_element_points, fitted_soften
 from .budget import finite_element_budget, model_budget
 from .orbits import figure_15
 from .runs import figure_3, figure_4
+from .softening_map import softening_map
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
@@ -27,4 +28,5 @@ __all__ = [
     "finite_element_points",
     "fitted_softening",
     "model_budget",
+    "softening_map",
 ]

@@ -12,6 +12,7 @@ from .backbones import figure_5, figure_14
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
 from .runs import figure_3, figure_4
+from .softening_map import softening_map
 from .spin_up import spin_up
 from .style import save_figure
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
@@ -32,5 +33,6 @@ __all__ = [
     "figure_15",
     "save_animation",
     "save_figure",
+    "softening_map",
     "spin_up",
 ]

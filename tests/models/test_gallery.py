@@ -56,6 +56,21 @@ def test_backbone(run, beam):
     assert found == pytest.approx(reduced_model(beam, 6.0, "FrM").lambda_omega, abs=2e-5)
 
 
+def test_tapered_blade(run):
+    found = run("tapered_blade")
+    # Inextensible, flap² - lag² is ω²; μ times squares of frequencies is left.
+    assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
+
+
+@pytest.mark.slow
+def test_softening_map(run):
+    found = run("softening_map")
+    # Another code's 3.59302.
+    assert found["hardens"] < 3.59302 < found["softens"]
+    ratio = found["data"]["ratio"].sel(hub_ratio=5.0)
+    assert np.interp(4.0914, ratio.w_bar, ratio) == pytest.approx(3.0, abs=2e-3)
+
+
 def test_simo_vu_quoc(run):
     found = run("simo_vu_quoc")
     # Both as printed in the literature, the lag to the digits of a converged run.

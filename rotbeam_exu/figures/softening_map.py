@@ -1,0 +1,42 @@
+"""The map of λ_ω over hub radius and speed."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from .style import COLUMN, STYLE, label, new_figure
+
+
+def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5.
+
+    Parameters
+    ----------
+    data : Dataset
+        As made by `rotbeam_exu.comparison.softening_map`.
+    ax : Axes, optional
+        Drawn on these; otherwise on a new figure.
+    """
+    ax = ax or new_figure(COLUMN, 3.0)[1]
+    assert ax is not None
+    x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
+    values, ratio = data["lambda_omega"].to_numpy().T, data["ratio"].to_numpy().T
+    # Half as much again as most of the map has: lines stay legible on its darkest colors.
+    limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
+    with mpl.rc_context(STYLE):
+        filled = ax.contourf(
+            x, y, values, levels=np.linspace(-limit, limit, 17), cmap="RdBu_r", extend="both"
+        )
+        colorbar = ax.figure.colorbar(filled, ax=ax, ticks=np.linspace(-limit, limit, 5))
+        colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
+        zero = ax.contour(x, y, values, levels=[0.0], colors="black", linewidths=1.0)
+        ax.clabel(zero, fmt={0.0: "0"}, fontsize=6.5)
+        lines = ax.contour(
+            x, y, ratio, levels=[3.0, 4.0, 5.0], colors="black", linewidths=0.8, linestyles="--"
+        )
+        ax.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5)
+        ax.set(xlabel=label(data["hub_ratio"]), ylabel=label(data["w_bar"]))
+    return ax
