@@ -24,11 +24,11 @@ from analytic.motion import Rotation
 
 from .. import __version__
 from ..verdict import SimulationError, check_run, remedy
-from . import drive
 from .case import Case
 from .elements import Chain, Formulation
 from .elements.formulation import spun, turned, turned_velocities
-from .linearization import mass_matrix, round_off
+from .linearization import round_off
+from .rotating_beam import add_rotating_beam
 from .solver import Frame, Sensors, Trajectory, solve, solver_settings
 from .system import exudyn_system
 from .units import Units
@@ -146,14 +146,10 @@ def _built(
     """Lay the beam, drive its clamp, set its state and assemble."""
     model, beam = case.model, units.beam(case.beam)
     rotation = units.rotation(case.spin_up)
-    chain = model.lay(mbs, beam, case.elements)
-    mass = mass_matrix(model, beam, case.elements)
-    if case.frame == "inertial":
-        drive.fix_root(mbs, chain, model)
-        drive.prescribe_rotation(mbs, chain, model, rotation)
-    else:
-        drive.fix_root(mbs, chain, model, direction=True)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
+    built = add_rotating_beam(
+        mbs, beam, rotation, element=model, elements=case.elements, frame=case.frame
+    )
+    chain = built.chain
     sensors = Sensors(mbs, chain)
     start = None
     if initial_state is not None:
@@ -161,7 +157,7 @@ def _built(
         start = model.coordinates(x, units.state(initial_state(case.beam.length * x)))
     _start(mbs, chain, model, rotation, case.frame, start)
     mbs.Assemble()
-    return _Built(sensors=sensors, mass=mass)
+    return _Built(sensors=sensors, mass=built.mass)
 
 
 def _settings(case: Case, units: Units) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:

@@ -62,6 +62,11 @@ def test_tapered_blade(run):
     assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
 
 
+def test_blade_in_exudyn(run):
+    # The centrifugal force of 0.1 kg 9.1 m from the axis at 3 rad/s, over 100 N/m; it still swings.
+    assert run("blade_in_exudyn")["stretch"][-100:].mean() == pytest.approx(0.082, rel=0.25)
+
+
 @pytest.mark.slow
 def test_softening_map(run):
     found = run("softening_map")

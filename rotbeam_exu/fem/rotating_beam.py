@@ -1,0 +1,108 @@
+"""The model for an Exudyn system of one's own: a robot, a hub or a gear may be added to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import exudyn
+from exudyn.itemInterface import MarkerNodePosition, SensorNode
+from scipy import sparse
+
+from analytic import AnyBlade
+from analytic.input_checks import whole_number
+from analytic.motion import Rotation
+
+from . import drive
+from .elements import Chain, Formulation, formulation, require_modeled
+from .linearization import mass_matrix
+from .solver import Frame
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotatingBeam:
+    """The numbers of what `add_rotating_beam` added.
+
+    Attributes
+    ----------
+    model : Formulation
+    chain : Chain
+        Its nodes, from the clamped root to the tip, and its bodies.
+    root_marker, tip_marker : MarkerIndex
+        Positions, to which forces and other bodies can be attached.
+    tip_sensor : SensorIndex
+        Position of the tip, stored in the sensor itself.
+    mass : csr_array
+        Mass matrix over the coordinates of the nodes, root first.
+    """
+
+    model: Formulation
+    chain: Chain
+    root_marker: exudyn.MarkerIndex
+    tip_marker: exudyn.MarkerIndex
+    tip_sensor: exudyn.SensorIndex
+    mass: sparse.csr_array
+
+    @property
+    def nodes(self) -> tuple[exudyn.NodeIndex, ...]:
+        """Nodes from the root to the tip."""
+        return self.chain.nodes
+
+    @property
+    def bodies(self) -> tuple[exudyn.ObjectIndex, ...]:
+        """The elements, where they are Exudyn's."""
+        return self.chain.bodies
+
+
+def add_rotating_beam(
+    mbs: exudyn.MainSystem,
+    beam: AnyBlade,
+    rotation: Rotation,
+    *,
+    element: str | Formulation = "cable",
+    elements: int = 16,
+    frame: Frame = "inertial",
+) -> RotatingBeam:
+    """Put a beam whose clamped end follows `rotation` into an Exudyn system.
+
+       The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on its
+    hub, straight and at rest. `simulate` builds its model by this.
+
+    Parameters
+    ----------
+       mbs : exudyn.MainSystem
+       beam : Beam or Blade
+           In the units of the system, SI as a rule.
+       rotation : SpinUp or SteadyRotation
+           Angle of the clamp over time.
+       element, elements, frame
+           As in `simulate`.
+
+    Raises
+    ------
+       ValueError
+           If an input is refused, or the formulation does not model the blade.
+    """
+    model, elements = formulation(element), whole_number("elements", elements)
+    require_modeled(beam, model)
+    if frame not in ("inertial", "rotating"):
+        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
+    chain = model.lay(mbs, beam, elements)
+    mass = mass_matrix(model, beam, elements)
+    if frame == "inertial":
+        drive.fix_root(mbs, chain, model)
+        drive.prescribe_rotation(mbs, chain, model, rotation)
+    else:
+        drive.fix_root(mbs, chain, model, direction=True)
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
+    root, tip = (mbs.AddMarker(MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1))
+    sensor = mbs.AddSensor(
+        SensorNode(
+            nodeNumber=chain.nodes[-1],
+            outputVariableType=exudyn.OutputVariableType.Position,
+            storeInternal=True,
+            writeToFile=False,
+        )
+    )
+    return RotatingBeam(
+        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor, mass=mass
+    )
