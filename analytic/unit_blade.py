@@ -22,8 +22,8 @@ class UnitBlade:
         δ = R/L.
     setting : float
         c = cos ψ.
-    masses : tuple of (position, mass, inertia)
-        Point masses over L, m0 L and m0 L³.
+    masses : tuple
+        Position, mass and inertia of each point mass, over L, m0 L and m0 L³.
     mass, bending, axial, rotary : Profile
         Over the root's m, EI and EA, and m0 L² for the rotary inertia; stations over L.
     """

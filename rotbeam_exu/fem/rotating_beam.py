@@ -64,8 +64,8 @@ def add_rotating_beam(
 ) -> RotatingBeam:
     """Put a beam whose clamped end follows `rotation` into an Exudyn system.
 
-       The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on its
-    hub, straight and at rest. `simulate` builds its model by this.
+    The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on
+    its hub, straight and at rest. `simulate` builds its model by this.
 
     Parameters
     ----------
