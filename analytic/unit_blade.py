@@ -24,8 +24,14 @@ class UnitBlade:
         c = cos ψ.
     masses : tuple
         Position, mass and inertia of each point mass, over L, m0 L and m0 L³.
-    mass, bending, axial, rotary : Profile
-        Over the root's m, EI and EA, and m0 L² for the rotary inertia; stations over L.
+    mass : Profile
+        Over the root's m; stations over L here and below.
+    bending : Profile
+        Over the root's EI.
+    axial : Profile
+        Over the root's EA.
+    rotary : Profile
+        Inertia against rotation over m0 L².
     """
 
     hub: float = 0.0

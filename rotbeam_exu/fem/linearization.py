@@ -28,8 +28,10 @@ class Linearization:
 
     Attributes
     ----------
-    mass, stiffness, gyroscopic : ndarray (n, n)
-        Of the free coordinates.
+    mass : ndarray (n, n)
+        Of the free coordinates, as the two that follow.
+    stiffness : ndarray (n, n)
+    gyroscopic : ndarray (n, n)
     stretch : float
         How far the rotation moves the tip.
     """
