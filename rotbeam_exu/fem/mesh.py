@@ -16,7 +16,10 @@ from analytic.quadrature import gauss_points
 
 @dataclass(frozen=True, kw_only=True)
 class ElementSection:
-    """What an element of constant section has: m [kg/m], EI [N m²], EA [N], ρI [kg m]."""
+    """What an element of constant section has: m [kg/m], EI [N m²], EA [N], ρI [kg m].
+
+    ρI is for elements that model it; where the blade gives none, that of a homogeneous section.
+    """
 
     mass_per_length: float
     bending_stiffness: float
@@ -69,17 +72,23 @@ class Mesh:
         unit = blade.unit
         m0, length = blade.mass_per_length, blade.length
         inner, weights = gauss_points(8)
+        # A homogeneous section has ρI = m EI/EA.
+        homogeneous = unit.rotary == 0.0
         for i in range(self.elements):
             x = (i + inner) / self.elements
 
             def mean(values: FloatArray, weights: FloatArray = weights) -> float:
                 return float(weights @ values)
 
+            m = m0 * mean(evaluated(unit.mass, x))
+            EI = blade.bending_stiffness * mean(evaluated(unit.bending, x))
+            EA = blade.axial_stiffness / mean(1.0 / evaluated(unit.axial, x))
+            given = m0 * length**2 * mean(evaluated(unit.rotary, x))
             yield ElementSection(
-                mass_per_length=m0 * mean(evaluated(unit.mass, x)),
-                bending_stiffness=blade.bending_stiffness * mean(evaluated(unit.bending, x)),
-                axial_stiffness=blade.axial_stiffness / mean(1.0 / evaluated(unit.axial, x)),
-                rotary_inertia=m0 * length**2 * mean(evaluated(unit.rotary, x)),
+                mass_per_length=m,
+                bending_stiffness=EI,
+                axial_stiffness=EA,
+                rotary_inertia=m * EI / EA if homogeneous else given,
             )
 
     def lumped(self) -> Iterator[tuple[int, float]]:

@@ -11,6 +11,7 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import load, natural_frequencies, save, simulate, steady_oscillation, sweep
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem import add_rotating_beam
+from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.system import exudyn_system
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.verdict import beam_of
@@ -39,6 +40,21 @@ def test_a_taper_in_steps_is_of_second_order(beam, fitted_order):
     assert errors[-1].max() < 1.2e-4
     for mode in errors.T:
         assert fitted_order(1.0 / meshes, mode) == pytest.approx(2.0, abs=0.05)
+
+
+def test_reissners_beam_takes_blades_too(beam):
+    """Shear and rotary inertia move ω by the order of μ times squares of the mode's number."""
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.5).with_taper(0.1, 0.2)
+    one, other = (
+        natural_frequencies(blade, 6.0, element=element, elements=48, count=2)
+        for element in ("cable", Exact(nodes=3))
+    )
+    assert other == pytest.approx(one, rel=5e-4)
+    run = simulate(
+        blade, SpinUp(omega=3.0, ramp_time=4.0), element="exact", elements=8, duration=6.0,
+        step=4e-3,
+    )  # fmt: skip
+    assert run.attrs["verdict"] == "passed"
 
 
 def test_a_spin_up_follows_the_exact_blade(beam):
@@ -93,8 +109,8 @@ def test_a_sweep_of_a_blade_resumes(beam, tmp_path):
     ("make", "element", "sentence"),
     [
         (lambda b: b.with_setting_angle(0.3), "cable", "take analytic.spin_up_response"),
-        (lambda b: b.with_hub_radius(1.0), "linear", "has a hub: take 'cable'"),
-        (lambda b: b.with_taper(0.1), "ancf3", "has a variable section: take 'cable'"),
+        (lambda b: b.with_hub_radius(1.0), "linear", "has a hub: take 'cable' or 'exact'"),
+        (lambda b: b.with_taper(0.1), "ancf3", "has a variable section: take 'cable' or 'exact'"),
         (lambda b: b.with_point_mass(0.1, 3.3), "cable", "take a number of elements that puts one"),
         (lambda b: b.with_tip_mass(0.1, 0.1), "cable", "take point masses without inertia"),
     ],

@@ -7,15 +7,15 @@ from typing import ClassVar
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D
+from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectMassPoint2D
 
-from analytic import Beam
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
 
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
-from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_modulus
+from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +39,7 @@ class Exact(AngleNodes, NoDivergence):
     shear_correction: float = SHEAR_CORRECTION
 
     name: ClassVar[str] = "exact"
+    takes_blades: ClassVar[bool] = True
     summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
 
     def __post_init__(self) -> None:
@@ -46,7 +47,7 @@ class Exact(AngleNodes, NoDivergence):
             raise ValueError(f"nodes must be 2 or 3, got {self.nodes!r}")
         checked_shear(self.poisson_ratio, self.shear_correction)
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
         nodes = tuple(
@@ -62,31 +63,38 @@ class Exact(AngleNodes, NoDivergence):
                     crossSectionInertia=section.rotary_inertia,
                     bendingStiffness=section.bending_stiffness,
                     axialStiffness=section.axial_stiffness,
-                    shearStiffness=self._shear_stiffness(beam),
+                    shearStiffness=self._shear_share * section.axial_stiffness,
                 )
             )
+        for node, mass in mesh.lumped():
+            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=mass))
         return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
 
-    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
         return self._strains(beam, coordinates)[0]
 
-    def elastic_energy(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def elastic_energy(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
         axial, shear, curvature = self._strains(beam, coordinates)
-        density = (
-            beam.axial_stiffness * axial**2
-            + self._shear_stiffness(beam) * shear**2
-            + beam.bending_stiffness * curvature**2
+        inner = self.nodes - 1
+        mesh = Mesh(blade=beam, elements=(coordinates.shape[-2] - 1) // inner)
+        sections = list(mesh.sections())
+        EA, EI = (
+            np.repeat([getattr(section, name) for section in sections], inner)
+            for name in ("axial_stiffness", "bending_stiffness")
         )
+        density = EA * (axial**2 + self._shear_share * shear**2) + EI * curvature**2
         # The points of an element, one or two, weigh the same.
         return np.asarray(0.5 * beam.length * density.mean(axis=-1))
 
-    def _shear_stiffness(self, beam: Beam) -> float:
-        return shear_modulus(beam, self.poisson_ratio) * self.shear_correction * beam.area
+    @property
+    def _shear_share(self) -> float:
+        """k_s G A over EA."""
+        return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))
 
     def _strains(
-        self, beam: Beam, coordinates: FloatArray
+        self, beam: AnyBlade, coordinates: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Axial, shear and bending strain at the Gauss points, each (..., points)."""
         inner = self.nodes - 1
