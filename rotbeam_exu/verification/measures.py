@@ -80,13 +80,13 @@ class Verification:
         return all(measure.passed is not False for measure in self.measures.values())
 
     @property
-    def verdict(self) -> str:
+    def outcome(self) -> str:
         """One line: passed, or what falls short."""
         short = [m.name for m in self.measures.values() if m.passed is False]
         return "passed" if not short else f"falls short: {', '.join(short)}"
 
     def __str__(self) -> str:
-        lines = [f"{self.name}, {self.elements} elements, step {self.step:g} s: {self.verdict}"]
+        lines = [f"{self.name}, {self.elements} elements, step {self.step:g} s: {self.outcome}"]
         lines += [f"  {self.remark}"] if self.remark else []
         for m in self.measures.values():
             limit = THRESHOLDS.get(m.name)

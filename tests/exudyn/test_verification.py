@@ -33,7 +33,7 @@ def second_order(scale=1.0, drift=0.0):
 def test_a_right_code_passes():
     found = verify(Entry(name="mine", simulate=second_order(), elements=32))
     assert found.passed
-    assert found.verdict == "passed"
+    assert found.outcome == "passed"
     assert found.measures["order in step"].value == pytest.approx(2.0, abs=1e-3)
     assert found.measures["order in mesh"].value == pytest.approx(2.0, abs=1e-3)
     # The error that was put in, of amplitude and history alike.
@@ -49,8 +49,8 @@ def test_a_drifting_code_falls_short():
     found = verify(Entry(name="drifting", simulate=second_order(drift=0.02)))
     assert not found.passed
     assert found.measures["history"].passed is False
-    assert "falls short: " in found.verdict
-    assert "history" in found.verdict
+    assert "falls short: " in found.outcome
+    assert "history" in found.outcome
 
 
 def test_a_code_of_another_frequency_is_told_so():
