@@ -7,8 +7,17 @@ import numpy as np
 import pytest
 
 from analytic import Blade, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.exact.steady import steady_rotation
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import load, natural_frequencies, save, simulate, steady_oscillation, sweep
+from rotbeam_exu import (
+    load,
+    natural_frequencies,
+    save,
+    simulate,
+    steady_oscillation,
+    steady_stretch,
+    sweep,
+)
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
@@ -31,6 +40,16 @@ def test_a_hub_and_a_tip_mass_keep_the_fourth_order(beam, fitted_order):
     assert errors[-1].max() < 1e-6
     for mode in errors.T:
         assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
+
+
+def test_a_hub_and_a_tip_mass_stretch_the_blade_as_they_should(beam):
+    blade = beam.with_hub_radius(2.0).with_tip_mass(0.3)
+    exact = linear_modes(blade, 6.0, 1)
+    steady = steady_rotation(blade, 6.0, exact.model)
+    wanted = blade.length * (exact.model.tip(steady.equilibrium[None])[0].real - 1.0)
+    # The difference of two lengths: 1e-15 of one of them.
+    assert steady_stretch(blade, 6.0, elements=32) == pytest.approx(wanted, abs=1e-12)
+    assert wanted > 1.5 * steady_stretch(beam, 6.0)
 
 
 def test_a_taper_in_steps_is_of_second_order(beam, fitted_order):
