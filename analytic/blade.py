@@ -17,13 +17,17 @@ from typing import Any
 import numpy as np
 from scipy.linalg import eigh
 
+from .arrays import FloatArray
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
-from .profiles import evaluated, in_units, stations
+from .profiles import Profile, evaluated, in_units, stations
 from .quadrature import transverse_basis
 from .section import Section
 from .unit_blade import UnitBlade
 
 _FUNCTIONS = 24  # for scales: ω0 and the burst speed
+# Which of the transverse basis' values are displacements; along the blade its slopes are, which
+# are zero at the clamp and complete. The curvature strains both.
+_ACROSS, _ALONG = 0, 1
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
 
 
@@ -202,17 +206,12 @@ class Blade:
     @cached_property
     def omega_0(self) -> float:
         """First frequency of bending at rest [rad/s]."""
-        unit = self.unit
-        x, weights = unit.quadrature(_FUNCTIONS + 8)
-        bent = transverse_basis(_FUNCTIONS, x).curvature
-        at, dm = unit.inertia(_FUNCTIONS + 8)
-        moved = transverse_basis(_FUNCTIONS, at).value
-        M = moved.T @ (dm[:, None] * moved)
-        for position, _, inertia in unit.masses:
-            slope = transverse_basis(_FUNCTIONS, np.array([position])).slope
-            M += inertia * slope.T @ slope
-        K = bent.T @ ((weights * evaluated(unit.bending, x))[:, None] * bent)
-        return self.frequency_scale / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
+        turning = sum(
+            inertia * slope.T @ slope
+            for position, _, inertia in self.unit.masses
+            for slope in [transverse_basis(_FUNCTIONS, np.array([position])).slope]
+        )
+        return self.frequency_scale * self._first(_ACROSS, self.unit.bending, turning)
 
     @cached_property
     def burst_speed(self) -> float:
@@ -220,16 +219,18 @@ class Blade:
 
         That is its first axial frequency at rest: at it no stretched state exists any more.
         """
-        unit = self.unit
-        x, weights = unit.quadrature(_FUNCTIONS + 8)
-        # Slopes of the transverse basis are zero at the clamp and complete: displacements.
-        strained = transverse_basis(_FUNCTIONS, x).curvature
-        at, dm = unit.inertia(_FUNCTIONS + 8)
-        moved = transverse_basis(_FUNCTIONS, at).slope
-        M = moved.T @ (dm[:, None] * moved)
-        K = strained.T @ ((weights * evaluated(unit.axial, x))[:, None] * strained)
-        first = 1.0 / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
+        first = self._first(_ALONG, self.unit.axial)
         return first * self.frequency_scale / math.sqrt(self.slenderness)
+
+    def _first(self, moved: int, stiffness: Profile, more: FloatArray | float = 0.0) -> float:
+        """Return the first frequency at rest [-], of motion across or along the blade."""
+        x, weights = self.unit.quadrature(_FUNCTIONS + 8)
+        strain = transverse_basis(_FUNCTIONS, x).curvature
+        at, dm = self.unit.inertia(_FUNCTIONS + 8)
+        displacement = transverse_basis(_FUNCTIONS, at)[moved]
+        M = displacement.T @ (dm[:, None] * displacement) + more
+        K = strain.T @ ((weights * evaluated(stiffness, x))[:, None] * strain)
+        return 1.0 / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
 
     @cached_property
     def unit(self) -> UnitBlade:

@@ -13,6 +13,7 @@ Coriolis coupling to all other modes. Inextensible; of the uniform beam this is 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -30,13 +31,14 @@ _SETTLED = 1e-9
 
 
 class BladeOscillator(NamedTuple):
-    """Eq. 41, the tip displacement per x·dx/dτ of all other modes, and their lowest w̄_j."""
+    """Eq. 41, the tip displacement per x·dx/dτ of all other modes, and their lowest two w̄_j."""
 
     oscillator: Oscillator
     tip: float
-    others: FloatArray
+    others: tuple[float, float]
 
 
+@lru_cache(maxsize=64)
 def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOscillator:
     """Return Eq. 41 of the blade's first mode at w̄, with or without the other modes.
 
@@ -114,7 +116,8 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
         g2 += float(4.0 * rate * (d @ follow) / M1)
         tip = float(transverse_basis(count, np.ones(1)).value[0] @ follow)
     oscillator = Oscillator(w_n=w_n, g1=float(4.0 * quartic / M1), g2=g2)
-    return BladeOscillator(oscillator, tip, 1.0 / np.sqrt(reciprocal[-2:-4:-1]))
+    second, third = (1.0 / np.sqrt(reciprocal[-2:-4:-1])).tolist()
+    return BladeOscillator(oscillator, tip, (second, third))
 
 
 def _coupling(

@@ -248,7 +248,9 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     warn_if_rpm(beam, omega)
     others = None
     if beam.unit != UNIFORM:
-        others = blade_oscillator(beam.unit, omega / beam.frequency_scale, True).others
+        # The same solution as the model's own, kept.
+        w_bar = omega / beam.frequency_scale
+        others = np.array(blade_oscillator(beam.unit, w_bar, variant.coriolis).others)
     warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega, others)
     return model
 

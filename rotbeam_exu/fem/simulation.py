@@ -111,14 +111,15 @@ def run_case(
     """Return what `simulate` does, of a case."""
     warn_if_rpm(case.beam, case.omega)
     units = Units.of(case.beam, case.step)
+    beam = units.beam(case.beam)
     with exudyn_system() as mbs:
-        built = _built(mbs, case, units, initial_state)
-        settings, described = _settings(case, units)
+        built = _built(mbs, case, units, beam, initial_state)
+        settings, described = _settings(case, units, beam)
         started = clock.perf_counter()
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = built.sensors.read()
-    run = _dataset(case, units, built.mass, trajectory)
+    run = _dataset(case, units, beam, built.mass, trajectory)
     run.attrs = {
         **case.describe(),
         "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
@@ -141,10 +142,11 @@ def _built(
     mbs: exudyn.MainSystem,
     case: Case,
     units: Units,
+    beam: AnyBlade,
     initial_state: Callable[[FloatArray], BeamState] | None,
 ) -> _Built:
     """Lay the beam, drive its clamp, set its state and assemble."""
-    model, beam = case.model, units.beam(case.beam)
+    model = case.model
     rotation = units.rotation(case.spin_up)
     built = add_rotating_beam(
         mbs, beam, rotation, element=model, elements=case.elements, frame=case.frame
@@ -160,9 +162,11 @@ def _built(
     return _Built(sensors=sensors, mass=built.mass)
 
 
-def _settings(case: Case, units: Units) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
+def _settings(
+    case: Case, units: Units, beam: AnyBlade
+) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     steps, every = case.steps_and_sampling
-    floor = round_off(units.beam(case.beam), case.elements)
+    floor = round_off(beam, case.elements)
     return solver_settings(steps, case.step / units.time, every, case.frame, round_off=floor)
 
 
@@ -220,9 +224,11 @@ def versions() -> dict[str, str]:
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
 
 
-def _dataset(case: Case, units: Units, mass: Any, trajectory: Trajectory) -> xr.Dataset:
+def _dataset(
+    case: Case, units: Units, beam: AnyBlade, mass: Any, trajectory: Trajectory
+) -> xr.Dataset:
     """Everything a run is asked for in SI units, as seen from the frame of the clamp."""
-    model, beam = case.model, units.beam(case.beam)
+    model = case.model
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
     coordinates, velocities = trajectory.coordinates, trajectory.velocities

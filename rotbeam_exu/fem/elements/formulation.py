@@ -41,7 +41,8 @@ class Formulation(Protocol):
     how to make it again. The coordinates of a node are those that Exudyn integrates, reference
     values included, here as arrays of shape (..., nodes, n). A rotation by θ takes them, and
     mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
-    a adds to angles.
+    a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``; to others only
+    the uniform beam is given.
     """
 
     name: ClassVar[str]
