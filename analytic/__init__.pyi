@@ -13,6 +13,11 @@ from .exact.modes import linear_modes as linear_modes
 from .exact.periodic import periodic_orbits as periodic_orbits
 from .exact.response import SpinUpResponse as SpinUpResponse
 from .exact.response import spin_up_response as spin_up_response
+from .loads import Damping as Damping
+from .loads import DistributedForce as DistributedForce
+from .loads import Gravity as Gravity
+from .loads import SpeedRipple as SpeedRipple
+from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .reduced.model import ReducedModel as ReducedModel

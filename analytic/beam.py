@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 
 from .blade import Blade
 from .input_checks import RotbeamWarning, positive
+from .loads import Damping
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
 
@@ -188,6 +189,10 @@ class Beam:
     def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
         """Return the blade whose width and height fall to (1 - taper) of the root's at the tip."""
         return self.blade.with_taper(width, height)
+
+    def with_damping(self, damping: Damping) -> Blade:
+        """Return the blade with `damping`."""
+        return self.blade.with_damping(damping)
 
 
 AnyBlade = Beam | Blade

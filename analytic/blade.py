@@ -19,6 +19,7 @@ from scipy.linalg import eigh
 
 from .arrays import FloatArray
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
+from .loads import UNDAMPED, Damping
 from .profiles import Profile, evaluated, in_units, stations
 from .quadrature import transverse_basis
 from .section import Section
@@ -65,6 +66,7 @@ def blade_from(values: Mapping[str, Any]) -> Blade:
             **values,
             "section": Section(**values["section"]),
             "point_masses": tuple(PointMass(**one) for one in values.get("point_masses", ())),
+            "damping": Damping(**values.get("damping", {})),
         }
     )
 
@@ -83,6 +85,7 @@ class Blade:
     setting_angle : float
         ψ [rad], of the plane of bending against the plane of rotation.
     point_masses : tuple of PointMass
+    damping : Damping
 
     Raises
     ------
@@ -95,6 +98,7 @@ class Blade:
     hub_radius: float = 0.0
     setting_angle: float = 0.0
     point_masses: tuple[PointMass, ...] = ()
+    damping: Damping = UNDAMPED
 
     def __post_init__(self) -> None:
         for name, value in (
@@ -173,6 +177,10 @@ class Blade:
         """
         return replace(self, section=self.section.tapered(width, height))
 
+    def with_damping(self, damping: Damping) -> Blade:
+        """Return the blade with `damping` in place of its own; Damping() takes it away."""
+        return replace(self, damping=damping)
+
     @property
     def mass(self) -> float:
         """Total mass [kg], point masses included."""
@@ -247,6 +255,11 @@ class Blade:
             bending=in_units(section.bending_stiffness, length, self.bending_stiffness),
             axial=in_units(section.axial_stiffness, length, self.axial_stiffness),
             rotary=in_units(section.rotary_inertia, length, m0 * length**2),
+            damping=(
+                self.damping.bending * self.frequency_scale,
+                self.damping.axial * self.frequency_scale,
+                self.damping.external / (m0 * self.frequency_scale),
+            ),
         )
 
     def _root(self, name: str) -> float:
@@ -258,11 +271,12 @@ class Blade:
             for name, profile in self.section.profiles().items()
         }
         masses = ", ".join(f"{one.mass:g} kg at {one.position:g} m" for one in self.point_masses)
+        damped = f"\n  {self.damping}" if self.damping else ""
         return (
             f"Blade of {self.length:g} m on a hub of {self.hub_radius:g} m, "
             f"set at {self.setting_angle:.4g} rad\n"
             f"  EI {self.bending_stiffness:.4g} to {tip['bending_stiffness']:.4g} N m², "
             f"EA {self.axial_stiffness:.4g} to {tip['axial_stiffness']:.4g} N, "
             f"m {self.mass_per_length:.4g} to {tip['mass_per_length']:.4g} kg/m\n"
-            f"  point masses: {masses or 'none'}"
+            f"  point masses: {masses or 'none'}{damped}"
         )

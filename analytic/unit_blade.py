@@ -32,6 +32,8 @@ class UnitBlade:
         Over the root's EA.
     rotary : Profile
         Inertia against rotation over m0 L².
+    damping : tuple
+        η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
     """
 
     hub: float = 0.0
@@ -41,6 +43,7 @@ class UnitBlade:
     bending: Profile = 1.0
     axial: Profile = 1.0
     rotary: Profile = 0.0
+    damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @cached_property
     def panels(self) -> FloatArray:
@@ -66,6 +69,7 @@ class UnitBlade:
                 ("a setting angle", self.setting != 1.0),
                 ("a variable section", sections != {1.0}),
                 ("rotary inertia", self.rotary != 0.0),
+                ("damping", any(self.damping)),
             )
             if there
         )

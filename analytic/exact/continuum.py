@@ -17,18 +17,20 @@ and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 -
 
     ∫ δe (e/μ + Re f) dx = 0,      ∫ (δθ' θ' + (1 + e) δθ Im f) dx = 0:
 
--f is the internal force of the beam in its own axes.
+-f is the internal force of the beam in its own axes. Drag of the air and loads are added to the
+acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is a diagonal.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..methods.system import Tangent
+from ..quadrature import gauss_points
 from ..unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
 from .own_basis import turning_inertia
@@ -43,7 +45,7 @@ class _Fields(NamedTuple):
     spin: FloatArray  # θ̇ + w
     spin_rate: FloatArray  # θ̈ + ẇ
     acceleration: ComplexArray  # p
-    force: ComplexArray  # f, times the quadrature weights
+    force: ComplexArray  # f, times the quadrature weights; drag and loads included
 
 
 class Continuum(Kinematics):
@@ -68,6 +70,9 @@ class Continuum(Kinematics):
     ----------
     points, weights : ndarray (2 bending,)
         The Gauss points at which fields are evaluated, and their weights.
+    outboard : dict
+        What a load may act on beyond each Gauss point, times its weight (points,): "mass",
+        "length", and the "tip".
     """
 
     def __init__(
@@ -85,11 +90,17 @@ class Continuum(Kinematics):
         at, dm = blade.inertia(self.points.size + 1 + (blade.degree + 1) // 2)
         integral = self._integral(at)
         self._green = integral.T @ (dm[:, None] * integral)
-        self._outboard = integral.T @ dm
+        outboard = integral.T @ dm
         x, dj = turning_inertia(blade, rotary_inertia, self.points, self.weights)
         phi = self._bases(x)[0]
         self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
         self._turns = bool(dj.any())
+        bend, stretch, air = blade.damping
+        self._viscosity = np.repeat([bend, stretch], [bending, axial])
+        along, dx = gauss_points(self.points.size + 1)
+        integral = self._integral(along)
+        self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
+        self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
     def _fields(
         self,
@@ -98,6 +109,7 @@ class Continuum(Kinematics):
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray,
+        push: ComplexArray | None,
     ) -> _Fields:
         turn = np.exp(1j * self._angle(q))
         stretch = 1.0 + self._elongation(q)
@@ -114,16 +126,26 @@ class Continuum(Kinematics):
         hub, beyond = self.blade.hub, 1.0 - self.blade.setting**2
         if hub:
             clamp = (1j * turning_rate - np.asarray(rate) ** 2) * hub
-            acceleration = acceleration + np.asarray(clamp)[..., None] * self._outboard
+            acceleration = acceleration + np.asarray(clamp)[..., None] * self.outboard["mass"]
         if beyond:
             # Along the blade the centrifugal force is w², not the c²w² that p has.
             along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None] * (stretch * turn.real)
             acceleration = acceleration - along @ self._green
+        if self._drag is not None:
+            velocity = turn * (stretch_rate + 1j * stretch * self._angle(q_dot))
+            acceleration = acceleration + velocity @ self._drag
+        if push is not None:
+            acceleration = acceleration - push
         force = turn.conj() * acceleration
         return _Fields(turn, stretch, stretch_rate, spin, spin_rate, p, force)
 
     def _residual(
-        self, q: FloatArray, q_ddot: FloatArray, rate_dot: float | FloatArray, at: _Fields
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate_dot: float | FloatArray,
+        at: _Fields,
     ) -> FloatArray:
         theta = (at.stretch * at.force.imag) @ self._phi
         if self._turns:
@@ -131,7 +153,7 @@ class Continuum(Kinematics):
             euler = self.blade.setting * np.asarray(rate_dot)
             theta = theta + euler[..., None] * self._rotary_force
         epsilon = self._epsilon * (at.force.real @ self._psi)
-        return q + np.concatenate((theta, epsilon), axis=-1)
+        return q + self._viscosity * q_dot + np.concatenate((theta, epsilon), axis=-1)
 
     def residual(
         self,
@@ -140,13 +162,16 @@ class Continuum(Kinematics):
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
     ) -> FloatArray:
         """Return the virtual work (samples, n) of all forces on the basis functions.
 
-        The elastic part is q itself, so that a residual is measured in units of q.
+        The elastic part is q itself, so that a residual is measured in units of q. A `push`
+        (samples, points) is the load beyond each Gauss point, times its weight: the sum of complex
+        forces times what is `outboard`.
         """
-        at = self._fields(q, q_dot, q_ddot, rate, rate_dot)
-        return self._residual(q, q_ddot, rate_dot, at)
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        return self._residual(q, q_dot, q_ddot, rate_dot, at)
 
     def tangent(
         self,
@@ -155,9 +180,10 @@ class Continuum(Kinematics):
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
-        at = self._fields(q, q_dot, q_ddot, rate, rate_dot)
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
         nb, n = self.bending, self.size
         # Re(-i f) = Im f: both equations are real parts of one complex product.
         left = np.concatenate(
@@ -167,35 +193,49 @@ class Continuum(Kinematics):
             ),
             axis=-1,
         )
-        left = np.swapaxes(left, -1, -2) @ self._green
-        right = np.empty((*at.turn.shape, 3 * n), dtype=np.complex128)
+        left = np.swapaxes(left, -1, -2)
         psi = self._epsilon * self._psi
-        for block, (theta, epsilon) in enumerate(
-            (
-                (1j * at.acceleration, 1j * at.spin_rate - at.spin**2),
-                (2j * at.stretch_rate - 2.0 * at.stretch * at.spin, 2j * at.spin),
-                (1j * at.stretch, np.ones_like(at.turn)),
-            )
-        ):
-            start = block * n
-            right[..., start : start + nb] = (at.turn * theta)[..., None] * self._phi
-            right[..., start + nb : start + n] = (at.turn * epsilon)[..., None] * psi
+        one = np.ones_like(at.turn)
+
+        def derivatives(*blocks: tuple[Any, Any]) -> ComplexArray:
+            """Of `turn` times what has these derivatives to θ and e, then to their rates."""
+            right = np.empty((*at.turn.shape, 3 * n), dtype=np.complex128)
+            right[..., n * len(blocks) :] = 0.0
+            for start, (theta, epsilon) in zip(range(0, 3 * n, n), blocks, strict=False):
+                right[..., start : start + nb] = (at.turn * theta)[..., None] * self._phi
+                right[..., start + nb : start + n] = (at.turn * epsilon)[..., None] * psi
+            return right
+
+        right = derivatives(
+            (1j * at.acceleration, 1j * at.spin_rate - at.spin**2),
+            (2j * at.stretch_rate - 2.0 * at.stretch * at.spin, 2j * at.spin),
+            (1j * at.stretch, one),
+        )
         beyond = 1.0 - self.blade.setting**2
         if beyond:
             along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None]
             right[..., :nb] += (along * at.stretch * at.turn.imag)[..., None] * self._phi
             right[..., nb:n] -= (along * at.turn.real)[..., None] * psi
-        work = np.concatenate((left.real, -left.imag), axis=-1) @ np.concatenate(
+        onto = left @ self._green
+        if self._drag is not None:
+            turning = self._angle(q_dot)
+            air = derivatives(
+                (1j * at.stretch_rate - at.stretch * turning, 1j * turning), (1j * at.stretch, one)
+            )
+            onto = np.concatenate((onto, left @ self._drag), axis=-1)
+            right = np.concatenate((right, air), axis=-2)
+        work = np.concatenate((onto.real, -onto.imag), axis=-1) @ np.concatenate(
             (right.real, right.imag), axis=-2
         )
         stiffness, damping, mass = (work[..., k * n : (k + 1) * n] for k in range(3))
         stiffness[..., range(n), range(n)] += 1.0
+        damping[..., range(n), range(n)] += self._viscosity
         normal, axial = at.force.imag, at.force.real
         stiffness[..., :nb, :nb] -= self._phi.T @ ((at.stretch * axial)[..., None] * self._phi)
         stiffness[..., nb:, :nb] += psi.T @ (normal[..., None] * self._phi)
         stiffness[..., :nb, nb:] += self._phi.T @ (normal[..., None] * psi)
         mass[..., :nb, :nb] += self._rotary_mass
-        return Tangent(self._residual(q, q_ddot, rate_dot, at), stiffness, damping, mass)
+        return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
 
     def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
         """Return the integral that is constant at a constant rate w of the frame, (samples,).
@@ -206,7 +246,7 @@ class Continuum(Kinematics):
         z, blade = self.slope(q), self.blade
         squared = self._squared(z)
         if blade.hub:
-            squared = squared + 2.0 * blade.hub * (z @ self._outboard).real
+            squared = squared + 2.0 * blade.hub * (z @ self.outboard["mass"]).real
         if blade.setting != 1.0:
             beyond = 1.0 - blade.setting**2
             squared = squared - beyond * np.sum(z.imag * (z.imag @ self._green), axis=-1)

@@ -16,7 +16,7 @@ FLOORS = {
     "analytic": [
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
-        {"profiles", "motion"},
+        {"profiles", "motion", "loads"},
         {"unit_blade", "section"},
         {"blade"},
         {"beam"},

@@ -1,0 +1,131 @@
+"""What acts on a blade and takes from it: loads and damping, as values in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .input_checks import finite_number, not_negative
+
+
+@dataclass(frozen=True, kw_only=True)
+class Damping:
+    """Viscous damping of a blade.
+
+    The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė), and the air takes
+    d ṙ per length, with the velocity relative to the turning frame.
+
+    Parameters
+    ----------
+    bending : float
+        η_b [s].
+    axial : float
+        η_a [s].
+    external : float
+        d [kg/(m s)]; c times the mass per length damps a uniform blade by its mass.
+    """
+
+    bending: float = 0.0
+    axial: float = 0.0
+    external: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("bending", "s"), ("axial", "s"), ("external", "kg/(m s)")):
+            value = not_negative(
+                name, getattr(self, name), unit, "damping takes energy, it gives none"
+            )
+            object.__setattr__(self, name, value)
+
+    def __bool__(self) -> bool:
+        return any((self.bending, self.axial, self.external))
+
+
+UNDAMPED = Damping()
+
+
+def _checked_harmonic(load: SpeedRipple | TipForce | DistributedForce, unit: str) -> None:
+    object.__setattr__(load, "amplitude", finite_number("amplitude", load.amplitude, unit))
+    if load.frequency is not None:
+        frequency = not_negative("frequency", load.frequency, "rad/s")
+        object.__setattr__(load, "frequency", frequency)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedRipple:
+    """A ripple of the speed: the clamp turns at ω + ε cos νt.
+
+    Parameters
+    ----------
+    amplitude : float
+        ε [rad/s].
+    frequency : float, optional
+        ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+    """
+
+    amplitude: float
+    frequency: float | None = None
+
+    def __post_init__(self) -> None:
+        _checked_harmonic(self, "rad/s")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TipForce:
+    """A force on the tip across the undeformed blade, F cos νt, turning with the clamp.
+
+    Parameters
+    ----------
+    amplitude : float
+        F [N].
+    frequency : float, optional
+        ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+    """
+
+    amplitude: float
+    frequency: float | None = None
+
+    def __post_init__(self) -> None:
+        _checked_harmonic(self, "N")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DistributedForce:
+    """A force per undeformed length across the blade, p cos νt, turning with the clamp.
+
+    Parameters
+    ----------
+    amplitude : float
+        p [N/m].
+    frequency : float, optional
+        ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+    """
+
+    amplitude: float
+    frequency: float | None = None
+
+    def __post_init__(self) -> None:
+        _checked_harmonic(self, "N/m")
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """Gravity in a plane of rotation that stands vertical: -g(sin θ i + cos ψ cos θ j).
+
+    At θ = 0 the blade points sideways, and gravity bends it back.
+
+    Parameters
+    ----------
+    gravity : float
+        g [m/s²].
+    """
+
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
+
+
+HarmonicLoad = SpeedRipple | TipForce | DistributedForce
+"""What acts at one frequency."""
+
+Load = HarmonicLoad | Gravity
+"""What a motion in time takes."""
