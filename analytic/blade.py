@@ -214,12 +214,17 @@ class Blade:
     @cached_property
     def omega_0(self) -> float:
         """First frequency of bending at rest [rad/s]."""
+        return float(self.frequencies_at_rest[0])
+
+    @cached_property
+    def frequencies_at_rest(self) -> FloatArray:
+        """Frequencies of bending at rest [rad/s], (24,), of which half are resolved."""
         turning = sum(
             inertia * slope.T @ slope
             for position, _, inertia in self.unit.masses
             for slope in [transverse_basis(_FUNCTIONS, np.array([position])).slope]
         )
-        return self.frequency_scale * self._first(_ACROSS, self.unit.bending, turning)
+        return self.frequency_scale * self._at_rest(_ACROSS, self.unit.bending, turning)
 
     @cached_property
     def burst_speed(self) -> float:
@@ -227,18 +232,20 @@ class Blade:
 
         That is its first axial frequency at rest: at it no stretched state exists any more.
         """
-        first = self._first(_ALONG, self.unit.axial)
+        first = float(self._at_rest(_ALONG, self.unit.axial)[0])
         return first * self.frequency_scale / math.sqrt(self.slenderness)
 
-    def _first(self, moved: int, stiffness: Profile, more: FloatArray | float = 0.0) -> float:
-        """Return the first frequency at rest [-], of motion across or along the blade."""
+    def _at_rest(
+        self, moved: int, stiffness: Profile, more: FloatArray | float = 0.0
+    ) -> FloatArray:
+        """Return the frequencies at rest [-], of motion across or along the blade."""
         x, weights = self.unit.quadrature(_FUNCTIONS + 8)
         strain = transverse_basis(_FUNCTIONS, x).curvature
         at, dm = self.unit.inertia(_FUNCTIONS + 8)
         displacement = transverse_basis(_FUNCTIONS, at)[moved]
         M = displacement.T @ (dm[:, None] * displacement) + more
         K = strain.T @ ((weights * evaluated(stiffness, x))[:, None] * strain)
-        return 1.0 / math.sqrt(eigh(M, K, eigvals_only=True)[-1])
+        return np.asarray(1.0 / np.sqrt(eigh(M, K, eigvals_only=True)[::-1]))
 
     @cached_property
     def unit(self) -> UnitBlade:

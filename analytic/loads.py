@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
-from .input_checks import finite_number, not_negative
+from .input_checks import finite_number, not_negative, whole_number
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +35,27 @@ class Damping:
                 name, getattr(self, name), unit, "damping takes energy, it gives none"
             )
             object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_ratio(cls, blade: Any, mode: int = 1, ratio: float = 0.01) -> Damping:
+        """Return the bending damping that gives one mode at rest a damping ratio.
+
+        η_b = 2ζ/ω_j; in rotation, where the centrifugal stiffness takes no part, `damping_ratios`
+        tells what is left of it.
+
+        Parameters
+        ----------
+        blade : Beam or Blade
+        mode : int
+            j, from 1 to 12.
+        ratio : float
+            ζ, of the critical damping.
+        """
+        mode = whole_number("mode", mode)
+        frequencies = getattr(blade, "blade", blade).frequencies_at_rest
+        if mode > frequencies.size // 2:
+            raise ValueError(f"mode must be at most {frequencies.size // 2}, got {mode}")
+        return cls(bending=2.0 * not_negative("ratio", ratio) / float(frequencies[mode - 1]))
 
     def __bool__(self) -> bool:
         return any((self.bending, self.axial, self.external))

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
-from ..methods.floquet import floquet_multipliers, is_stable
+from ..methods.floquet import Multipliers, floquet_multipliers
+from .state import BeamState, beam_state
 from .steady import BeamOrbit
 
 
@@ -21,30 +22,6 @@ class AmplitudeNotReachedError(RuntimeError):
     def __init__(self, message: str, backbone: Backbone | None = None) -> None:
         super().__init__(message)
         self.backbone = backbone
-
-
-@dataclass(frozen=True, kw_only=True)
-class BeamState:
-    """State of the beam at material points, in the rotating frame: r = (x + u, v); SI units.
-
-    Attributes
-    ----------
-    u, v : ndarray (points,)
-        Displacements along and across the undeformed axis [m].
-    u_slope, v_slope : ndarray (points,)
-        Their derivatives to x, u' and v' [-].
-    u_dot, v_dot, u_slope_dot, v_slope_dot : ndarray (points,)
-        The rates of all four as seen in the rotating frame [m/s, 1/s].
-    """
-
-    u: FloatArray
-    v: FloatArray
-    u_slope: FloatArray
-    v_slope: FloatArray
-    u_dot: FloatArray
-    v_dot: FloatArray
-    u_slope_dot: FloatArray
-    v_slope_dot: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,23 +105,9 @@ class Backbone:
 
         Points beyond the beam, from 0 to L, are refused.
         """
-        orbit, length = self._orbit(i), self.beam.length
-        at, phase = points_of_beam("x", x, length), finite_number("phase", phase, "rad")
-        q, q_dot, _ = (c[0] for c in orbit.coordinates(np.array([phase])))
-        model, per_second = orbit.system.model, self.beam.frequency_scale
-        slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
-        z = length * model.integrated(model.slope(q), at)
-        z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
-        return BeamState(
-            u=z.real - length * at,
-            v=z.imag,
-            u_slope=slope.real - 1.0,
-            v_slope=slope.imag,
-            u_dot=z_dot.real,
-            v_dot=z_dot.imag,
-            u_slope_dot=slope_rate.real,
-            v_slope_dot=slope_rate.imag,
-        )
+        orbit, phase = self._orbit(i), finite_number("phase", phase, "rad")
+        q, q_dot, _ = orbit.coordinates(np.array([phase]))
+        return beam_state(self.beam, orbit.system.model, q[0], q_dot[0], x)
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
@@ -159,19 +122,31 @@ class Backbone:
         return z.real, z.imag
 
     @cached_property
+    def _stability(self) -> tuple[Multipliers, ...]:
+        return tuple(floquet_multipliers(orbit) for orbit in self._orbits)
+
+    @property
     def multipliers(self) -> ComplexArray:
-        """Floquet multipliers (orbits, 8) of largest modulus; computed when first asked for."""
-        return np.array([floquet_multipliers(orbit) for orbit in self._orbits])
+        """Floquet multipliers (orbits, 8) of the lowest four modes; the first two are 1.
+
+        Computed when first asked for.
+        """
+        return np.array([found.lowest for found in self._stability])
 
     @property
     def stable(self) -> NDArray[np.bool_]:
         """Whether the orbits are stable against small disturbances in the plane, (orbits,).
 
-        No Floquet multiplier lies outside the unit circle among those of the modes that the
-        integration over a period resolves, about the lowest four; it damps the higher ones, so
-        that their instability would not be seen, nor is motion out of the plane considered.
+        No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
+        says: those that the integration over a period resolves. Motion out of the plane is not
+        considered.
         """
-        return np.array([is_stable(multipliers) for multipliers in self.multipliers])
+        return np.array([found.stable() for found in self._stability])
+
+    @property
+    def stable_modes(self) -> NDArray[np.int_]:
+        """How many modes `stable` covers, the lowest, (orbits,)."""
+        return np.array([found.modes for found in self._stability])
 
     def __str__(self) -> str:
         return (

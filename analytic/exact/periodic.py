@@ -77,6 +77,11 @@ def periodic_orbits(
             "of the tip over the beam's length"
         )
     warn_if_rpm(beam, omega)
+    if any(beam.unit.damping):
+        raise ValueError(
+            "a damped blade has no free periodic orbits: take forced_response, or the free orbits "
+            "of beam.with_damping(Damping())"
+        )
     model = resolved_model(beam, mode, inextensible, rotary_inertia, functions)
     branch = _branch(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)

@@ -18,21 +18,15 @@ from .continuum import Continuum, finer_model
 
 
 @dataclass(frozen=True, eq=False)
-class SteadyBeam:
-    """The discretized beam in a frame that turns at a constant rate; a `methods.System`.
-
-    The motion (θ, e)(t) → (-θ, e)(-t) maps orbits onto orbits: θ is odd. The gauge is the tip's
-    deflection over the length, the invariant the Jacobi integral.
+class BeamCoordinates:
+    """The discretized beam as `methods` see it: the gauge is the tip's deflection over the length.
 
     Attributes
     ----------
     model : Continuum
-    rate : float
-        w̄ = ω/√(EI/mL³).
     """
 
     model: Continuum
-    rate: float
 
     @property
     def size(self) -> int:
@@ -43,6 +37,42 @@ class SteadyBeam:
     def functions(self) -> int:
         """Number of functions for θ."""
         return self.model.bending
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the tip's deflection v(1), (samples,)."""
+        return self.model.tip(q).imag
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the rate of the tip's deflection, (samples,)."""
+        return self.model.tip_rate(q, q_dot).imag
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's deflection to the coordinates, (samples, n)."""
+        return self.model.tip_gradient(q).imag
+
+    def refined(self) -> Self:
+        """Return the beam on half as many functions again."""
+        return replace(self, model=finer_model(self.model))
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return self.model.padded(q, finer.model)
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyBeam(BeamCoordinates):
+    """The beam in a frame that turns at a constant rate; a `methods.System`.
+
+    The motion (θ, e)(t) → (-θ, e)(-t) maps orbits onto orbits: θ is odd. The invariant is the
+    Jacobi integral.
+
+    Attributes
+    ----------
+    rate : float
+        w̄ = ω/√(EI/mL³).
+    """
+
+    rate: float
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
@@ -62,18 +92,6 @@ class SteadyBeam:
         """Return the residual and its derivatives to q, q̇ and q̈."""
         return self.model.tangent(q, q_dot, q_ddot, self.rate)
 
-    def gauge(self, q: FloatArray) -> FloatArray:
-        """Return the tip's deflection v(1), (samples,)."""
-        return self.model.tip(q).imag
-
-    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the rate of the tip's deflection, (samples,)."""
-        return self.model.tip_rate(q, q_dot).imag
-
-    def gauge_gradient(self, q: FloatArray) -> FloatArray:
-        """Return the derivatives of the tip's deflection to the coordinates, (samples, n)."""
-        return self.model.tip_gradient(q).imag
-
     def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the Jacobi integral, (samples,)."""
         return self.model.jacobi_integral(q, q_dot, self.rate)
@@ -81,14 +99,6 @@ class SteadyBeam:
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""
         return self.model.kinetic_energy(q, q_dot)
-
-    def refined(self) -> Self:
-        """Return the beam on half as many functions again."""
-        return replace(self, model=finer_model(self.model))
-
-    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
-        """Return the coordinates of the same shape on more functions, along the last axis."""
-        return self.model.padded(q, finer.model)
 
 
 BeamOrbit = PeriodicOrbit[SteadyBeam]

@@ -1,8 +1,8 @@
-"""Radau IIA collocation of any order for M(t, q) q̈ = ..., in position, velocity, acceleration.
+"""Collocation of any order for M(t, q) q̈ = ..., in position, velocity, acceleration.
 
-Stiffly accurate and L-stable: axial and high bending waves far faster than the step, which carry
-no energy worth mentioning, are damped away, while what the step resolves is integrated to the
-order 2s - 1.
+Radau IIA is stiffly accurate and L-stable: axial and high bending waves far faster than the step,
+which carry no energy worth mentioning, are damped away, while what the step resolves is integrated
+to the order 2s - 1. Gauss's points, of order 2s, damp nothing: they tell whether a motion grows.
 """
 
 from __future__ import annotations
@@ -26,15 +26,23 @@ _SLOW = 0.2  # a contraction worse than this pays for a new factorization
 
 
 class Collocation:
-    """The polynomial of degree s - 1 for the acceleration over one step of unit length."""
+    """The polynomial of degree s - 1 for the acceleration over one step of unit length.
 
-    def __init__(self, stages: int) -> None:
-        inner, _ = special.roots_jacobi(stages - 1, 1.0, 0.0)
-        self.nodes: FloatArray = 0.5 * (np.append(inner, 1.0) + 1.0)
+    Parameters
+    ----------
+    nodes : ndarray (s,)
+        Where the equations are met, in 0 to 1.
+    """
+
+    def __init__(self, nodes: FloatArray) -> None:
+        self.nodes, stages = nodes, nodes.size
         self._to_legendre = np.linalg.inv(legendre.legvander(2.0 * self.nodes - 1.0, stages - 1))
         self.velocity = self.integral(self.nodes)
         # The velocity is interpolated too: integrating the acceleration twice is not A-stable.
         self.position = self.velocity @ self.velocity
+        # The same at the end of the step.
+        self.last_velocity = self.integral(np.ones(1))[0]
+        self.last_position = self.last_velocity @ self.velocity
 
     def values(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to those of their interpolant."""
@@ -104,5 +112,12 @@ class Collocation:
 
 @lru_cache(maxsize=8)
 def radau(stages: int) -> Collocation:
-    """Return the method with so many stages, built once."""
-    return Collocation(stages)
+    """Return Radau's method with so many stages, built once."""
+    inner, _ = special.roots_jacobi(stages - 1, 1.0, 0.0)
+    return Collocation(0.5 * (np.append(inner, 1.0) + 1.0))
+
+
+@lru_cache(maxsize=8)
+def gauss(stages: int) -> Collocation:
+    """Return Gauss's method with so many stages, built once."""
+    return Collocation(0.5 * (special.roots_legendre(stages)[0] + 1.0))

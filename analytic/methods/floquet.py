@@ -1,35 +1,124 @@
-"""Stability of a periodic orbit: its Floquet multipliers."""
+"""Stability of a periodic orbit: its Floquet multipliers.
+
+The equations of motion, linearized about the orbit, are integrated over one period by Gauss's
+method, which damps nothing. Modes too fast for its steps are left out by their shape, for they come
+out on the unit circle at a wrong place, where they may meet others that they never meet.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy import linalg
 
-from ..arrays import ComplexArray
-from .collocation import radau
-from .harmonic_balance import PeriodicOrbit
+from ..arrays import ComplexArray, FloatArray
+from .collocation import gauss
 from .system import Tangent
 
 _STAGES = 6
-_REPORTED = 8  # two for each of the lowest four modes
+_REPORTED = 4  # modes
+_COVERED = 6
+_FEWEST_STEPS = 24
+_MASSLESS = 1e-12  # energy of a shape of unit length, over the lowest frequency squared
+_RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 
 
-def floquet_multipliers(orbit: PeriodicOrbit[Any], steps: int = 48) -> ComplexArray:
-    """Return the eight Floquet multipliers (8,) of largest modulus.
+class Orbit(Protocol):
+    """What of a periodic orbit its stability depends on."""
 
-    They are the eigenvalues of the equations of motion, linearized about the orbit and
-    integrated over one period. The method damps what `steps` do not resolve, from about the
-    fourth mode of a first-mode orbit upwards, so that unresolved modes shrink instead of
-    growing by aliasing. Two multipliers are 1: along the orbit and along the backbone.
+    @property
+    def frequency(self) -> float:
+        """Rate of the phase."""
+        ...
+
+    def tangent(self, phase: FloatArray) -> Tangent:
+        """Return the residual and its derivatives at the phases (phases,)."""
+        ...
+
+    def constants(self) -> tuple[FloatArray, FloatArray] | None:
+        """Return the direction (2n,) of the flow and the gradient (2n,) of the invariant at φ = 0.
+
+        None where the orbit is driven.
+        """
+        ...
+
+
+class Multipliers(NamedTuple):
+    """Floquet multipliers, those of the lowest modes first.
+
+    Attributes
+    ----------
+    values : ndarray (2 modes,)
+        Of a free orbit the first two are 1: along the orbit, and along the branch.
+    shapes : ndarray (2 modes, n)
+        Displacement of the motion that each multiplies, at φ = 0; zero for those two.
     """
-    method = radau(_STAGES)
+
+    values: ComplexArray
+    shapes: ComplexArray
+
+    @property
+    def modes(self) -> int:
+        """How many modes are covered."""
+        return self.values.size // 2
+
+    @property
+    def lowest(self) -> ComplexArray:
+        """Those of the lowest four modes, (8,)."""
+        return self.values[: 2 * _REPORTED]
+
+    def stable(self, tolerance: float = 1e-6) -> bool:
+        """Return whether none lies outside the unit circle."""
+        return bool(np.all(np.abs(self.values) < 1.0 + tolerance))
+
+
+def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
+    """Return the Floquet multipliers of the lowest `modes`, as far as there are so many."""
+    shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))
+    covered = min(modes, frequencies.size)
+    phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
+    matrix = monodromy(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))))
+    constants, n = orbit.constants(), len(matrix) // 2
+    basis = np.eye(2 * n)
+    if constants is not None:
+        # Without them the double multiplier 1 is gone, and what is near it can be told.
+        basis = linalg.null_space(np.array(constants))
+    values, vectors = np.linalg.eig(basis.T @ matrix @ basis)
+    vectors = basis @ vectors
+
+    def modal(states: ComplexArray | FloatArray) -> ComplexArray:
+        parts = (frequencies[:, None] * (shapes @ states[:n]), shapes @ states[n:])
+        return np.concatenate(parts).astype(np.complex128)
+
+    motion = modal(vectors)
+    if constants is not None:
+        # They are known up to the flow, whose share is no motion of theirs.
+        flow = modal(constants[0][:, None])[:, 0]
+        motion -= np.outer(flow, flow.conj() @ motion) / np.linalg.norm(flow) ** 2
+    energy = np.abs(motion[: frequencies.size]) ** 2 + np.abs(motion[frequencies.size :]) ** 2
+    # Coordinates without mass, such as a constraint's, carry none: they come last.
+    none = energy.sum(axis=0) < _MASSLESS * frequencies[0] ** 2
+    energy[:, none] = np.eye(1, len(energy), len(energy) - 1).T
+    energy /= energy.sum(axis=0)
+    kept = 2 * covered - (0 if constants is None else 2)
+    # By where the energy is, the lowest modes first, and the resolved ones before all others.
+    place = np.minimum(np.arange(frequencies.size), covered) @ energy
+    order = np.argsort(place)[:kept]
+    trivial = np.ones(0 if constants is None else 2)
+    return Multipliers(
+        values=np.concatenate((trivial, values[order])).astype(np.complex128),
+        shapes=np.concatenate((np.zeros((trivial.size, n)), vectors[:n, order].T)),
+    )
+
+
+def monodromy(orbit: Orbit, steps: int) -> FloatArray:
+    """Return what a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n)."""
+    method = gauss(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
-    state = orbit.coordinates(2.0 * np.pi * nodes.ravel())
-    tangents = orbit.system.tangent(*state)
+    tangents = orbit.tangent(2.0 * np.pi * nodes.ravel())
+    n = tangents.residual.shape[-1]
     h = 2.0 * np.pi / orbit.frequency / steps
-    n = orbit.system.size
     position, velocity = np.eye(n, 2 * n), np.eye(n, 2 * n, k=n)
     for step in range(steps):
         at = Tangent(*(part[step * _STAGES : (step + 1) * _STAGES] for part in tangents))
@@ -38,16 +127,18 @@ def floquet_multipliers(orbit: PeriodicOrbit[Any], steps: int = 48) -> ComplexAr
         acceleration = -linalg.solve(
             method.matrix(h, at), load.reshape(-1, 2 * n), check_finite=False
         ).reshape(_STAGES, n, 2 * n)
-        position = drifted[-1] + h**2 * np.tensordot(method.position[-1], acceleration, 1)
-        velocity = velocity + h * np.tensordot(method.velocity[-1], acceleration, 1)
-    multipliers = np.linalg.eigvals(np.vstack((position, velocity))).astype(np.complex128)
-    return multipliers[np.argsort(-np.abs(multipliers))][:_REPORTED]
+        position = (
+            position + h * velocity + h**2 * np.tensordot(method.last_position, acceleration, 1)
+        )
+        velocity = velocity + h * np.tensordot(method.last_velocity, acceleration, 1)
+    return np.asarray(np.vstack((position, velocity)))
 
 
-def is_stable(multipliers: ComplexArray, tolerance: float = 1e-5) -> bool:
-    """Return whether no multiplier but the two nearest 1 lies outside the unit circle.
-
-    Those two are 1 in every conservative system, as a double root that round-off splits.
-    """
-    others = multipliers[np.argsort(np.abs(multipliers - 1.0))][2:]
-    return bool(np.all(np.abs(others) < 1.0 + tolerance))
+def _modes(at: Tangent) -> tuple[FloatArray, FloatArray]:
+    """Return the normal coordinates (modes, n) of the averaged system, and their frequencies."""
+    K, M = (0.5 * (part + part.T) for part in (at.stiffness.mean(axis=0), at.mass.mean(axis=0)))
+    inverse, vectors = linalg.eigh(M, K)
+    kept = inverse > 1e-14 * inverse[-1]
+    inverse, vectors = inverse[kept][::-1], vectors[:, kept][:, ::-1]
+    # vectors.T K vectors = 1, so that vectors.T M q/inverse are coordinates of unit stiffness.
+    return (vectors.T @ M) / np.sqrt(inverse)[:, None], 1.0 / np.sqrt(inverse)

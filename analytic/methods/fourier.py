@@ -1,7 +1,9 @@
-"""The Fourier series of an orbit that time reversal maps onto itself.
+"""Fourier series of periodic orbits: half of one where time reversal allows, full otherwise.
 
-q = Σ s_k sin kφ for the coordinates that reversal turns around, k ≥ 1, and q = Σ c_k cos kφ for the
-others, k ≥ 0. Both stand in one array of coefficients (H + 1, n), whose row 0 is the mean.
+Of an orbit that time reversal maps onto itself, q = Σ s_k sin kφ for the coordinates that reversal
+turns around, k ≥ 1, and q = Σ c_k cos kφ for the others, k ≥ 0. Both stand in one array of
+coefficients (H + 1, n), whose row 0 is the mean. Damped and driven orbits have a full series, of
+coefficients (2H + 1, n): the mean, H cosines, H sines.
 """
 
 from __future__ import annotations
@@ -86,3 +88,35 @@ def unpacked(unknowns: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
     coefficients[1:, odd] = unknowns[:cut].reshape(rows - 1, -1)
     coefficients[:, ~odd] = unknowns[cut:].reshape(rows, -1)
     return coefficients
+
+
+class FullPeriod:
+    """Midpoints of a period, and the projection onto 1, cos kφ and sin kφ there.
+
+    Attributes
+    ----------
+    phase : ndarray (4H + 4,)
+    waves : ndarray (3, phases, 2H + 1)
+        As `full_waves` has them.
+    onto : ndarray (2H + 1, phases)
+        From samples to coefficients; exact for products of two waves.
+    """
+
+    def __init__(self, harmonics: int) -> None:
+        count = 4 * harmonics + 4
+        self.phase = 2.0 * np.pi * (np.arange(count) + 0.5) / count
+        self.waves = full_waves(self.phase, harmonics)
+        self.onto = 2.0 / count * self.waves[0].T
+        self.onto[0] *= 0.5
+
+
+def full_waves(phase: FloatArray, harmonics: int) -> FloatArray:
+    """Return 1, cos kφ and sin kφ and their first two derivatives, (3, phases, 2H + 1)."""
+    half = Waves(phase, harmonics)
+    return np.concatenate((half.even, half.odd), axis=-1)
+
+
+@lru_cache(maxsize=64)
+def full_period(harmonics: int) -> FullPeriod:
+    """Return the full period for so many harmonics, made once."""
+    return FullPeriod(harmonics)

@@ -18,7 +18,7 @@ from scipy import linalg
 
 from ..arrays import FloatArray
 from .fourier import Waves, half_period, packed, unpacked
-from .system import System
+from .system import System, Tangent
 
 _NEWTON_STEPS = 15
 _CONVERGED = 1e-13  # of the odd coordinates and of Ω
@@ -120,6 +120,21 @@ class PeriodicOrbit(Generic[S]):
         size = np.abs(self.system.invariant(q, q_dot)).max()
         kinetic = self.system.kinetic_energy(q, q_dot).max()
         return float(4.0 * np.finfo(float).eps * size / kinetic)
+
+    def tangent(self, phase: FloatArray) -> Tangent:
+        """Return the equations' residual and derivatives at the phases (phases,)."""
+        return self.system.tangent(*self.coordinates(phase))
+
+    def constants(self) -> tuple[FloatArray, FloatArray]:
+        """Return the flow (2n,) and the gradient of the invariant (2n,) at φ = 0."""
+        q, q_dot, q_ddot = self.coordinates(np.zeros(1))
+        n, h = self.system.size, 1e-5
+        steps = h * np.eye(2 * n)
+        ahead, behind = (
+            self.system.invariant(q + sign * steps[:, :n], q_dot + sign * steps[:, n:])
+            for sign in (1.0, -1.0)
+        )
+        return np.concatenate((q_dot[0], q_ddot[0])), (ahead - behind) / (2.0 * h)
 
     def with_harmonics(self, count: int) -> PeriodicOrbit[S]:
         """Return the same orbit with its series cut or padded to `count` harmonics."""

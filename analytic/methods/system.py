@@ -19,12 +19,10 @@ class Tangent(NamedTuple):
     mass: FloatArray
 
 
-class System(Protocol):
-    """Autonomous, conservative equations of motion r(q, q̇, q̈) = 0 in n coordinates.
+class Coordinates(Protocol):
+    """What describes the state of a mechanical system, n numbers, and what is read off them.
 
-    Samples come first in every array. Time reversal, (q, t) → (Rq, -t) with a diagonal R of ±1,
-    must map motions onto motions: an orbit through a state that is its own mirror image is a
-    series of sines in the coordinates that R turns around, and of cosines in the others.
+    Samples come first in every array.
     """
 
     @property
@@ -36,6 +34,72 @@ class System(Protocol):
     def functions(self) -> int:
         """How finely the system is resolved: what `refined` makes larger."""
         ...
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the quantity whose peak is called the amplitude, (samples,)."""
+        ...
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return its rate, (samples,)."""
+        ...
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return its derivatives to the coordinates, (samples, n)."""
+        ...
+
+    def refined(self) -> Self:
+        """Return the same system on more coordinates."""
+        ...
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates (samples, n') of the same states in the system `finer`."""
+        ...
+
+
+class DrivenSystem(Coordinates, Protocol):
+    """Equations of motion r(q, q̇, q̈, φ) = 0 under a drive of phase φ, damped or not.
+
+    One parameter sets the drive's frequency, and may set more; along a response curve it varies.
+    """
+
+    def frequency(self, parameter: float) -> float:
+        """Return the rate of the phase φ."""
+        ...
+
+    def rest(self, parameter: float) -> FloatArray:
+        """Return a state (n,) from which a small response is found."""
+        ...
+
+    def residual(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        phase: FloatArray,
+        parameter: float,
+    ) -> FloatArray:
+        """Return r (samples, n), in units of q."""
+        ...
+
+    def tangent(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        phase: FloatArray,
+        parameter: float,
+    ) -> Tangent:
+        """Return r and its derivatives."""
+        ...
+
+
+class System(Coordinates, Protocol):
+    """Autonomous, conservative equations of motion r(q, q̇, q̈) = 0 in n coordinates.
+
+    Time reversal, (q, t) → (Rq, -t) with a diagonal R of ±1, must map motions onto motions: an
+    orbit through a state that is its own mirror image is a series of sines in the coordinates that
+    R turns around, and of cosines in the others.
+    """
 
     @property
     def odd(self) -> NDArray[np.bool_]:
@@ -55,30 +119,10 @@ class System(Protocol):
         """Return r and its derivatives."""
         ...
 
-    def gauge(self, q: FloatArray) -> FloatArray:
-        """Return the quantity whose peak is called the amplitude, (samples,)."""
-        ...
-
-    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return its rate, (samples,)."""
-        ...
-
-    def gauge_gradient(self, q: FloatArray) -> FloatArray:
-        """Return its derivatives to the coordinates, (samples, n)."""
-        ...
-
     def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return what stays constant along a motion, an energy, (samples,)."""
         ...
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the energy by which changes of the invariant are judged, (samples,)."""
-        ...
-
-    def refined(self) -> Self:
-        """Return the same system on more coordinates."""
-        ...
-
-    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
-        """Return the coordinates (samples, n') of the same states in the system `finer`."""
         ...

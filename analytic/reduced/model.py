@@ -225,7 +225,7 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     ------
     ValueError
         If `omega` is negative or not finite, the variant unknown, or the model has no oscillation;
-        if a variant assumes away what the blade has.
+        if a variant assumes away what the blade has, as all do damping.
 
     Warns
     -----
@@ -244,6 +244,11 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     omega = rotation_speed(omega)
     if isinstance(variant, str):
         variant = variant_named(variant)
+    if any(beam.unit.damping):
+        raise ValueError(
+            "the reduced models have no damping: take that of beam.with_damping(Damping()), or "
+            "forced_response for the damped blade"
+        )
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
     others = None

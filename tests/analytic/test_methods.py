@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipk
 
 from analytic.methods.continuation import followed, linear_orbit
-from analytic.methods.floquet import floquet_multipliers, is_stable
+from analytic.methods.floquet import floquet_multipliers
 from analytic.methods.harmonic_balance import solve
 from analytic.methods.system import Tangent
 
@@ -102,4 +102,4 @@ def test_orbits_of_two_coordinates_conserve_energy_and_are_stable():
         # Even in time: y returns the same way.
         there, back = orbit.coordinates(np.array([0.4, -0.4]))[0]
         assert there == pytest.approx([-back[0], back[1]])
-        assert is_stable(floquet_multipliers(orbit))
+        assert floquet_multipliers(orbit).stable()

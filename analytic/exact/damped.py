@@ -1,0 +1,56 @@
+"""How fast the modes of a damped blade in rotation decay."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade
+from .modes import linear_modes
+from .steady import steady_rotation
+
+_SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
+
+
+def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
+    """Return the damping ratios ζ of the in-plane modes in steady rotation, (count,).
+
+    ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
+    of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    count : int
+        Number of modes.
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or a mode is damped so much that it does not oscillate.
+    """
+    modes = linear_modes(beam, omega, count)
+    steady = steady_rotation(beam, omega, modes.model)
+    at_rest = np.zeros((1, steady.size))
+    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    n = steady.size
+    # Of 1/λ the lowest modes are the largest and come out most exactly.
+    companion = np.zeros((2 * n, 2 * n))
+    companion[:n] = -np.linalg.solve(
+        tangent.stiffness[0], np.hstack((tangent.damping[0], tangent.mass[0]))
+    )
+    companion[n:, :n] = np.eye(n)
+    inverse = np.linalg.eigvals(companion)
+    inverse = inverse[inverse.imag < 0.0]
+    size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / beam.frequency_scale)
+    nearest = np.argmin(np.abs(size - 1.0), axis=1)
+    for mode, found in enumerate(nearest):
+        if abs(size[mode, found] - 1.0) > _SAME or found in nearest[:mode]:
+            raise ValueError(
+                f"mode {mode + 1} is damped so much that it does not oscillate: ask for count="
+                f"{mode} or less, or take less damping"
+            )
+    # -Re λ/|λ| is -Re(1/λ)/|1/λ|.
+    return np.asarray(-inverse[nearest].real / np.abs(inverse[nearest]))

@@ -1,0 +1,56 @@
+"""The state of the exact beam at material points, to start a code from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade
+from ..input_checks import points_of_beam
+from .kinematics import Kinematics
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeamState:
+    """State of the beam at material points, in the rotating frame: r = (x + u, v); SI units.
+
+    Attributes
+    ----------
+    u, v : ndarray (points,)
+        Displacements along and across the undeformed axis [m].
+    u_slope, v_slope : ndarray (points,)
+        Their derivatives to x, u' and v' [-].
+    u_dot, v_dot, u_slope_dot, v_slope_dot : ndarray (points,)
+        The rates of all four as seen in the rotating frame [m/s, 1/s].
+    """
+
+    u: FloatArray
+    v: FloatArray
+    u_slope: FloatArray
+    v_slope: FloatArray
+    u_dot: FloatArray
+    v_dot: FloatArray
+    u_slope_dot: FloatArray
+    v_slope_dot: FloatArray
+
+
+def beam_state(
+    beam: AnyBlade, model: Kinematics, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+) -> BeamState:
+    """Return the state at the points `x` [m] of nondimensional coordinates and rates (n,)."""
+    at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
+    slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
+    z = length * model.integrated(model.slope(q), at)
+    z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
+    return BeamState(
+        u=z.real - length * at,
+        v=z.imag,
+        u_slope=slope.real - 1.0,
+        v_slope=slope.imag,
+        u_dot=z_dot.real,
+        v_dot=z_dot.imag,
+        u_slope_dot=slope_rate.real,
+        v_slope_dot=slope_rate.imag,
+    )

@@ -1,0 +1,172 @@
+"""The response of a driven system over its parameter, followed through all folds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any, Generic
+
+import numpy as np
+
+from ..arrays import FloatArray
+from .arclength import NoWayOnError, Point, advanced, corrected, located
+from .driven import D, DrivenOrbit, Mark, ResponseCurve
+
+_TRUNCATED = 5e-6  # residual of the harmonics left out, which leave 1e-6 of the amplitude
+_UNRESOLVED = 1e-4  # residual of the functions left out; the amplitude is off by its square
+_MOST_HARMONICS = 40
+_MOST_FUNCTIONS = 64
+_MOST_UNKNOWNS = 4000
+_FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
+_MOST_POINTS = 4000
+
+
+class ResponseNotFollowedError(Exception):
+    """A response curve ended too early; `orbits` holds what was found of it."""
+
+    def __init__(self, message: str, orbits: list[DrivenOrbit[Any]]) -> None:
+        super().__init__(message)
+        self.orbits = orbits
+
+
+@dataclass(frozen=True, eq=False)
+class _At(Generic[D]):
+    """A point and the curve it is on."""
+
+    curve: ResponseCurve[D]
+    point: Point
+
+    @cached_property
+    def orbit(self) -> DrivenOrbit[D]:
+        return self.curve.orbit(self.point.z)
+
+    def on(self, curve: ResponseCurve[D]) -> _At[D]:
+        """Return the nearest point of a finer curve."""
+
+        def lifted(z: FloatArray) -> FloatArray:
+            orbit = self.curve.orbit(z).with_harmonics(curve.harmonics).on(curve.system)
+            return curve.unknowns(orbit)
+
+        here = lifted(self.point.z)
+        return _At(curve, corrected(curve, here, lifted(self.point.z + self.point.tangent) - here))
+
+    def resolved(self) -> _At[D]:
+        """Return the same with as many harmonics and functions as it needs."""
+        at, curve = self, self.curve
+        while True:
+            if at.orbit.truncation > _TRUNCATED:
+                curve = replace(curve, harmonics=curve.harmonics + 2)
+            elif at.orbit.residual > _UNRESOLVED:
+                curve = replace(curve, system=curve.system.refined())
+            else:
+                return at
+            size = (2 * curve.harmonics + 1) * curve.system.size
+            if (
+                curve.harmonics > _MOST_HARMONICS
+                or curve.system.functions > _MOST_FUNCTIONS
+                or size > _MOST_UNKNOWNS
+            ):
+                raise NoWayOnError(
+                    f"{at.orbit.harmonics} harmonics and {at.orbit.system.functions} functions "
+                    f"leave a residual of {at.orbit.residual:.1e}"
+                )
+            at = at.on(curve)
+
+
+def response_curve(
+    system: D, parameters: FloatArray, largest: float, harmonics: int
+) -> list[DrivenOrbit[D]]:
+    """Return the response from the first parameter to the last, in order along the curve.
+
+    Followed by arclength through all folds, from the small response at the first; the parameters
+    between are met wherever the curve passes them. Curves that are not connected to it are not
+    found. At least so many `harmonics` are taken.
+
+    Raises
+    ------
+    ResponseNotFollowedError
+        If no response is found, the curve has no way on, or the amplitude exceeds `largest`.
+    """
+    first, last = float(parameters[0]), float(parameters[-1])
+    curve = ResponseCurve(system, harmonics, first, last - first)
+    orbits: list[DrivenOrbit[D]] = []
+    try:
+        at = _beginning(curve)
+        orbits.append(replace(at.orbit, mark="asked"))
+        step = _FIRST_STEP
+        while len(orbits) < _MOST_POINTS:
+            point, step = advanced(at.curve, at.point, step, _LONGEST_STEP)
+            there = _At(at.curve, point).resolved()
+            if there.curve is not at.curve:
+                at = at.on(there.curve)
+            between, over = _between(at, there, parameters)
+            orbits += between
+            if over:
+                return orbits
+            if there.orbit.amplitude > largest:
+                raise NoWayOnError(f"the amplitude exceeds {largest:g} there")
+            orbits.append(there.orbit)
+            at = there
+    except NoWayOnError as reason:
+        where = f" beyond the frequency {orbits[-1].frequency:.6g}" if orbits else ""
+        raise ResponseNotFollowedError(f"{reason}{where}", orbits) from None
+    raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", orbits)
+
+
+def _beginning(curve: ResponseCurve[D]) -> _At[D]:
+    """Return the small response at the first parameter."""
+    rest = np.zeros((2 * curve.harmonics + 1, curve.system.size))
+    rest[0] = curve.system.rest(curve.origin)
+    across = np.eye(1, rest.size + 1, rest.size)[0]
+    resolved = _At(curve, corrected(curve, np.append(rest.ravel(), 0.0), across)).resolved()
+    curve, z = resolved.curve, resolved.point.z
+    z[-1] = 0.0  # refining goes across the curve, not along the parameter
+    return _At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))
+
+
+def _between(
+    at: _At[D], there: _At[D], parameters: FloatArray
+) -> tuple[list[DrivenOrbit[D]], bool]:
+    """Return what is special between two points, in order, and whether the curve's end is."""
+    curve = at.curve
+    wanted = (parameters - curve.origin) / curve.scale
+
+    def climb(point: Point) -> float:
+        along = point.tangent[:-1].reshape(-1, curve.system.size)
+        return curve.orbit(point.z).amplitude_slope(along)
+
+    found: list[tuple[float, Mark, Point]] = []
+
+    def seek(mark: Mark, function: Callable[[Point], float]) -> None:
+        point = located(curve, at.point, there.point, function)
+        if point is not None:
+            found.append((float(at.point.tangent @ (point.z - at.point.z)), mark, point))
+
+    seek("fold", lambda point: float(point.tangent[-1]))
+    seek("peak", climb)
+    if at.point.orientation * there.point.orientation < 0.0:
+        found.append((0.0, "branch point", there.point))
+    # A fold between them may pass a parameter twice: each side for itself.
+    turns = [point for _, mark, point in found if mark == "fold"]
+    stops = [at.point, *turns, there.point]
+    for one, other in pairwise(stops):
+        for value in wanted:
+            if (one.z[-1] - value) * (other.z[-1] - value) < 0.0 or other.z[-1] == value:
+                point = located(curve, one, other, partial(_beyond, float(value)))
+                if point is not None:
+                    place = float(at.point.tangent @ (point.z - at.point.z))
+                    found.append((place, "asked", point))
+    found.sort(key=lambda item: item[0])
+    orbits, over = [], False
+    for _, mark, point in found:
+        orbits.append(replace(curve.orbit(point.z), mark=mark))
+        if mark == "asked" and (point.z[-1] > 1.0 - 1e-9 or point.z[-1] < 1e-9):
+            over = True
+            break
+    return orbits, over
+
+
+def _beyond(value: float, point: Point) -> float:
+    return float(point.z[-1] - value)

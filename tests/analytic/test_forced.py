@@ -1,0 +1,254 @@
+"""Forced response: published-to-be numbers, an independent integrator, and the limits."""
+
+import warnings
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from analytic import (
+    Beam,
+    Damping,
+    DistributedForce,
+    Gravity,
+    ResponseNotReachedError,
+    SpeedRipple,
+    TipForce,
+    damping_ratios,
+    forced_response,
+    gravity_response,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+)
+
+BEAM = Beam.reference()
+SCALE = BEAM.frequency_scale
+FORCE = BEAM.bending_stiffness / BEAM.length**3  # unit of force per length
+
+
+def by_mass(c):
+    """The beam with mass-proportional damping c, over its frequency scale."""
+    return BEAM.with_damping(Damping(external=c * BEAM.mass_per_length * SCALE))
+
+
+@pytest.fixture(scope="module")
+def loaded():
+    """Case D1: a distributed force at 2 rad/s, hardening."""
+    omega_n = 3.66791071 * SCALE
+    return forced_response(
+        by_mass(0.004), 2.0, DistributedForce(amplitude=0.0045 * FORCE),
+        omega_n * np.array([0.985, 1.0015, 1.015]), inextensible=True,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def rippled():
+    """Case D3: a ripple of the speed at 6 rad/s, softening."""
+    omega_n = 4.50886824 * SCALE
+    return forced_response(
+        by_mass(0.008), 6.0, SpeedRipple(amplitude=0.003 * SCALE),
+        omega_n * np.array([0.985, 0.997, 1.015]), inextensible=True,
+    )  # fmt: skip
+
+
+# Converged to the digits printed (peaks 5e-7, folds 4e-8 in ν) by another code.
+CASES = {
+    "loaded": ((3.6748996, 0.443459), [(3.6731232, 0.257793), (3.6750403, 0.439112)]),
+    "rippled": ((4.4939512, 0.397604), [(4.4936794, 0.394058), (4.4982797, 0.220710)]),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_peak_and_folds_are_the_known_ones(name, request):
+    response = request.getfixturevalue(name)
+    (nu, a), folds = CASES[name]
+    (peak,) = response.peaks
+    assert peak.amplitude == pytest.approx(a, abs=2e-6)
+    assert peak.frequency == pytest.approx(nu * SCALE, rel=1e-6)
+    found = sorted(response.folds)
+    assert [fold.amplitude for fold in found] == pytest.approx([f[1] for f in folds], abs=2e-6)
+    assert [fold.frequency / SCALE for fold in found] == pytest.approx(
+        [f[0] for f in folds], rel=5e-8
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "ratio", "amplitudes", "unstable"),
+    [
+        ("loaded", 1.0015, (0.419642, 0.318274, 0.205078), 1.001920),
+        ("rippled", 0.997, (0.129067, 0.347907, 0.390224), 1.003912),
+    ],
+)
+def test_between_the_folds_the_middle_response_is_unstable(
+    name, ratio, amplitudes, unstable, request
+):
+    response = request.getfixturevalue(name)
+    omega_n = {"loaded": 3.66791071, "rippled": 4.50886824}[name] * SCALE
+    three = response.at(ratio * omega_n)
+    assert response.amplitude[three] == pytest.approx(amplitudes, abs=2e-6)
+    assert response.stable[three].tolist() == [True, False, True]
+    assert np.abs(response.multipliers[three[1]]).max() == pytest.approx(unstable, abs=1e-6)
+    # Folds are where a multiplier passes 1: all between is unstable, all beyond stable.
+    turns = [int(np.argmin(np.abs(response.frequency - f.frequency))) for f in response.folds]
+    middle = slice(turns[0] + 1, turns[1])
+    assert not response.stable[middle].any()
+    assert response.stable[: turns[0]].all()
+    assert response.stable[turns[1] + 1 :].all()
+
+
+def test_a_period_later_an_independent_integrator_is_back():
+    """DOP853 on the equations of motion themselves, for a stable and the unstable response."""
+    nu = 0.997 * 4.50886824 * SCALE
+    response = forced_response(
+        by_mass(0.008), 6.0, SpeedRipple(amplitude=0.003 * SCALE), [0.99 * nu, nu, 1.004 * nu],
+        inextensible=True, functions=8, harmonics=16,
+    )  # fmt: skip
+    for i in response.at(nu)[:2]:
+        orbit = response._orbits[i]
+        system, n, w = orbit.system, orbit.system.size, orbit.parameter
+        bending = system.model.bending  # the inextensible beam's one axial coordinate is zero
+
+        def rates(t, state, system=system, n=n, w=w, bending=bending):
+            q, q_dot = np.zeros((2, 1, n))
+            q[0, :bending], q_dot[0, :bending] = state[:bending], state[bending:]
+            at = system.tangent(q, q_dot, np.zeros((1, n)), np.array([w * t]), w)
+            mass, load = at.mass[0, :bending, :bending], at.residual[0, :bending]
+            return np.concatenate((state[bending:], -np.linalg.solve(mass, load)))
+
+        q, q_dot, _ = orbit.coordinates(np.zeros(1))
+        start = np.concatenate((q[0, :bending], q_dot[0, :bending]))
+        ended = solve_ivp(
+            rates, (0.0, 2.0 * np.pi / w), start, method="DOP853", rtol=1e-11, atol=1e-13
+        ).y[:, -1]
+        assert np.abs(ended - start).max() < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("w", "amplitude"),
+    [(1, 0.249537), (2, 0.318507), (3, 0.382298), (4, 0.453427), (5, 0.252023)],
+)
+def test_the_beam_under_its_weight(w, amplitude):
+    gravity = 1.791 * FORCE / BEAM.mass_per_length
+    speeds = SCALE * np.unique([0.9 * w, w, 1.05 * w])
+    found = gravity_response(by_mass(1.5), speeds, gravity, inextensible=True)
+    assert found.amplitude[found.at(w * SCALE)] == pytest.approx([amplitude], abs=1e-6)
+    assert found.omega == pytest.approx(found.frequency)
+
+
+def test_a_small_load_gives_the_linear_response():
+    """One mode's receptance: at resonance F/(c ω_n M) in size and a quarter turn behind."""
+    modes = linear_modes(BEAM, 6.0, inextensible=True)
+    omega_n = float(modes.frequencies[0])
+    x = np.linspace(0.0, BEAM.length, 401)
+    mass = BEAM.mass_per_length * np.trapezoid(modes.shapes(x)[:, 0] ** 2, x)
+    force, c = 1e-4, 0.02
+    found = forced_response(
+        by_mass(c), 6.0, TipForce(amplitude=force), omega_n * np.array([0.8, 1.0, 1.2]),
+        inextensible=True,
+    )  # fmt: skip
+    (i,) = found.at(omega_n)
+    wanted = force / (c * SCALE * omega_n * mass) / BEAM.length
+    # Other modes add their quasi-static share, which is out of phase.
+    assert abs(found.harmonics[i, 1]) == pytest.approx(wanted, rel=1e-4)
+    assert found.phase[i] == pytest.approx(0.5 * np.pi, abs=1e-2)
+    assert found.phase[0] < 0.1
+    assert not found.folds
+
+
+def test_as_damping_and_load_vanish_the_peak_runs_onto_the_backbone():
+    omega_n = linear_modes(BEAM, 6.0, inextensible=True).frequencies[0]
+    distances = []
+    for share in (1.0, 0.5, 0.25):
+        response = forced_response(
+            by_mass(0.008 * share), 6.0, SpeedRipple(amplitude=0.003 * share * SCALE),
+            omega_n * np.array([0.99, 1.005]), inextensible=True,
+        )  # fmt: skip
+        (peak,) = response.peaks
+        free = periodic_orbits(BEAM, 6.0, [peak.amplitude], inextensible=True).frequency[0]
+        distances.append(abs(peak.frequency / free - 1.0))
+    # At least of first order in the damping, and far within the resonance's width.
+    assert distances[0] < 1e-3 * 0.008 / 4.5
+    assert distances[1] < 0.6 * distances[0]
+    assert distances[2] < 0.6 * distances[1]
+
+
+def test_leading_order_is_a_few_percent_high(loaded, rippled):
+    """(ν/ω_n - 1 + λa²)² + (d/2ω_n)² = (G/(2ω_n²a))²: its peak is G/(d ω_n)."""
+    x, weights = np.polynomial.legendre.leggauss(60)
+    x, weights = 0.5 * (x + 1.0), 0.5 * weights
+    ratios = []
+    for response, omega, c in ((loaded, 2.0, 0.004), (rippled, 6.0, 0.008)):
+        modes = linear_modes(BEAM, omega, inextensible=True)
+        w_n, phi = modes.frequencies[0] / SCALE, modes.shapes(x * BEAM.length)[:, 0]
+        drive = 0.0045 * phi if response is loaded else 0.003 * w_n * x * phi
+        peak = (weights @ drive) / (weights @ phi**2) / (c * w_n)
+        ratios.append(peak / response.peaks[0].amplitude)
+    # Mass damping brakes the foreshortening too, which the leading order leaves out.
+    assert ratios == pytest.approx([1.0807, 1.0349], abs=1e-4)
+
+
+def test_damping_ratios_in_rotation():
+    frequencies = linear_modes(BEAM, 6.0).frequencies
+    by_the_mass = damping_ratios(by_mass(0.008), 6.0)
+    # Mass-proportional: c/(2ω_j), however fast it turns, but for the Coriolis coupling to axial
+    # motion, of the order μw̄².
+    assert by_the_mass == pytest.approx(0.5 * 0.008 * SCALE / frequencies, rel=3e-4)
+    at_rest = damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 2, 0.01)), 0.0)
+    assert at_rest[1] == pytest.approx(0.01, rel=1e-9)
+    assert at_rest[0] / at_rest[1] == pytest.approx(3.5160153 / 22.034492, rel=1e-5)
+    # The centrifugal stiffness is not damped, but makes the beam bend more at the clamp.
+    turning = damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM)), 6.0)
+    assert 0.01 * BEAM.omega_0 / frequencies[0] < turning[0] < 0.01
+    with pytest.raises(ValueError, match="mode 3 is damped so much that it does not oscillate"):
+        damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 1, 0.1)), 0.0)
+
+
+def test_what_a_response_says_of_itself(loaded):
+    assert "folds at 3.04082 rad/s, 3.03923 rad/s" in str(loaded)
+    i = int(np.argmax(loaded.amplitude))
+    phase = np.linspace(0.0, 2.0 * np.pi, 2001)
+    q = loaded.response(phase, i)
+    assert np.abs(q).max() == pytest.approx(loaded.amplitude[i], abs=1e-6)
+    series = sum((h * np.exp(1j * k * phase)).real for k, h in enumerate(loaded.harmonics[i]))
+    assert series == pytest.approx(q, abs=1e-6)
+    state = loaded.state(i, [0.0, BEAM.length], phase=1.0)
+    assert state.v[1] == pytest.approx(BEAM.length * loaded.response(1.0, i))
+    assert loaded.backbone.amplitude[-1] == pytest.approx(loaded.amplitude.max())
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "sentence"),
+    [
+        (lambda: forced_response(BEAM, 6.0, TipForce(amplitude=1.0), [3.0, 4.0]), ValueError,
+         "mode 1 is at 3.7304 rad/s: take beam.with_damping"),
+        (lambda: forced_response(by_mass(0.1), 6.0, Gravity(), [3.0, 4.0]), TypeError,
+         "take gravity_response"),
+        (lambda: forced_response(by_mass(0.1), 6.0, TipForce(amplitude=1.0, frequency=2.0),
+                                 [3.0, 4.0]), ValueError, "leave it out of the load"),
+        (lambda: forced_response(by_mass(0.1), 6.0, TipForce(amplitude=1.0), [4.0, 3.0]),
+         ValueError, "above 0 and ascending"),
+        (lambda: forced_response(by_mass(0.1), 6.0, 3.0, [3.0, 4.0]), TypeError, "must be a Speed"),
+        (lambda: Damping(bending=-0.1), ValueError, "damping takes energy, it gives none"),
+        (lambda: periodic_orbits(by_mass(0.1), 6.0, [0.1]), ValueError,
+         "take forced_response, or the free orbits of beam.with_damping"),
+        (lambda: reduced_model(by_mass(0.1), 6.0, "FrM"), ValueError, "damping"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_one_sentence(call, error, sentence):
+    with pytest.raises(error, match=sentence):
+        call()
+
+
+def test_a_load_without_resonance_needs_no_damping():
+    found = forced_response(BEAM, 6.0, TipForce(amplitude=0.5), [1.0, 2.0])
+    assert not found.folds
+    assert found.amplitude[-1] > found.amplitude[0]
+
+
+def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
+    with warnings.catch_warnings(), pytest.raises(ResponseNotReachedError) as caught:
+        warnings.simplefilter("error")
+        forced_response(by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0], inextensible=True)
+    assert caught.value.response is None or caught.value.response.amplitude.max() > 0.5
+    assert "take more damping" in str(caught.value)
