@@ -198,6 +198,17 @@ def test_a_blade_that_is_the_beam_has_its_numbers(beam):
     )
 
 
+@pytest.mark.parametrize("w", [0.0, 3.0])
+def test_frm_knows_the_inertia_of_the_sections(w):
+    section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0,
+                      rotary_inertia=0.01)  # fmt: skip
+    blade = Blade(length=1.0, section=section, hub_radius=0.5).with_taper(0.1, 0.3)
+    model = reduced_model(blade, w, "FrM")
+    exact = periodic_orbits(blade, w, [0.05], inextensible=True)
+    assert model.omega_n == pytest.approx(exact.omega_n, rel=1e-12)
+    assert model.lambda_omega == pytest.approx(exact.lambda_omega, abs=1e-6)
+
+
 def test_stations_of_a_taper_come_near_it(fitted_order):
     smooth = lag(UNIT.with_taper(width=0.5), 4.0)[0]
     counts, errors = np.array([4, 8, 16]), []
