@@ -52,11 +52,21 @@ class PointMass:
 
     def __post_init__(self) -> None:
         for name, value in (
-            ("position", positive("position", self.position, "m")),
+            ("position", _off_the_clamp(self.position)),
             ("mass", not_negative("mass", self.mass, "kg")),
             ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
         ):
             object.__setattr__(self, name, value)
+
+
+def _off_the_clamp(position: float) -> float:
+    at = not_negative("position", position, "m", "it is measured from the clamp to the tip")
+    if at == 0.0:
+        raise ValueError(
+            "a point mass at the clamp, position 0 m, does not move with the blade: leave it out, "
+            "it belongs to the hub"
+        )
+    return at
 
 
 def blade_from(values: Mapping[str, Any]) -> Blade:
@@ -119,7 +129,6 @@ class Blade:
         self._require_masses()
 
     def _require_section(self) -> None:
-        x = np.linspace(0.0, 1.0, 257)
         for name, profile in self.section.profiles().items():
             at = stations(profile)
             if at and (at[0] != 0.0 or not math.isclose(at[-1], self.length, rel_tol=1e-9)):
@@ -127,10 +136,13 @@ class Blade:
                     f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from "
                     f"0 to the length, {self.length:g} m"
                 )
+            x = np.union1d(np.linspace(0.0, 1.0, 257), np.minimum(at, self.length) / self.length)
             values = evaluated(in_units(profile, self.length, 1.0), x)
             if name == "rotary_inertia":
                 if values.min() < 0.0:
                     raise ValueError(f"{name} must not be negative, got {values.min():g}")
+            elif values[0] <= 0.0:
+                raise ValueError(f"{name} must be positive at the clamp, got {values[0]:g}")
             elif not np.all(values > 1e-6 * values[0]):
                 first = x[np.argmin(values > 1e-6 * values[0])]
                 raise ValueError(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from typing import Any
 
 import numpy as np
@@ -67,15 +69,36 @@ def checked_profile(name: str, profile: object) -> Profile:
     if not items:
         raise ValueError(f"{name} is empty: give a number, coefficients or stations")
     if not isinstance(items[0], tuple | list | np.ndarray):
-        return tuple(finite_number(f"{name}[{k}]", value) for k, value in enumerate(items))
-    pairs = []
+        return tuple(_entry(f"{name}[{k}]", value) for k, value in enumerate(items))
+    pairs: list[tuple[float, float]] = []
     for k, pair in enumerate(items):
         if np.shape(pair) != (2,):
             raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
-        pairs.append((finite_number(f"{name}[{k}]", pair[0], "m"),
-                      finite_number(f"{name}[{k}]", pair[1])))  # fmt: skip
-    back = [k for k in range(1, len(pairs)) if pairs[k][0] <= pairs[k - 1][0]]
-    if back or len(pairs) < 2:
-        where = f": station {back[0]} is at {pairs[back[0]][0]:g} m" if back else ""
-        raise ValueError(f"the stations of {name} must ascend, two at least{where}; sort them")
+        pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1])))
+    _require_ascending(name, [x for x, _ in pairs])
     return tuple(pairs)
+
+
+def _entry(name: str, value: object, unit: str = "") -> float:
+    """Return a number out of a list that may have been read from a file."""
+    if isinstance(value, str):
+        raise TypeError(f"{name} is the text {str(value)!r}: read numbers, as numpy.loadtxt does")
+    if isinstance(value, float) and math.isnan(value):
+        raise ValueError(f"{name} is NaN: leave the station out if its cell is empty")
+    return finite_number(name, value, unit)
+
+
+def _require_ascending(name: str, at: list[float]) -> None:
+    if len(at) < 2:
+        raise ValueError(f"{name} has one station, at {at[0]:g} m: give two at least, or a number")
+    for before, x in itertools.pairwise(at):
+        if x == before:
+            raise ValueError(
+                f"two stations of {name} are at {x:g} m: keep one, or set them apart where the "
+                f"section steps"
+            )
+        if x < before:
+            raise ValueError(
+                f"the stations of {name} must ascend, but {x:g} m comes after {before:g} m: "
+                f"sort them"
+            )

@@ -52,6 +52,16 @@ def axial_basis(count: int, x: FloatArray) -> BasisValues:
     return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
 
 
+def integrals_from_clamp(count: int, x: FloatArray) -> FloatArray:
+    """Return the matrix from values at `count` Gauss points to integrals from 0 to each `x`.
+
+    Exact for polynomials of a degree below `count`.
+    """
+    points, weights = gauss_points(count)
+    legendre = axial_basis(count, points).slope
+    return np.asarray(axial_basis(count, x).value @ (legendre * weights[:, None]).T)
+
+
 def _legendre(count: int, x: FloatArray) -> FloatArray:
     """P_k(2x-1), k < `count`, along the last axis."""
     return np.asarray(legendre.legvander(2.0 * x - 1.0, count - 1), dtype=np.float64)

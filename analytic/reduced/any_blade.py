@@ -1,12 +1,12 @@
 """Eq. 41 of any straight blade: the first mode by Galerkin's method, two measures throughout.
 
-With dm (point masses included) and EI dx, A[f] = -½∫φ'f' from the clamp, the tension
-N = w̄²∫ₓ¹ (δ + ξ) dm, and K, M of the rotating blade (c = cos ψ its setting),
+With dm and the rotary inertia dj (point masses included) and EI dx, A[f] = -½∫φ'f' from the
+clamp, the tension N = w̄²∫ₓ¹ (δ + ξ) dm, and K, M of the rotating blade (c = cos ψ its setting),
 
-    λ = (M2 + ¼jφ'(1)⁴)/M1 - (3/(2M1ω_n²)) [½∫EIφ''²φ'² + ⅛∫Nφ'⁴ - ½w̄²M2]
+    λ = (M2 + ¼∫φ'⁴dj)/M1 - (3/(2M1ω_n²)) [½∫EIφ''²φ'² + ⅛∫Nφ'⁴ - ½w̄²M2]
         + (4c²w̄²/M1) dᵀ(K - 4ω_n²M)⁻¹d,
 
-M1 = ∫φ² dm + jφ'(1)², M2 = ∫A[φ]² dm, d[f] = ∫(A[f]φ - A[φ]f) dm: g2 and g1 of Eq. 41, and the
+M1 = ∫φ² dm + ∫φ'² dj, M2 = ∫A[φ]² dm, d[f] = ∫(A[f]φ - A[φ]f) dm: g2 and g1 of Eq. 41, and the
 Coriolis coupling to all other modes. Inextensible; of the uniform beam this is FrC and FrM.
 """
 
@@ -21,7 +21,7 @@ from scipy.linalg import eigh, solve
 
 from ..arrays import FloatArray
 from ..profiles import evaluated
-from ..quadrature import axial_basis, gauss_points, transverse_basis
+from ..quadrature import gauss_points, integrals_from_clamp, transverse_basis
 from ..unit_blade import UnitBlade
 from .oscillator import Oscillator
 
@@ -73,13 +73,14 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
     x, weights = blade.quadrature(2 * points)
     bent = weights * evaluated(blade.bending, x)
     at, dm = blade.inertia(2 * points)
-    jx = np.array([position for position, _, _ in blade.masses])
-    dj = np.array([inertia for _, _, inertia in blade.masses])
+    jx = np.append(x, [position for position, _, _ in blade.masses])
+    dj = np.append(
+        weights * evaluated(blade.rotary, x), [inertia for _, _, inertia in blade.masses]
+    )
     lever = (blade.hub + at) * dm
     # Values at these points to integrals from the clamp to the masses: products of two slopes.
-    inner, inner_weights = gauss_points(2 * points)
-    legendre = axial_basis(inner.size, inner).slope
-    to_masses = axial_basis(inner.size, at).value @ (legendre * inner_weights[:, None]).T
+    inner, _ = gauss_points(2 * points)
+    to_masses = integrals_from_clamp(inner.size, at)
     tension = lever @ to_masses  # ∫N f dx / w̄² = tension @ f(inner)
 
     phi, slope_in = transverse_basis(count, at).value, transverse_basis(count, inner).slope

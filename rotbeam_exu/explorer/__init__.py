@@ -63,6 +63,7 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
         "frequencyScale": data.attrs["frequency_scale"],
         "length": data.attrs["length"],
         "elements": data.attrs["elements"],
+        "blade": data.attrs["blade"],
         "axisStep": _AXIS_STEP,
         "arrays": {
             **numbers,

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
+from analytic import VARIANTS, AnyBlade, Beam, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 
 from ..comparison.theory import beyond_range
@@ -36,7 +36,7 @@ _FREQUENCY = {"units": "rad/s"}
 
 
 def explorer_data(
-    beam: Beam | None = None,
+    beam: AnyBlade | None = None,
     *,
     omegas: Sequence[float] = OMEGAS,
     amplitudes: Sequence[float] = AMPLITUDES,
@@ -52,8 +52,8 @@ def explorer_data(
 
     Parameters
     ----------
-    beam : Beam, optional
-        By default the paper's.
+    beam : Beam or Blade, optional
+        By default the paper's. Of a blade the paper's models have nothing to say.
     omegas : sequence of float
         Rotation speeds [rad/s], ascending in equal steps.
     amplitudes : sequence of float
@@ -112,11 +112,12 @@ def explorer_data(
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
         "elements": elements,
+        "blade": "" if isinstance(beam, Beam) else str(beam),
     }
     return data
 
 
-def _models(beam: Beam, omegas: Sequence[float]) -> xr.Dataset:
+def _models(beam: AnyBlade, omegas: Sequence[float]) -> xr.Dataset:
     """Coefficients of Eqs. 63 and 65 over (model, omega), of every variant."""
     values = np.full((3, len(VARIANTS), len(omegas)), np.nan)
     with beyond_range():
@@ -125,7 +126,7 @@ def _models(beam: Beam, omegas: Sequence[float]) -> xr.Dataset:
                 try:
                     model = reduced_model(beam, omega, name)
                 except ValueError:
-                    continue  # no oscillation at that speed
+                    continue  # no oscillation at that speed, or not for such a blade
                 values[:, i, j] = model.omega_n, model.lambda_omega, model.lambda_x
     dims = ("model", "omega")
     return xr.Dataset(
@@ -138,7 +139,7 @@ def _models(beam: Beam, omegas: Sequence[float]) -> xr.Dataset:
     )
 
 
-def _exact(beam: Beam, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
+def _exact(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
     """Exact orbits at one speed; a pure function, for any executor."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RotbeamWarning)

@@ -1,0 +1,119 @@
+"""Yoo and Shin's model of lag and stretch: linear about the blade that rotation has not stretched.
+
+With the stretch s along the blade, the deflection v, the tension N = w̄²∫ₓ¹ (δ + ξ) dm of the
+unstretched blade and c = cos ψ,
+
+    m(s̈ - 2cw̄ v̇ - w̄² s) = (EA s')'/μ,      m(v̈ + 2cw̄ ṡ - c²w̄² v) = (N v')' - (EI v'')''.
+
+The Coriolis force couples both, which takes the frequencies most of the way from the inextensible
+blade's to the true ones. The rest is the stretch e of the steady state: linearized about it, as in
+`linear_modes`, the tension acts from where the mass has moved to, and the tangent turns by
+v'/(1+e) rather than v', so that N/(1+e) and the curvature (v'/(1+e))' stand for N and v''.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import block_diag, eigh
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade, require_steady_state, warn_if_rpm
+from ..input_checks import rotation_speed, whole_number
+from ..profiles import evaluated
+from ..quadrature import axial_basis, gauss_points, integrals_from_clamp, transverse_basis
+from ..unit_blade import UnitBlade
+
+_FEWEST, _MOST = 24, 96
+_SETTLED = 1e-5
+"""Relative change of the frequencies by half of the functions; of smooth blades it is 1e-9."""
+
+
+def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
+    """Return natural frequencies [rad/s] as published of the unstretched beam, ascending (count,).
+
+    The chordwise tables of Yoo and Shin (1998) and of Chung and Yoo (2002) linearize about the
+    beam that rotation has not stretched. At their slenderness √(AL²/I) = 70 that is 0.03 % too
+    high at w̄ = 2 and 0.4 % at w̄ = 10; `linear_modes` has the true frequencies. Axial ones are
+    among them.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    count : int
+        Number of frequencies, at most 24.
+
+    Raises
+    ------
+    ValueError
+        If `omega` is negative, not finite, or tears the beam; if `count` is too large, or 96
+        functions do not settle the frequencies to 1e-5.
+    """
+    omega = rotation_speed(omega)
+    count = whole_number("count", count)
+    if count > _MOST // 4:
+        raise ValueError(f"count must be at most {_MOST // 4}, got {count}: ask for less")
+    warn_if_rpm(beam, omega)
+    require_steady_state(beam, omega)
+    w_bar, functions = omega / beam.frequency_scale, max(_FEWEST, 2 * count)
+    found = _frequencies(beam.unit, beam.slenderness, w_bar, functions)[:count]
+    while functions < _MOST:
+        functions = min(2 * functions, _MOST)
+        before, found = found, _frequencies(beam.unit, beam.slenderness, w_bar, functions)[:count]
+        change = np.abs(before / found - 1.0).max()
+        if change <= _SETTLED:
+            return found * beam.frequency_scale
+    raise ValueError(
+        f"the frequencies at omega = {omega:g} rad/s have not settled to {_SETTLED:g} with "
+        f"{_MOST} functions: the last doubling changes them by {change:.1e}; ask for fewer, "
+        f"or smooth what changes in steps"
+    )
+
+
+def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int) -> FloatArray:
+    """Return all frequencies on `count` functions for v and for s/√μ.
+
+    With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric, and with
+    M = FFᵀ, ν = 1/Ω that is [[C, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y.
+    """
+    x, dx = blade.quadrature(count + 4 + blade.degree)
+    at, dm = blade.inertia(count + 4 + blade.degree)
+    across, along = transverse_basis(count, at).value, axial_basis(count, at).value
+    bent, pulled = transverse_basis(count, x).curvature, axial_basis(count, x).slope
+
+    # ∫N f dx = ∫(δ + ξ) ∫_0^ξ f dx dm, for f the product of two slopes.
+    inner, _ = gauss_points(2 * count + 1)
+    tension = w_bar**2 * ((blade.hub + at) * dm) @ integrals_from_clamp(inner.size, at)
+    slope = transverse_basis(count, inner).slope
+    turning = transverse_basis(count, np.append(x, [one[0] for one in blade.masses])).slope
+    dj = np.append(dx * evaluated(blade.rotary, x), [one[2] for one in blade.masses])
+
+    def product(left: FloatArray, measure: FloatArray, right: FloatArray) -> FloatArray:
+        return np.asarray(left.T @ (measure[:, None] * right))
+
+    inertia, inertia_along = product(across, dm, across), product(along, dm, along)
+    root, setting = math.sqrt(slenderness), blade.setting
+    K = block_diag(
+        product(bent, dx * evaluated(blade.bending, x), bent)
+        + product(slope, tension, slope)
+        - (setting * w_bar) ** 2 * inertia,
+        product(pulled, dx * evaluated(blade.axial, x), pulled)
+        - slenderness * w_bar**2 * inertia_along,
+    )
+    squares, vectors = np.linalg.eigh(
+        block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
+    )
+    F = vectors * np.sqrt(np.maximum(squares, 0.0))
+    C = np.zeros_like(K)
+    C[:count, count:] = 2.0 * setting * w_bar * root * product(across, dm, along)
+    C += C.T
+    inverse = eigh(
+        np.block([[C, F], [F.T, np.zeros_like(K)]]),
+        block_diag(K, np.eye(2 * count)),
+        eigvals_only=True,
+        subset_by_index=(2 * count, 4 * count - 1),
+    )
+    return np.asarray(1.0 / inverse[::-1])

@@ -1,0 +1,36 @@
+"""The Explorer of a blade that is not the paper's beam."""
+
+import numpy as np
+import pytest
+
+from analytic import periodic_orbits, reduced_model
+from rotbeam_exu.explorer import explorer_data, explorer_page
+
+
+def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
+    blade = beam.with_hub_radius(0.5 * beam.length).with_tip_mass(0.5 * beam.mass)
+    data = explorer_data(
+        blade,
+        omegas=(0.0, 6.0, 12.0),
+        amplitudes=(0.1, 0.2, 0.3),
+        finite_element_omegas=(6.0,),
+        ramp_times=(8.0,),
+        elements=4,
+        jobs=2,
+    )
+    path = tmp_path / "blade.html"
+    path.write_text(explorer_page(data), encoding="utf-8")
+    page = open_page(path.as_uri())
+    assert "on a hub of 4 m" in page.locator("#blade").inner_text()
+    model = reduced_model(blade, 6.0, "FrM")
+    found = page.locator("tr[data-model=FrM] td").all_inner_texts()
+    assert found[:2] == [f"{model.omega_n:.4f}", f"{model.lambda_omega:.5f}"]
+    assert page.locator("tr[data-model=FrE] td").all_inner_texts()[:3] == ["–"] * 3
+    exact = periodic_orbits(blade, 6.0, [0.1, 0.2, 0.3])
+    x, y = drawn(page, "backbone", "path[data-model=exact]")
+    np.testing.assert_allclose(y[1:], exact.frequency / exact.omega_n, atol=3e-4)
+    # λ above the close-up of the paper's beam is on the paper all the same.
+    x, y = drawn(page, "softening", "path[data-model=exact]")
+    assert y[np.argmin(np.abs(x - 6.0))] == pytest.approx(exact.lambda_omega, abs=1e-3)
+    assert exact.lambda_omega > 0.06
+    assert page.evaluate("softening.y(D.exact_lambda_omega[1]) > softening.y1")
