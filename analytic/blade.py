@@ -21,7 +21,7 @@ from .arrays import FloatArray
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
 from .loads import UNDAMPED, Damping
 from .profiles import Profile, evaluated, in_units, stations
-from .quadrature import transverse_basis
+from .quadrature import BasisValues, transverse_basis
 from .section import Section
 from .unit_blade import UnitBlade
 
@@ -230,12 +230,10 @@ class Blade:
 
     @cached_property
     def frequencies_at_rest(self) -> FloatArray:
-        """Frequencies of bending at rest [rad/s], (24,), of which half are resolved."""
-        turning = sum(
-            inertia * slope.T @ slope
-            for position, _, inertia in self.unit.masses
-            for slope in [transverse_basis(_FUNCTIONS, np.array([position])).slope]
-        )
+        """Frequencies of bending at rest [rad/s], 24 at least, of which half are resolved."""
+        at = np.array([position for position, _, _ in self.unit.masses])
+        slope = self._basis(at).slope
+        turning = slope.T @ (np.array([one[2] for one in self.unit.masses])[:, None] * slope)
         return self.frequency_scale * self._at_rest(_ACROSS, self.unit.bending, turning)
 
     @cached_property
@@ -252,12 +250,15 @@ class Blade:
     ) -> FloatArray:
         """Return the frequencies at rest [-], of motion across or along the blade."""
         x, weights = self.unit.quadrature(_FUNCTIONS + 8)
-        strain = transverse_basis(_FUNCTIONS, x).curvature
         at, dm = self.unit.inertia(_FUNCTIONS + 8)
-        displacement = transverse_basis(_FUNCTIONS, at)[moved]
+        strain, displacement = self._basis(x).curvature, self._basis(at)[moved]
         M = displacement.T @ (dm[:, None] * displacement) + more
         K = strain.T @ ((weights * evaluated(stiffness, x))[:, None] * strain)
         return np.asarray(1.0 / np.sqrt(eigh(M, K, eigvals_only=True)[::-1]))
+
+    def _basis(self, x: FloatArray) -> BasisValues:
+        a_panel = math.ceil(_FUNCTIONS / self.unit.panel_count)
+        return transverse_basis(a_panel, x, self.unit.panels)
 
     @cached_property
     def unit(self) -> UnitBlade:

@@ -3,18 +3,24 @@
 Integrating P_k twice gives functions with φ(0) = φ'(0) = 0 whose second derivatives are
 orthogonal, so that the bending stiffness is diagonal; integrating once gives functions with
 ψ(0) = 0 whose slopes are orthogonal, so that the axial stiffness is. Both stay well conditioned
-at any degree in use.
+at any degree in use. A blade with masses inside or kinks of its section is cut there into panels,
+on each of which its motion is smooth.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from .arrays import FloatArray
+
+WHOLE = np.array([0.0, 1.0])
+"""The ends of the one panel that a smooth blade is."""
 
 
 class BasisValues(NamedTuple):
@@ -37,29 +43,79 @@ def gauss_points(count: int) -> tuple[FloatArray, FloatArray]:
     return points, weights
 
 
-def transverse_basis(count: int, x: FloatArray) -> BasisValues:
-    """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`."""
-    curvature = _legendre(count + 2, x)
-    slope = _integrated(curvature)
-    value = _integrated(slope)
-    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
+def transverse_basis(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> BasisValues:
+    """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`.
 
-
-def axial_basis(count: int, x: FloatArray) -> BasisValues:
-    """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`."""
-    slope = _legendre(count + 1, x)
-    value, curvature = _integrated(slope), _differentiated(slope)
-    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
-
-
-def integrals_from_clamp(count: int, x: FloatArray) -> FloatArray:
-    """Return the matrix from values at `count` Gauss points to integrals from 0 to each `x`.
-
-    Exact for polynomials of a degree below `count`.
+    On more than one panel there are `count` functions for each, by degree first, whose curvatures
+    are such polynomials on it and zero on all others; so a larger basis begins with a smaller one.
     """
-    points, weights = gauss_points(count)
-    legendre = axial_basis(count, points).slope
-    return np.asarray(axial_basis(count, x).value @ (legendre * weights[:, None]).T)
+
+    def on_one(t: FloatArray) -> BasisValues:
+        curvature = _legendre(count + 2, t)
+        slope = _integrated(curvature)
+        value = _integrated(slope)
+        return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
+
+    return _on_panels(on_one, x, panels, order=2)
+
+
+def axial_basis(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> BasisValues:
+    """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`.
+
+    On more than one panel the slopes are such polynomials, as in `transverse_basis`.
+    """
+
+    def on_one(t: FloatArray) -> BasisValues:
+        slope = _legendre(count + 1, t)
+        value, curvature = _integrated(slope), _differentiated(slope)
+        return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
+
+    return _on_panels(on_one, x, panels, order=1)
+
+
+def _on_panels(
+    on_one: Callable[[FloatArray], BasisValues], x: FloatArray, panels: FloatArray, order: int
+) -> BasisValues:
+    """Return a basis of which the derivative of that order is orthonormal panel by panel."""
+    if panels.size == 2:
+        return on_one(x)
+    parts = []
+    for start, end in pairwise(panels.tolist()):
+        h, last = end - start, end == panels[-1]
+        t = np.clip((x - start) / h, 0.0, 1.0)
+        inside = ((x >= start) & ((x < end) | last))[:, None]
+        at, after = on_one(t), on_one(np.ones(1))
+        value, slope, curvature = (h ** (order - 0.5 - k) * part for k, part in enumerate(at))
+        if order == 2:
+            # Beyond its panel a curvature leaves a slope.
+            value = value + h**0.5 * after.slope * np.maximum(x - end, 0.0)[:, None]
+        else:
+            slope = slope * inside
+        parts.append((value, slope, curvature * inside))
+    # By degree first, so that more degrees come at the end.
+    size = (x.size, parts[0][0].shape[1] * len(parts))
+    return BasisValues(
+        *(np.stack(kind, axis=-1).reshape(size) for kind in zip(*parts, strict=True))
+    )
+
+
+def integrals_from_clamp(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> FloatArray:
+    """Return the matrix from values at the Gauss points, `count` a panel, to integrals up to `x`.
+
+    Exact for polynomials of a degree below `count` on each panel.
+    """
+    points, weights = gauss_points_on(count, panels)
+    legendre = axial_basis(count, points, panels).slope
+    return np.asarray(axial_basis(count, x, panels).value @ (legendre * weights[:, None]).T)
+
+
+def gauss_points_on(count: int, panels: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return Gauss-Legendre points and weights, `count` of each on every panel."""
+    if panels.size == 2:
+        return gauss_points(count)
+    x, weights = gauss_points(count)
+    width = np.diff(panels)[:, None]
+    return (panels[:-1, None] + width * x).ravel(), (width * weights).ravel()
 
 
 def _legendre(count: int, x: FloatArray) -> FloatArray:

@@ -9,7 +9,10 @@ import numpy as np
 
 from .arrays import FloatArray
 from .profiles import Profile, degree_of, evaluated, stations
-from .quadrature import gauss_points
+from .quadrature import gauss_points_on
+
+_SAME = 1e-9  # stations and masses that are no farther apart
+_MOST_PANELS = 64  # closer kinks are so small that functions may smooth them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,11 +49,25 @@ class UnitBlade:
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @cached_property
+    def kinks(self) -> FloatArray:
+        """Where a profile has a station or a mass is, with both ends, 0 to 1."""
+        profiles = (self.mass, self.bending, self.axial, self.rotary)
+        inner = {x for profile in profiles for x in stations(profile)}
+        inner |= {position for position, _, _ in self.masses}
+        ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
+        return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
+
+    @cached_property
     def panels(self) -> FloatArray:
-        """Ends of the panels on which all profiles are smooth, 0 to 1."""
-        inner = {x for profile in (self.mass, self.bending, self.axial, self.rotary)
-                 for x in stations(profile)}  # fmt: skip
-        return np.array(sorted(inner | {0.0, 1.0}))
+        """Ends of the panels on which functions are smooth: the kinks, or some of very many."""
+        count = self.kinks.size - 1
+        kept = np.linspace(0, count, min(count, _MOST_PANELS) + 1).round().astype(int)
+        return np.asarray(self.kinks[kept])
+
+    @property
+    def panel_count(self) -> int:
+        """How many panels there are."""
+        return self.panels.size - 1
 
     @property
     def degree(self) -> int:
@@ -75,12 +92,8 @@ class UnitBlade:
         )
 
     def quadrature(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """Return points and weights on [0, 1], `count` Gauss points a panel."""
-        x, weights = gauss_points(count)
-        ends = zip(self.panels[:-1], self.panels[1:], strict=True)
-        parts = [(a + (b - a) * x, (b - a) * weights) for a, b in ends]
-        points, measure = (np.concatenate(part) for part in zip(*parts, strict=True))
-        return points, measure
+        """Return points and weights on [0, 1], `count` Gauss points between two kinks."""
+        return gauss_points_on(count, self.kinks)
 
     def inertia(self, count: int) -> tuple[FloatArray, FloatArray]:
         """Return the measure dm: points and masses, the point masses' at the end."""

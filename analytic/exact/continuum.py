@@ -23,6 +23,7 @@ acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -30,7 +31,6 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..methods.system import Tangent
-from ..quadrature import gauss_points
 from ..unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
 from .own_basis import turning_inertia
@@ -68,7 +68,7 @@ class Continuum(Kinematics):
 
     Attributes
     ----------
-    points, weights : ndarray (2 bending,)
+    points, weights : ndarray (points,)
         The Gauss points at which fields are evaluated, and their weights.
     outboard : dict
         What a load may act on beyond each Gauss point, times its weight (points,): "mass",
@@ -87,7 +87,7 @@ class Continuum(Kinematics):
         super().__init__(slenderness, bending, axial, blade)
         self.rotary = rotary_inertia
         # One point more integrates the square of the integrated interpolant exactly.
-        at, dm = blade.inertia(self.points.size + 1 + (blade.degree + 1) // 2)
+        at, dm = blade.inertia(self._points_a_panel + 1 + (blade.degree + 1) // 2)
         integral = self._integral(at)
         self._green = integral.T @ (dm[:, None] * integral)
         outboard = integral.T @ dm
@@ -97,7 +97,7 @@ class Continuum(Kinematics):
         self._turns = bool(dj.any())
         bend, stretch, air = blade.damping
         self._viscosity = np.repeat([bend, stretch], [bending, axial])
-        along, dx = gauss_points(self.points.size + 1)
+        along, dx = blade.quadrature(self._points_a_panel + 1)
         integral = self._integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
@@ -292,6 +292,22 @@ def continuum(
 
 def finer_model(model: Continuum) -> Continuum:
     """Return the discretization with half as many functions again."""
-    bending = model.bending + model.bending // 2
-    axial = model.axial + model.axial // 2
-    return continuum(model.slenderness, bending, axial, model.rotary, model.blade)
+    panels = model.blade.panel_count
+
+    def more(count: int) -> int:
+        a_panel = count // panels
+        # The inextensible beam keeps its one.
+        return panels * (a_panel + max(a_panel // 2, int(model.slenderness > 0.0)))
+
+    return continuum(
+        model.slenderness, more(model.bending), more(model.axial), model.rotary, model.blade
+    )
+
+
+def blade_continuum(
+    blade: UnitBlade, slenderness: float, bending: int, axial: int, rotary_inertia: float
+) -> Continuum:
+    """Return the discretization by at least so many functions, as many on every panel."""
+    panels = blade.panel_count
+    bending, axial = (panels * math.ceil(count / panels) for count in (bending, axial))
+    return continuum(slenderness, bending, axial, rotary_inertia, blade)

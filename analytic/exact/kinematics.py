@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..quadrature import axial_basis, gauss_points
+from ..quadrature import axial_basis, gauss_points_on, integrals_from_clamp
 from ..unit_blade import UnitBlade
 from .own_basis import own_bases
 
@@ -23,10 +23,10 @@ class Kinematics:
     slenderness : float
         μ.
     bending, axial, size : int
-        Number of functions for θ and for e, and of both.
+        Number of functions for θ and for e, as many on each of the blade's panels, and of both.
     blade : UnitBlade
-    points, weights : ndarray (2 bending,)
-        The Gauss points at which fields are evaluated, and their weights.
+    points, weights : ndarray (points,)
+        The Gauss points at which fields are evaluated, and their weights; 2 bending on one panel.
     """
 
     def __init__(self, slenderness: float, bending: int, axial: int, blade: UnitBlade) -> None:
@@ -36,15 +36,19 @@ class Kinematics:
         self.size = bending + axial
         self._epsilon = math.sqrt(slenderness)  # e = √μ ε makes the axial stiffness 1 as well
         self.blade = blade
-        self.points, self.weights = gauss_points(2 * bending)
+        self._panels, panels = blade.panels, blade.panel_count
+        if bending % panels or axial % panels:
+            raise ValueError(f"{bending} and {axial} functions do not go on {panels} panels")
+        self._a_panel = (bending // panels, axial // panels)
+        # Functions of low degree still make fields that are not: exp(iθ).
+        self._points_a_panel = 2 * self._a_panel[0] + (4 if panels > 1 else 0)
+        self.points, self.weights = gauss_points_on(self._points_a_panel, self._panels)
         self._own = own_bases(blade, bending, axial)
         self._phi, self._psi = self._bases(self.points)
-        legendre = axial_basis(self.points.size, self.points).slope
-        self._to_legendre = (legendre * self.weights[:, None]).T
 
     def _integral(self, x: FloatArray) -> FloatArray:
         """Matrix from values at the Gauss points to the integral from the clamp to `x`."""
-        return axial_basis(self.points.size, x).value @ self._to_legendre
+        return integrals_from_clamp(self._points_a_panel, x, self._panels)
 
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coordinates of θ and those of e, along the last axis."""
@@ -85,7 +89,9 @@ class Kinematics:
         return (self._phi, self._psi) if x is None else self._bases(x)
 
     def _bases(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        phi, psi = axial_basis(self.bending, x).value, axial_basis(self.axial, x).slope
+        bending, axial = self._a_panel
+        phi = axial_basis(bending, x, self._panels).value
+        psi = axial_basis(axial, x, self._panels).slope
         return (phi, psi) if self._own is None else (phi @ self._own[0], psi @ self._own[1])
 
     def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:

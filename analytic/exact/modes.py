@@ -12,7 +12,7 @@ from scipy import linalg
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
-from .continuum import Continuum, continuum
+from .continuum import Continuum, blade_continuum
 from .steady import SteadyBeam, section_inertia, steady_rotation
 
 MOST_FUNCTIONS = 256
@@ -172,8 +172,8 @@ def resolved_model(
         )
     slenderness = 0.0 if inextensible else beam.slenderness
     axial = 1 if inextensible else max(4, 5 * functions // 8)
-    return continuum(
-        slenderness, functions, axial, section_inertia(beam, rotary_inertia), beam.unit
+    return blade_continuum(
+        beam.unit, slenderness, functions, axial, section_inertia(beam, rotary_inertia)
     )
 
 

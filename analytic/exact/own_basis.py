@@ -14,14 +14,16 @@ def own_bases(blade: UnitBlade, bending: int, axial: int) -> tuple[FloatArray, F
     """Return what makes Legendre's polynomials orthonormal in the blade's own EI and EA.
 
     Then its stiffness is the identity. The matrices, (bending, bending) and (axial, axial), are
-    triangular, so that a larger basis begins with the smaller one. None of a uniform section.
+    triangular, so that a larger basis begins with the smaller one. None of a uniform section, for
+    panels make no difference to it.
     """
     if blade.bending == blade.axial == 1.0:
         return None
-    x, weights = blade.quadrature(max(bending, axial) + 1 + (blade.degree + 1) // 2)
+    most = max(bending, axial) // blade.panel_count
+    x, weights = blade.quadrature(most + 1 + (blade.degree + 1) // 2)
 
     def inverse_factor(count: int, profile: Profile) -> FloatArray:
-        legendre = axial_basis(count, x).slope
+        legendre = axial_basis(count // blade.panel_count, x, blade.panels).slope
         gram = (legendre.T * (weights * evaluated(profile, x))) @ legendre
         return np.asarray(np.linalg.inv(np.linalg.cholesky(gram)).T)
 
@@ -45,6 +47,6 @@ def turning_inertia(
     lumped = np.array([inertia for _, _, inertia in blade.masses])
     x, dj = points, uniform * weights
     if blade.rotary != 0.0:
-        x, dx = blade.quadrature(points.size + blade.degree)
+        x, dx = blade.quadrature(points.size // blade.panel_count + blade.degree)
         dj = dx * (uniform + evaluated(blade.rotary, x))
     return np.append(x, at), np.append(dj, lumped)

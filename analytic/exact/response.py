@@ -16,7 +16,7 @@ from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..methods.collocation import radau
 from ..motion import SpinUp
-from .continuum import Continuum, continuum
+from .continuum import Continuum, blade_continuum
 from .steady import section_inertia, steady_rate
 
 _STAGES = 8
@@ -114,8 +114,8 @@ def spin_up_response(
     _require_feasible(beam, spin_up, time, along)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
-        functions = _FUNCTIONS + _MORE_FUNCTIONS * level
-        model = continuum(beam.slenderness, functions, functions // 2, rotary, beam.unit)
+        functions = _FUNCTIONS + max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        model = blade_continuum(beam.unit, beam.slenderness, functions, functions // 2, rotary)
         steady_rate(beam, spin_up.omega, model)
         corners, counts = _steps(beam, spin_up, float(time[-1]), level)
         if sum(counts) > _MOST_STEPS:
@@ -145,7 +145,7 @@ def spin_up_response(
                     axis=beam.length * np.stack((finer.axis.real, finer.axis.imag), axis=-1),
                     error=error,
                     steps=grid.size - 1,
-                    functions=functions,
+                    functions=model.bending,
                 )
         coarser = finer
     raise RuntimeError(

@@ -21,7 +21,7 @@ from scipy.linalg import eigh, solve
 
 from ..arrays import FloatArray
 from ..profiles import evaluated
-from ..quadrature import gauss_points, integrals_from_clamp, transverse_basis
+from ..quadrature import gauss_points_on, integrals_from_clamp, transverse_basis
 from ..unit_blade import UnitBlade
 from .oscillator import Oscillator
 
@@ -69,7 +69,8 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
 
 
 def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) -> BladeOscillator:
-    points = count + 4 + blade.degree
+    a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
+    points = a_panel + 4 + blade.degree
     x, weights = blade.quadrature(2 * points)
     bent = weights * evaluated(blade.bending, x)
     at, dm = blade.inertia(2 * points)
@@ -79,13 +80,15 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
     )
     lever = (blade.hub + at) * dm
     # Values at these points to integrals from the clamp to the masses: products of two slopes.
-    inner, _ = gauss_points(2 * points)
-    to_masses = integrals_from_clamp(inner.size, at)
+    inner, _ = gauss_points_on(2 * points, panels)
+    to_masses = integrals_from_clamp(2 * points, at, panels)
     tension = lever @ to_masses  # ∫N f dx / w̄² = tension @ f(inner)
 
-    phi, slope_in = transverse_basis(count, at).value, transverse_basis(count, inner).slope
-    slope_j = transverse_basis(count, jx).slope
-    basis = transverse_basis(count, x)
+    phi = transverse_basis(a_panel, at, panels).value
+    slope_in = transverse_basis(a_panel, inner, panels).slope
+    slope_j = transverse_basis(a_panel, jx, panels).slope
+    basis = transverse_basis(a_panel, x, panels)
+    at_tip = transverse_basis(a_panel, np.ones(1), panels).value[0]
     M = phi.T @ (dm[:, None] * phi) + slope_j.T @ (dj[:, None] * slope_j)
     softening = blade.setting**2 * w_bar**2 * (phi.T @ (dm[:, None] * phi))
     K = (
@@ -95,7 +98,7 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
     )
     # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
     reciprocal, vectors = eigh(M, K)
-    first = vectors[:, -1] / (transverse_basis(count, np.ones(1)).value[0] @ vectors[:, -1])
+    first = vectors[:, -1] / (at_tip @ vectors[:, -1])
     w_n = 1.0 / math.sqrt(reciprocal[-1])
 
     v, s_in, s = phi @ first, slope_in @ first, basis.slope @ first
@@ -115,7 +118,7 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
         d = _coupling(to_masses, slope_in, s_in, phi, v, foreshortening, dm)
         follow = solve(K - 4.0 * w_n**2 * M, 4.0 * rate * d, assume_a="sym")
         g2 += float(4.0 * rate * (d @ follow) / M1)
-        tip = float(transverse_basis(count, np.ones(1)).value[0] @ follow)
+        tip = float(at_tip @ follow)
     oscillator = Oscillator(w_n=w_n, g1=float(4.0 * quartic / M1), g2=g2)
     second, third = (1.0 / np.sqrt(reciprocal[-2:-4:-1])).tolist()
     return BladeOscillator(oscillator, tip, (second, third))

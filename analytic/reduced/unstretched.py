@@ -22,7 +22,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state, warn_if_rpm
 from ..input_checks import rotation_speed, whole_number
 from ..profiles import evaluated
-from ..quadrature import axial_basis, gauss_points, integrals_from_clamp, transverse_basis
+from ..quadrature import axial_basis, gauss_points_on, integrals_from_clamp, transverse_basis
 from ..unit_blade import UnitBlade
 
 _FEWEST, _MOST = 24, 96
@@ -68,8 +68,8 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
             return found * beam.frequency_scale
     raise ValueError(
         f"the frequencies at omega = {omega:g} rad/s have not settled to {_SETTLED:g} with "
-        f"{_MOST} functions: the last doubling changes them by {change:.1e}; ask for fewer, "
-        f"or smooth what changes in steps"
+        f"{_MOST} functions: the last doubling changes them by {change:.1e}; rotate "
+        f"slower, or take linear_modes"
     )
 
 
@@ -79,16 +79,22 @@ def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int)
     With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric, and with
     M = FFᵀ, ν = 1/Ω that is [[C, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y.
     """
-    x, dx = blade.quadrature(count + 4 + blade.degree)
-    at, dm = blade.inertia(count + 4 + blade.degree)
-    across, along = transverse_basis(count, at).value, axial_basis(count, at).value
-    bent, pulled = transverse_basis(count, x).curvature, axial_basis(count, x).slope
+    a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
+    count = a_panel * blade.panel_count
+    x, dx = blade.quadrature(a_panel + 4 + blade.degree)
+    at, dm = blade.inertia(a_panel + 4 + blade.degree)
+    across = transverse_basis(a_panel, at, panels).value
+    along = axial_basis(a_panel, at, panels).value
+    bent = transverse_basis(a_panel, x, panels).curvature
+    pulled = axial_basis(a_panel, x, panels).slope
 
     # ∫N f dx = ∫(δ + ξ) ∫_0^ξ f dx dm, for f the product of two slopes.
-    inner, _ = gauss_points(2 * count + 1)
-    tension = w_bar**2 * ((blade.hub + at) * dm) @ integrals_from_clamp(inner.size, at)
-    slope = transverse_basis(count, inner).slope
-    turning = transverse_basis(count, np.append(x, [one[0] for one in blade.masses])).slope
+    inner, _ = gauss_points_on(2 * a_panel + 3, panels)
+    lever = w_bar**2 * (blade.hub + at) * dm
+    tension = lever @ integrals_from_clamp(2 * a_panel + 3, at, panels)
+    slope = transverse_basis(a_panel, inner, panels).slope
+    turns = np.append(x, [one[0] for one in blade.masses])
+    turning = transverse_basis(a_panel, turns, panels).slope
     dj = np.append(dx * evaluated(blade.rotary, x), [one[2] for one in blade.masses])
 
     def product(left: FloatArray, measure: FloatArray, right: FloatArray) -> FloatArray:

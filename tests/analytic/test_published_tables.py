@@ -136,7 +136,7 @@ def test_unstretched_frequencies_are_in_rad_per_second(beam):
         (CHORDWISE, -1.0, 3, "omega must not be negative"),
         (CHORDWISE, 1.0, 25, "count must be at most 24, got 25: ask for less"),
         (CHORDWISE, 110.0, 3, "leaves no steady state"),
-        (CHORDWISE.with_point_mass(0.1, 0.5, 0.01), 3.0, 3, "have not settled to 1e-05 with 96"),
+        (UNIT, 1000.0, 3, "have not settled to 1e-05 with 96 .*; rotate slower"),
     ],
 )
 @pytest.mark.filterwarnings("ignore:omega:analytic.input_checks.RotbeamWarning")
