@@ -100,6 +100,11 @@ def turned_velocities(
     return velocities + sine * once + versine * twice
 
 
+def radial(element: Formulation) -> FloatArray:
+    """Return one for coordinates along the clamp's line, which J turns across it, else 0, (n,)."""
+    return np.asarray((element.quarter_turn > 0.0).any(axis=0), dtype=np.float64)
+
+
 def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:
     """Return J e + a, the velocities of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
     return coordinates @ element.quarter_turn.T + element.angles

@@ -1,0 +1,102 @@
+"""Blades set at an angle, from lag to flap, in Exudyn: against the exact blade and its orbits."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
+from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
+from rotbeam_exu.fem import add_rotating_beam
+from rotbeam_exu.fem.elements import FORMULATIONS, formulation
+from rotbeam_exu.fem.linearization import growth_rate, mass_matrix
+from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.verdict import _reach
+
+FLAP = 0.5 * math.pi
+
+
+@pytest.fixture(scope="module")
+def heavy(beam):
+    return beam.with_hub_radius(0.8).with_tip_mass(0.5)
+
+
+@pytest.mark.parametrize("psi", [0.25 * math.pi, FLAP])
+def test_frequencies_keep_the_fourth_order(heavy, psi, fitted_order):
+    blade = heavy.with_setting_angle(psi)
+    exact = linear_modes(blade, 6.0, 2).frequencies
+    meshes = np.array([16, 32, 64])
+    errors = np.array(
+        [natural_frequencies(blade, 6.0, elements=n, count=2) / exact - 1.0 for n in meshes]
+    )
+    assert errors[-1].max() < 1e-7
+    for mode in errors.T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
+
+
+@pytest.mark.parametrize("element", ["cable", "exact"])
+def test_flap_squared_is_lag_squared_and_the_speed_squared(heavy, element):
+    """So it is of an inextensible blade; the Coriolis force along a blade that gives is of μ w̄²."""
+    omega = 6.0
+    lag, flap = (
+        natural_frequencies(blade, omega, element=element, elements=8, count=2)
+        for blade in (heavy, heavy.with_setting_angle(FLAP))
+    )
+    w_bar = omega / heavy.frequency_scale
+    allowed = 4.0 * heavy.slenderness * w_bar**2
+    assert flap**2 == pytest.approx(lag**2 + omega**2, rel=allowed)
+
+
+def test_all_of_the_rotation_stretches_the_blade_at_any_angle(heavy):
+    lag, flap = (
+        steady_stretch(blade, 6.0, elements=8) for blade in (heavy, heavy.with_setting_angle(FLAP))
+    )
+    assert flap == pytest.approx(lag, rel=1e-12)
+    assert growth_rate(heavy.with_setting_angle(FLAP), 6.0, element="cable", elements=8) == 0.0
+
+
+@pytest.mark.parametrize("name", FORMULATIONS)
+def test_mass_couples_what_is_along_the_blade_with_nothing_across(beam, name):
+    """By this M P e and M J² e are gradients, those of ½w²∫((R + x)² + c²y²) dm."""
+    model = formulation(name)
+    mass = mass_matrix(model, beam, 3).toarray()
+    nodes = mass.shape[0] // model.angles.size
+    across = np.tile((model.quarter_turn > 0.0).any(axis=1), nodes)
+    along = np.tile((model.quarter_turn > 0.0).any(axis=0), nodes)
+    assert np.abs(mass[np.ix_(along, across)]).max() == 0.0
+    assert mass[np.ix_(along, along)] == pytest.approx(mass[np.ix_(across, across)], abs=1e-15)
+
+
+def test_a_spin_up_follows_the_exact_blade(beam):
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.2).with_setting_angle(0.25 * math.pi)
+    spin_up = SpinUp(omega=3.0, ramp_time=3.0)
+    run = simulate(blade, spin_up, elements=16, duration=6.0, step=2e-3, frame="rotating")
+    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+    size = np.abs(exact.q).max()
+    assert run.attrs["verdict"] == "passed"
+    # Mesh and step leave 1e-4.
+    assert np.abs(run["q"] - exact.q).max() < 3e-4 * size
+    assert np.abs(run["q_dot"] - exact.q_dot).max() < 3e-4 * np.abs(exact.q_dot).max()
+    for k, name in enumerate(("tip_x", "tip_y")):
+        assert np.abs(run[name] - exact.tip[:, k]).max() < 3e-4 * size
+    # The axis is not stretched by more than ω² allows: out of the plane the tip is seen as well.
+    reach = _reach(run)
+    assert reach.max() < blade.length * (1.0 + 1e-3)
+    assert reach.min() < 0.95 * blade.length < 0.99 * reach.max()
+
+
+@pytest.mark.parametrize("psi", [0.25 * math.pi, FLAP])
+def test_an_orbit_stays_the_orbit_and_keeps_its_jacobi_energy(beam, psi):
+    """No Euler force bends a blade in flap: an orbit is what sets it in motion."""
+    blade, omega = beam.with_hub_radius(0.8).with_tip_mass(0.5).with_setting_angle(psi), 3.0
+    orbit = periodic_orbits(blade, omega, [0.2])
+    run = simulate(
+        blade, SteadyRotation(omega=omega), elements=16, duration=3.0, step=1e-3, frame="rotating",
+        initial_state=lambda x: orbit.state(0, x),
+    )  # fmt: skip
+    phase = orbit.frequency[0] * run["time"].to_numpy()
+    exact = [orbit.state(0, [blade.length], phase=p).v[0] for p in phase]
+    assert np.abs(run["q"] - exact).max() < 1e-3 * np.abs(exact).max()
+    jacobi = run["jacobi_energy"].to_numpy()
+    # Of second order in the step; a wrong energy would vary by the elastic one.
+    assert np.ptp(jacobi) < 1e-5 * run["elastic_energy"].max()
