@@ -157,7 +157,8 @@ def _built(
     start = None
     if initial_state is not None:
         x = np.linspace(0.0, 1.0, len(chain.nodes))
-        start = model.coordinates(x, units.state(initial_state(case.beam.length * x)))
+        state = units.state(initial_state(case.beam.length * x))
+        start = model.coordinates(beam.unit.hub + x, state)
     _start(mbs, chain, model, rotation, case.frame, start)
     mbs.Assemble()
     return _Built(beam=built, sensors=sensors)

@@ -66,7 +66,7 @@ class Formulation(Protocol):
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
+        """Return coordinates and rates (nodes, n) of a beam in `state`, its nodes at `x` [m] from the axis."""
 
     def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
