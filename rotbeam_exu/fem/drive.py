@@ -37,6 +37,7 @@ from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
 from .elements.formulation import radial
+from .elements.point_masses import add_point_inertias
 
 
 def fix_root(
@@ -106,6 +107,7 @@ def prescribe_rotation(
             jacobianUserFunction=jacobian,
         )
     )
+    add_point_inertias(mbs, chain, lambda t: 0.0)
 
 
 def _hub_radius(mbs: exudyn.MainSystem, chain: Chain) -> float:
@@ -181,6 +183,7 @@ def add_inertial_forces(
             jacobianUserFunction=jacobian,
         )
     )
+    add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
 
 
 def _triplets(matrix: sparse.csr_array) -> FloatArray:

@@ -7,6 +7,7 @@ import numpy as np
 from analytic.arrays import FloatArray
 
 from .elements.formulation import radial, spun
+from .elements.point_masses import spins
 from .rotating_beam import RotatingBeam
 
 
@@ -41,5 +42,8 @@ def energy_and_momentum(
     momentum = v @ built.mass
     about_normal = np.sum(turning * momentum, axis=1)
     twice = np.sum(v * momentum, axis=1)
+    for inertia, spin in spins(built.chain.turning, coordinates, velocities):
+        about_normal += inertia * spin
+        twice += inertia * spin**2
     normal = (1.0 - setting**2) * rate * np.sum(along * (along @ built.mass), axis=1)
     return 0.5 * (twice + rate * normal), setting * about_normal + normal

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic import AnyBlade, Blade
+from analytic import AnyBlade, Blade, PointMass
 from analytic.arrays import FloatArray
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
@@ -91,13 +91,13 @@ class Mesh:
                 rotary_inertia=m * EI / EA if homogeneous else given,
             )
 
-    def lumped(self) -> Iterator[tuple[int, float]]:
+    def lumped(self) -> Iterator[tuple[int, PointMass]]:
         """Yield the nodes that carry a mass, and the masses.
 
         Raises
         ------
         ValueError
-            If a mass is not at a node, or has an inertia, which these elements do not model.
+            If a mass is not at a node.
         """
         if not isinstance(self.blade, Blade):
             return
@@ -111,10 +111,4 @@ class Mesh:
                     f"{off / self.blade.length:.2g} of it away: take a number of elements that "
                     "puts one there"
                 )
-            if one.inertia:
-                raise ValueError(
-                    "the finite elements take point masses without inertia: leave it out, or "
-                    "take analytic.spin_up_response"
-                )
-            if one.mass:
-                yield node, one.mass
+            yield node, one

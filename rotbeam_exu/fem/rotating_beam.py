@@ -32,7 +32,8 @@ class RotatingBeam:
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
     mass : csr_array
-        Mass matrix over the coordinates of the nodes, root first.
+        Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
+        chain's turning nodes.
     """
 
     model: Formulation

@@ -83,9 +83,10 @@ def simulate(
     -------
     Dataset
         Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x, tip_y [m] in the
-        plane of rotation and the inertial frame, angle [rad], kinetic_energy, elastic_energy, jacobi_energy = E - θ' L_z
-        [J], clamp_residual [m], direction_residual [-], axial_strain [-] (largest along
-        the beam). The attributes hold every input, versions, settings, wall time and the verdict.
+        plane of rotation and the inertial frame, angle [rad], kinetic_energy, elastic_energy,
+        jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
+        [-] (largest along the beam). The attributes hold every input, versions, settings, wall
+        time and the verdict.
 
     Raises
     ------

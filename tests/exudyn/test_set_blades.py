@@ -11,7 +11,6 @@ from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import FORMULATIONS, formulation
 from rotbeam_exu.fem.linearization import growth_rate, mass_matrix
-from rotbeam_exu.fem.system import exudyn_system
 from rotbeam_exu.verdict import _reach
 
 FLAP = 0.5 * math.pi
@@ -119,3 +118,17 @@ def test_an_orbit_stays_the_orbit_and_keeps_its_jacobi_energy(beam, psi):
     assert run["kinetic_energy"][0] == pytest.approx(kinetic, rel=1e-6)
     elastic = run["elastic_energy"][0].item()
     assert jacobi[0] - elastic == pytest.approx(kinetic - omega * momentum, rel=1e-6)
+
+
+def test_a_sweep_takes_it_in_the_rotating_frame_only(beam, tmp_path):
+    blade = beam.with_setting_angle(0.3)
+    options = {"omegas": [4.0], "ramp_times": [3.0], "elements": 2, "duration": 8.0, "step": 1e-2}
+    found = sweep(blade, **options, jobs=1, cache=tmp_path, frame="rotating")
+    assert np.isfinite(found["frequency"]).all()
+    for refused in (
+        lambda: sweep(blade, **options, jobs=1, cache=tmp_path),
+        lambda: add_rotating_beam(None, blade, SpinUp(omega=4.0, ramp_time=3.0)),
+        lambda: simulate(blade, SpinUp(omega=4.0, ramp_time=3.0)),
+    ):
+        with pytest.raises(ValueError, match="setting angle with the cosine 0.9553: take frame='r"):
+            refused()

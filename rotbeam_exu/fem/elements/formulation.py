@@ -13,6 +13,9 @@ import numpy as np
 from analytic import BeamState
 from analytic.arrays import FloatArray
 
+TurningNode = tuple[int, float]
+"""A node, by its place in the chain, and the inertia [kg m²] against rotation of its slope."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Chain:
@@ -27,11 +30,15 @@ class Chain:
     elastic_energy : callable, optional
         The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
         (samples, nodes, n), where Exudyn's objects do not report it.
+    turning : tuple of TurningNode
+        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
+        and `drive` adds it.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
     bodies: tuple[exudyn.ObjectIndex, ...] = ()
     elastic_energy: Callable[[FloatArray], FloatArray] | None = None
+    turning: tuple[TurningNode, ...] = ()
 
 
 class Formulation(Protocol):
@@ -66,7 +73,10 @@ class Formulation(Protocol):
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Return coordinates and rates (nodes, n) of a beam in `state`, its nodes at `x` [m] from the axis."""
+        """Return coordinates and rates (nodes, n) of a beam in `state`.
+
+        Its nodes are at `x` [m] from the axis.
+        """
 
     def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""

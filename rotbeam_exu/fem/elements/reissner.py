@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectMassPoint2D
+from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectRigidBody2D
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
@@ -66,8 +66,10 @@ class Exact(AngleNodes, NoDivergence):
                     shearStiffness=self._shear_share * section.axial_stiffness,
                 )
             )
-        for node, mass in mesh.lumped():
-            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=mass))
+        for node, one in mesh.lumped():
+            mbs.AddObject(
+                ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
+            )
         return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
