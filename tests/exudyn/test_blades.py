@@ -127,8 +127,8 @@ def test_a_sweep_of_a_blade_resumes(beam, tmp_path):
 @pytest.mark.parametrize(
     ("make", "element", "sentence"),
     [
-        (lambda b: b.with_hub_radius(1.0), "linear", "has a hub: take 'cable' or 'exact'"),
-        (lambda b: b.with_taper(0.1), "ancf3", "has a variable section: take 'cable' or 'exact'"),
+        (lambda b: b.with_hub_radius(1.0), "linear", "a hub: take 'cable', 'exact' or 'ancf3'"),
+        (lambda b: b.with_taper(0.1), "substructures", "has a variable section: take 'cable', 'e"),
         (lambda b: b.with_point_mass(0.1, 3.3), "cable", "take a number of elements that puts one"),
     ],
 )

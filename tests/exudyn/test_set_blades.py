@@ -35,7 +35,7 @@ def test_frequencies_keep_the_fourth_order(heavy, psi, fitted_order):
         assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
 
 
-@pytest.mark.parametrize("element", ["cable", "exact"])
+@pytest.mark.parametrize("element", ["cable", "exact", "ancf3"])
 def test_flap_squared_is_lag_squared_and_the_speed_squared(heavy, element):
     """So it is of an inextensible blade; the Coriolis force along a blade that gives is of μ w̄²."""
     omega = 6.0

@@ -15,7 +15,7 @@ from analytic.arrays import FloatArray
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
-from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear
+from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +92,7 @@ class Exact(AngleNodes, NoDivergence):
 
     @property
     def _shear_share(self) -> float:
-        """k_s G A over EA."""
-        return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))
+        return shear_share(self.poisson_ratio, self.shear_correction)
 
     def _strains(
         self, beam: AnyBlade, coordinates: FloatArray
