@@ -4,10 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from exudyn.itemInterface import NodePoint2DSlope1, ObjectGenericODE2
 
 from analytic import SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_stretch
-from rotbeam_exu.fem.elements import Ancf3, Exact
+from rotbeam_exu.fem.elements import Ancf3, Chain, Exact
+from rotbeam_exu.fem.elements.point_masses import add_point_inertias, spins
+from rotbeam_exu.fem.solver import Sensors, solve, solver_settings
+from rotbeam_exu.fem.system import exudyn_system
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +59,34 @@ def test_the_papers_element_has_it_on_its_section(heavy, fitted_order):
     assert natural_frequencies(heavy, omega, element=stiff, elements=32, count=2) == pytest.approx(
         exact, rel=8e-5
     )
+
+
+def test_a_free_slope_keeps_energy_and_angular_momentum():
+    """Its length grows as well: ½M|ṗ|² + ½Jϑ̇², more than a blade stretches."""
+    M, J, samples = 1.0, 2.0, 3
+    with exudyn_system() as mbs:
+        node = mbs.AddNode(
+            NodePoint2DSlope1(
+                referenceCoordinates=[0.0, 0.0, 1.0, 0.0], initialVelocities=[0.0, 0.0, 0.5, 1.0]
+            )
+        )
+        mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=M * np.eye(4)))
+        chain = Chain(nodes=(node,), turning=((0, J),))
+        add_point_inertias(mbs, chain, lambda t: 0.0)
+        sensors = Sensors(mbs, chain)
+        mbs.Assemble()
+        settings, _ = solver_settings(400, 2.5e-3, 200, "rotating", round_off=1e-10)
+        assert solve(mbs, settings, None) is None
+        found = sensors.read()
+    p, rate = found.coordinates[:, 0, 2:], found.velocities[:, 0, 2:]
+    ((_, spin),) = spins(chain.turning, found.coordinates, found.velocities)
+    assert found.time.size == samples
+    energy = 0.5 * (M * np.sum(rate**2, axis=1) + J * spin**2)
+    momentum = M * (p[:, 0] * rate[:, 1] - p[:, 1] * rate[:, 0]) + J * spin
+    # The length has doubled and the spin halved; the step leaves 1e-6.
+    assert spin[-1] < 0.6 * spin[0]
+    assert energy == pytest.approx(np.full(samples, energy[0]), rel=1e-5)
+    assert momentum == pytest.approx(np.full(samples, momentum[0]), rel=1e-5)
 
 
 @pytest.mark.parametrize("element", ["cable", "exact", "ancf3"])
