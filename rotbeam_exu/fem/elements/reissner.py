@@ -24,7 +24,7 @@ class Exact(AngleNodes, NoDivergence):
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
     integrated at one Gauss point fewer than there are nodes, which keeps shear from locking. The
-    section has its rotary inertia ρI.
+    section has its rotary inertia ρI; at a setting angle ψ it turns by φ' + θ' cos ψ.
 
     Parameters
     ----------
