@@ -119,9 +119,12 @@ def remedy(run: xr.Dataset, t: float) -> str:
 
 def _reach(run: xr.Dataset) -> NDArray[np.float64]:
     """Return the tip's distance from the clamp [m], (samples,)."""
-    radius = beam_of(run.attrs).unit.hub * float(run.attrs["beam_length"])
+    unit = beam_of(run.attrs).unit
+    radius = unit.hub * float(run.attrs["beam_length"])
     tip = run["tip_x"].to_numpy() + 1j * run["tip_y"].to_numpy()
-    return np.asarray(np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy())))
+    in_plane = np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy()))
+    out_of_plane = math.sqrt(1.0 - unit.setting**2) * run["q"].to_numpy()
+    return np.asarray(np.hypot(in_plane, out_of_plane))
 
 
 def check_run(run: xr.Dataset) -> str:

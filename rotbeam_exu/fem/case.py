@@ -13,7 +13,7 @@ from analytic.input_checks import positive, whole_number
 from ..resolution import checked_steps
 from ..verdict import beam_attributes
 from .elements import Formulation, formulation, options_of, require_modeled
-from .solver import Frame
+from .solver import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,8 +51,7 @@ class Case:
             ("step", positive("step", self.step, "s")),
         ):
             object.__setattr__(self, name, value)
-        if self.frame not in ("inertial", "rotating"):
-            raise ValueError(f"unknown frame {self.frame!r}; known are 'inertial' and 'rotating'")
+        require_frame(self.beam, self.frame)
         require_modeled(self.beam, self.model)
         _ = self.steps_and_sampling
         try:

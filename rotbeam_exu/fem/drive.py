@@ -3,10 +3,16 @@
 In the inertial frame the root's direction follows θ(t) of Eq. 1 by a rheonomic constraint. In the
 rotating frame the root stands still and the beam carries the inertial forces of the frame,
 
-    f = -θ'² M J² e - θ'' M (J e + a) - 2 θ' M J e',
+    f = -c² θ'² M J² e - c θ'' M (J e + a) - 2 c θ' M J e' + s² θ'² M P e,
 
-exact where, as in all elements here, mass matrix and elastic forces commute with a rotation
-exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and a is one for angles.
+with c = cos ψ and s = sin ψ of the setting angle: a rotation about the normal of the plane of
+bending by cθ, and what the rest of it adds, a centrifugal force along the clamp's line. Exact
+where, as in all elements here, mass matrix and elastic forces commute with a rotation
+exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and P on their share along the
+clamp's line; a is one for angles.
+
+Sections that have an inertia of their own are so laminae in the plane of bending, where slopes
+carry it, and ½ρI(φ' + cθ')² where angles do: no more than the order of μ apart.
 """
 
 from __future__ import annotations
@@ -30,6 +36,8 @@ from analytic.arrays import FloatArray
 from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
+from .elements.formulation import radial
+from .elements.point_masses import add_point_inertias
 
 
 def fix_root(
@@ -99,6 +107,7 @@ def prescribe_rotation(
             jacobianUserFunction=jacobian,
         )
     )
+    add_point_inertias(mbs, chain, lambda t: 0.0)
 
 
 def _hub_radius(mbs: exudyn.MainSystem, chain: Chain) -> float:
@@ -125,18 +134,22 @@ def add_inertial_forces(
     element: Formulation,
     mass: sparse.csr_array,
     rotation: Rotation,
+    setting: float,
 ) -> None:
     """Load the beam with centrifugal, Euler and Coriolis forces (rotating frame).
 
-    The mass matrix is that of the chain alone, over all its coordinates, root first.
+    The mass matrix is that of the chain alone, over all its coordinates, root first; `setting` is
+    the cosine c of the setting angle.
     """
-    turn = sparse.kron(sparse.eye_array(len(chain.nodes)), element.quarter_turn, format="csr")
+    nodes = len(chain.nodes)
+    turn = setting * sparse.kron(sparse.eye_array(nodes), element.quarter_turn)
+    along = sparse.diags_array(np.tile(radial(element), nodes))
     gyroscopic = (mass @ turn).tocsr()
-    centrifugal = (-(mass @ turn @ turn)).tocsr()
+    centrifugal = (mass @ ((1.0 - setting**2) * along - turn @ turn)).tocsr()
     reference = np.concatenate(
         [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
     )
-    angular = mass @ np.tile(element.angles, len(chain.nodes))
+    angular = setting * (mass @ np.tile(element.angles, nodes))
     stiff_triplets, gyro_triplets = _triplets(centrifugal), _triplets(gyroscopic)
 
     def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
@@ -170,6 +183,7 @@ def add_inertial_forces(
             jacobianUserFunction=jacobian,
         )
     )
+    add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
 
 
 def _triplets(matrix: sparse.csr_array) -> FloatArray:

@@ -74,13 +74,13 @@ def natural_frequencies(
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
-    Small in-plane vibration about the equilibrium stretched by the rotation, Coriolis and
-    centrifugal terms included: the ω_n to which a nonlinear frequency of the same mesh belongs.
+    Small vibration in the plane of bending, about the equilibrium stretched by the rotation,
+    Coriolis and centrifugal terms included: the ω_n to which a nonlinear frequency of the same
+    mesh belongs.
 
     Parameters
     ----------
-    beam : Beam
-        The beam.
+    beam : Beam or Blade
     omega : float
         Steady angular velocity ω [rad/s].
     element, elements
@@ -174,7 +174,7 @@ def linearized(
     with exudyn_system() as mbs:
         chain = model.lay(mbs, unit_beam, elements)
         drive.fix_root(mbs, chain, model, direction=True)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
         mbs.Assemble()
         settings = _static_settings(unit_beam, elements)
         try:

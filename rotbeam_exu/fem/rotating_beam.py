@@ -15,7 +15,7 @@ from analytic.motion import Rotation
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
 from .linearization import mass_matrix
-from .solver import Frame
+from .solver import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,8 @@ class RotatingBeam:
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
     mass : csr_array
-        Mass matrix over the coordinates of the nodes, root first.
+        Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
+        chain's turning nodes.
     """
 
     model: Formulation
@@ -65,27 +66,27 @@ def add_rotating_beam(
     """Put a beam whose clamped end follows `rotation` into an Exudyn system.
 
     The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on
-    its hub, straight and at rest. `simulate` builds its model by this.
+    its hub, straight and at rest; y is the direction in which it bends, out of the plane of
+    rotation by the setting angle. `simulate` builds its model by this.
 
     Parameters
     ----------
-       mbs : exudyn.MainSystem
-       beam : Beam or Blade
-           In the units of the system, SI as a rule.
-       rotation : SpinUp or SteadyRotation
-           Angle of the clamp over time.
-       element, elements, frame
-           As in `simulate`.
+    mbs : exudyn.MainSystem
+    beam : Beam or Blade
+        In the units of the system, SI as a rule.
+    rotation : SpinUp or SteadyRotation
+        Angle of the clamp over time.
+    element, elements, frame
+        As in `simulate`.
 
     Raises
     ------
-       ValueError
-           If an input is refused, or the formulation does not model the blade.
+    ValueError
+        If an input is refused, or the formulation does not model the blade.
     """
     model, elements = formulation(element), whole_number("elements", elements)
     require_modeled(beam, model)
-    if frame not in ("inertial", "rotating"):
-        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
+    require_frame(beam, frame)
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
     if frame == "inertial":
@@ -93,7 +94,7 @@ def add_rotating_beam(
         drive.prescribe_rotation(mbs, chain, model, rotation)
     else:
         drive.fix_root(mbs, chain, model, direction=True)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation)
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
     root, tip = (mbs.AddMarker(MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1))
     sensor = mbs.AddSensor(
         SensorNode(

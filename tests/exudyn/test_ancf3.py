@@ -9,6 +9,7 @@ from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, formulation
 from rotbeam_exu.fem.elements.ancf3 import _Row
 from rotbeam_exu.fem.linearization import mass_matrix
+from rotbeam_exu.fem.mesh import Mesh
 
 
 def first_frequency(beam, omega, element, elements):
@@ -101,7 +102,9 @@ def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):
 
 @pytest.mark.parametrize("law", ["uncoupled", "coupled"])
 def test_tangent_and_force_are_derivatives(beam, law):
-    row, rng = _Row(Ancf3(law=law, poisson_ratio=0.2), beam, 3), np.random.default_rng(1)
+    blade = beam.with_taper(0.3, 0.5)
+    row = _Row(Ancf3(law=law, poisson_ratio=0.2), Mesh(blade=blade, elements=3))
+    rng = np.random.default_rng(1)
     nodes = np.zeros((7, 4))
     nodes[:, 0], nodes[:, 3] = np.linspace(0.0, 8.0, 7), 1.0
     e = (nodes + 0.05 * rng.standard_normal(nodes.shape)).ravel()
@@ -141,6 +144,35 @@ def test_mass_is_that_of_the_beam(beam):
     assert along.ravel() @ mass @ along.ravel() == pytest.approx(beam.mass, rel=1e-14)
     inertia = beam.mass * beam.length**2 / 3 + beam.density * beam.second_moment * beam.length
     assert about.ravel() @ mass @ about.ravel() == pytest.approx(inertia, rel=1e-14)
+
+
+def test_mass_is_that_of_a_blade_that_tapers(beam):
+    """∫(m + ρI) x⁴ dx of quadratic r and r_y; ρI = m EI/EA of a homogeneous section."""
+    blade = beam.with_taper(0.3, 0.5)
+    x = np.polynomial.Polynomial([0.0, beam.length])
+    width, height = np.polynomial.Polynomial([1, -0.3]), np.polynomial.Polynomial([1, -0.5])
+    m = beam.mass_per_length * width * height
+    both = m + beam.density * beam.second_moment * width * height**3
+    nodes = np.zeros((9, 4))
+    nodes[:, 1] = nodes[:, 2] = np.linspace(0.0, beam.length, 9) ** 2
+    found = nodes.ravel() @ mass_matrix(Ancf3(), blade, 4) @ nodes.ravel()
+    assert found == pytest.approx(beam.length * (both * x**4).integ()(1.0), rel=1e-13)
+
+
+def test_a_taper_keeps_the_fourth_order(beam, fitted_order):
+    """The section is that of each Gauss point; soft shear as above."""
+    blade = beam.with_hub_radius(0.8).with_taper(0.3, 0.5).with_tip_mass(0.1)
+    soft, meshes = Ancf3(shear_correction=0.1), [8, 16, 32]
+    fine = natural_frequencies(blade, 6.0, element=soft, elements=64, count=2)
+    errors = np.array(
+        [natural_frequencies(blade, 6.0, element=soft, elements=n, count=2) for n in meshes]
+    )
+    for mode in np.abs(errors / fine - 1.0).T:
+        assert -fitted_order(meshes, mode) == pytest.approx(4.0, abs=0.15)
+    # Shear and rotary inertia are of the order of μ times squares of the mode's number.
+    plain = natural_frequencies(blade, 6.0, element="ancf3", elements=32, count=2)
+    exact = linear_modes(blade, 6.0, 2).frequencies
+    assert plain == pytest.approx(exact, rel=5e-5)
 
 
 def test_refuses():

@@ -65,16 +65,11 @@ def require_modeled(beam: AnyBlade, model: Formulation) -> None:
     unit = beam.unit
     if unit == UNIFORM:
         return
-    if unit.setting != 1.0:
-        raise ValueError(
-            "the finite element models turn in the plane of bending, and this blade has a setting "
-            f"angle with the cosine {unit.setting:.4g}: take analytic.spin_up_response"
-        )
     if not getattr(model, "takes_blades", False):
         takes = [name for name, cls in FORMULATIONS.items() if getattr(cls, "takes_blades", False)]
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
-            f"{unit.differences}: take {' or '.join(map(repr, takes))}"
+            f"{unit.differences}: take {', '.join(map(repr, takes[:-1]))} or {takes[-1]!r}"
         )
 
 

@@ -10,13 +10,16 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodePoint2DSlope1
 
-from analytic import Beam
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.quadrature import gauss_points
 
+from ..mesh import Mesh
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain, NoDivergence
 from .node_kinds import SectionSlopeNodes
-from .section import POISSON_RATIO, checked_shear, rectangle, shear_modulus
+from .point_masses import add_point_masses
+from .section import POISSON_RATIO, checked_shear, shear_share
 
 Law = Literal["uncoupled", "coupled"]
 
@@ -44,6 +47,9 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
     nodes i, j and k: the print repeats i). Strains are Green-Lagrange's (Eq. 10), of a section
     h × b that has the beam's A and I, integrated exactly over the section and at two Gauss points
     along the element. The mass matrix (Eq. 9) is exact and holds the section's rotary inertia.
+    A blade has its own section at these points: with taper or without, frequencies converge to
+    fourth order. Where it gives no rotary inertia it has that of a homogeneous section; at a
+    setting angle sections are laminae in the plane of bending.
     The clamp holds r = 0 besides r_y (Eq. 14): 16 elements have 132 - 4 = 128 degrees of freedom,
     where the paper counts 130.
 
@@ -63,6 +69,7 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
     shear_correction: float = 1.0
 
     name: ClassVar[str] = "ancf3"
+    takes_blades: ClassVar[bool] = True
     summary: ClassVar[str] = "the paper's ANCF element, three nodes, quadratic, shear-deformable"
 
     def __post_init__(self) -> None:
@@ -70,56 +77,63 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
             raise ValueError(f"unknown law {self.law!r}; known are 'uncoupled' and 'coupled'")
         checked_shear(self.poisson_ratio, self.shear_correction)
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
-        """Add one body for all `elements`, of equal length, along the x axis."""
-        body = _Row(self, beam, elements)
+    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+        """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
+        mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
+        body = _Row(self, mesh)
         nodes = tuple(
             mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0]))
-            for x in np.linspace(0.0, beam.length, body.assembly.nodes)
+            for x in mesh.positions
         )
-        mass = body.assembly.matrix(_mass(beam, elements))
-        add_energy_body(mbs, nodes, mass, body.force, body.tangent)
-        return Chain(nodes=nodes, elastic_energy=body.energy)
+        add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)
+        turning = add_point_masses(mbs, nodes, mesh)
+        return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)
 
-    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """|r_x| - 1 at the Gauss points of the axis."""
         elements = (coordinates.shape[-2] - 1) // 2
-        z = _Row(self, beam, elements).vectors(coordinates.reshape(*coordinates.shape[:-2], -1))
+        row = _Row(self, Mesh(blade=beam, elements=elements))
+        z = row.vectors(coordinates.reshape(*coordinates.shape[:-2], -1))
         strain = np.hypot(z[..., 0], z[..., 1]) - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))
 
-    def moduli(self, beam: Beam) -> FloatArray:
-        """Return D (6, 6) of the energy per length ½ g·D g in the six invariants g, Eq. 12.
+    def moduli(self, EA: FloatArray, EI: FloatArray) -> FloatArray:
+        """Return D (..., 6, 6) of the energy per length ½ g·D g in the six invariants g, Eq. 12.
 
-        With a, b, c the first three, ε_xx = a + y b + y² c over the section; ε_yy is the fourth,
-        and 2 ε_xy the fifth plus y times the last. ∫(1, y², y⁴) dA = A, I, Ah⁴/80.
+        Of sections with axial and bending stiffness `EA` and `EI`, (...). With a, b, c the first
+        three invariants, ε_xx = a + y b + y² c over the section; ε_yy is the fourth, and 2 ε_xy
+        the fifth plus y times the last. ∫E(1, y², y⁴) dA = EA, EI, EA h⁴/80 with h² = 12 EI/EA.
         """
-        area, inertia = beam.area, beam.second_moment
-        fourth = area * rectangle(beam)[0] ** 4 / 80.0
         nu = self.poisson_ratio if self.law == "coupled" else 0.0
-        modulus = beam.youngs_modulus / (1.0 - nu**2)
-        shear = self.shear_correction * shear_modulus(beam, self.poisson_ratio)
-        d = np.zeros((6, 6))
-        d[:4, :4] = modulus * np.array(
-            [
-                [area, 0.0, inertia, nu * area],
-                [0.0, inertia, 0.0, 0.0],
-                [inertia, 0.0, fourth, nu * inertia],
-                [nu * area, 0.0, nu * inertia, area],
-            ]
-        )
-        d[4, 4], d[5, 5] = shear * area, shear * inertia
+        plane = 1.0 / (1.0 - nu**2)
+        shear = shear_share(self.poisson_ratio, self.shear_correction)
+        d = np.zeros((*EA.shape, 6, 6))
+        for i, j, value in (
+            (0, 0, plane * EA),
+            (0, 2, plane * EI),
+            (0, 3, plane * nu * EA),
+            (1, 1, plane * EI),
+            (2, 2, plane * 1.8 * EI**2 / EA),
+            (2, 3, plane * nu * EI),
+            (3, 3, plane * EA),
+            (4, 4, shear * EA),
+            (5, 5, shear * EI),
+        ):
+            d[..., i, j] = d[..., j, i] = value
         return d
 
 
 class _Row:
     """Energy, forces and tangent of a row of elements, at all Gauss points at once."""
 
-    def __init__(self, element: Ancf3, beam: Beam, elements: int) -> None:
-        self.assembly = Assembly(elements, inner=2, per_node=4)
-        length = beam.length / elements
-        self._shape = _axis_vectors(length)
-        self._moduli = 0.5 * length * element.moduli(beam)  # the weight of either Gauss point
+    def __init__(self, element: Ancf3, mesh: Mesh) -> None:
+        self.assembly = Assembly(mesh.elements, inner=2, per_node=4)
+        self._shape = _axis_vectors(mesh.length)
+        section = mesh.sections_at(gauss_points(2)[0])
+        # The weight of either Gauss point; (elements, points, 6, 6).
+        self._moduli = (
+            0.5 * mesh.length * element.moduli(section.axial_stiffness, section.bending_stiffness)
+        )
 
     def vectors(self, coordinates: FloatArray) -> FloatArray:
         """Return z = (r_x, r_y, r_xy) at the Gauss points, (..., elements, points, 6)."""
@@ -129,23 +143,26 @@ class _Row:
     def energy(self, coordinates: FloatArray) -> FloatArray:
         """Return the elastic energy (samples,) of coordinates (samples, nodes, 4)."""
         invariants = self._strains(coordinates.reshape(coordinates.shape[0], -1))[0]
-        return 0.5 * np.asarray(np.sum((invariants @ self._moduli) * invariants, axis=(1, 2, 3)))
+        return 0.5 * np.asarray(np.sum(self._stresses(invariants) * invariants, axis=(1, 2, 3)))
 
     def force(self, e: FloatArray) -> FloatArray:
         """Return the gradient of the energy, Bᵀ Σ (D g)_i Q_i z."""
         invariants, slopes = self._strains(e)
-        stresses = invariants @ self._moduli
-        conjugate = (stresses[..., None, :] @ slopes)[..., 0, :]
+        conjugate = (self._stresses(invariants)[..., None, :] @ slopes)[..., 0, :]
         return self.assembly.vector(conjugate.reshape(-1, 12) @ self._shape.reshape(12, 12))
 
     def tangent(self, e: FloatArray) -> FloatArray:
         """Return the derivative of the force, Bᵀ [Gᵀ D G + Σ (D g)_i Q_i] B with G = (Q_i z)."""
         invariants, slopes = self._strains(e)
         inner = np.swapaxes(slopes, -1, -2) @ self._moduli @ slopes
-        inner += np.tensordot(invariants @ self._moduli, _FORMS, axes=1)
+        inner += np.tensordot(self._stresses(invariants), _FORMS, axes=1)
         return self.assembly.triplets(
             np.einsum("pia,jpik,pkb->jab", self._shape, inner, self._shape, optimize=True)
         )
+
+    def _stresses(self, invariants: FloatArray) -> FloatArray:
+        """Return D g, (..., elements, points, 6)."""
+        return np.asarray((self._moduli @ invariants[..., None])[..., 0])
 
     def _strains(self, e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the invariants g (..., points, 6) and their gradients Q_i z (..., 6, 6)."""
@@ -157,17 +174,28 @@ class _Row:
 @lru_cache
 def _axis_vectors(length: float) -> FloatArray:
     """B (points, 6, 12) of (r_x, r_y, r_xy) = B e from Eqs. 3-7 at y = 0, two Gauss points."""
-    xi = 0.5 * (np.polynomial.legendre.leggauss(2)[0] + 1.0)
-    values = np.stack([1 - 3 * xi + 2 * xi**2, 4 * xi - 4 * xi**2, 2 * xi**2 - xi], axis=1)
+    xi = gauss_points(2)[0]
+    values = _shape_functions(xi)
     slopes = np.stack([4 * xi - 3, 4 - 8 * xi, 4 * xi - 1], axis=1) / length
     rows = np.zeros((2, 3, 3, 2))  # points, vectors, nodes, r or r_y
     rows[:, 0, :, 0], rows[:, 1, :, 1], rows[:, 2, :, 1] = slopes, values, slopes
     return np.asarray(np.kron(rows.reshape(2, 3, 6), np.eye(2)), dtype=np.float64)
 
 
-def _mass(beam: Beam, elements: int) -> FloatArray:
-    """Mass matrix (12, 12) of an element, Eq. 9: exact, with ρI for the slopes."""
-    length = beam.length / elements
-    overlap = length / 30.0 * np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]])
-    section = beam.density * np.diag([beam.area, beam.second_moment])
-    return np.asarray(np.kron(np.kron(overlap, section), np.eye(2)), dtype=np.float64)
+def _shape_functions(xi: FloatArray) -> FloatArray:
+    """Eqs. 3-5 at ξ = x/l, (points, nodes)."""
+    return np.stack([1 - 3 * xi + 2 * xi**2, 4 * xi - 4 * xi**2, 2 * xi**2 - xi], axis=1)
+
+
+def _mass(mesh: Mesh) -> FloatArray:
+    """Mass matrices (elements, 12, 12), Eq. 9, with ρI for the slopes.
+
+    Five points are exact for sections that vary as those of a taper do, by x⁴ at most.
+    """
+    xi, weights = gauss_points(5)
+    section, values = mesh.sections_at(xi), _shape_functions(xi)
+    mass = np.zeros((mesh.elements, 3, 2, 3, 2))  # nodes, r or r_y
+    for kind, density in enumerate((section.mass_per_length, section.rotary_inertia)):
+        mass[:, :, kind, :, kind] = np.einsum("pa,pb,ep->eab", values, values, density * weights)
+    blocks = mesh.length * mass.reshape(mesh.elements, 6, 6)
+    return np.asarray(np.kron(blocks, np.eye(2)[None]), dtype=np.float64)

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D, ObjectMassPoint2D
+from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
@@ -16,6 +16,7 @@ from analytic.arrays import FloatArray
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import SlopeNodes
+from .point_masses import add_point_masses
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,9 +48,7 @@ class Cable(SlopeNodes, NoDivergence):
             )
             for pair, section in zip(pairwise(nodes), mesh.sections(), strict=True)
         )
-        for node, mass in mesh.lumped():
-            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=mass))
-        return Chain(nodes=nodes, bodies=bodies)
+        return Chain(nodes=nodes, bodies=bodies, turning=add_point_masses(mbs, nodes, mesh))
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""

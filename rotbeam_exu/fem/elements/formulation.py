@@ -13,6 +13,9 @@ import numpy as np
 from analytic import BeamState
 from analytic.arrays import FloatArray
 
+TurningNode = tuple[int, float]
+"""A node, by its place in the chain, and the inertia [kg m²] against rotation of its slope."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Chain:
@@ -27,11 +30,15 @@ class Chain:
     elastic_energy : callable, optional
         The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
         (samples, nodes, n), where Exudyn's objects do not report it.
+    turning : tuple of TurningNode
+        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
+        and `drive` adds it.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
     bodies: tuple[exudyn.ObjectIndex, ...] = ()
     elastic_energy: Callable[[FloatArray], FloatArray] | None = None
+    turning: tuple[TurningNode, ...] = ()
 
 
 class Formulation(Protocol):
@@ -66,7 +73,10 @@ class Formulation(Protocol):
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Return coordinates and rates (nodes, n) of a beam in `state` at the nodes `x` [m]."""
+        """Return coordinates and rates (nodes, n) of a beam in `state`.
+
+        Its nodes are at `x` [m] from the axis.
+        """
 
     def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
@@ -98,6 +108,11 @@ def turned_velocities(
     twice = once @ element.quarter_turn.T
     sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
     return velocities + sine * once + versine * twice
+
+
+def radial(element: Formulation) -> FloatArray:
+    """Return one for coordinates along the clamp's line, which J turns across it, else 0, (n,)."""
+    return np.asarray((element.quarter_turn > 0.0).any(axis=0), dtype=np.float64)
 
 
 def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:

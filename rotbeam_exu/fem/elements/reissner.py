@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectMassPoint2D
+from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectRigidBody2D
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
@@ -15,7 +15,7 @@ from analytic.arrays import FloatArray
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
-from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear
+from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +24,7 @@ class Exact(AngleNodes, NoDivergence):
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
     integrated at one Gauss point fewer than there are nodes, which keeps shear from locking. The
-    section has its rotary inertia ρI.
+    section has its rotary inertia ρI; at a setting angle ψ it turns by φ' + θ' cos ψ.
 
     Parameters
     ----------
@@ -66,8 +66,10 @@ class Exact(AngleNodes, NoDivergence):
                     shearStiffness=self._shear_share * section.axial_stiffness,
                 )
             )
-        for node, mass in mesh.lumped():
-            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=mass))
+        for node, one in mesh.lumped():
+            mbs.AddObject(
+                ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
+            )
         return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
@@ -90,8 +92,7 @@ class Exact(AngleNodes, NoDivergence):
 
     @property
     def _shear_share(self) -> float:
-        """k_s G A over EA."""
-        return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))
+        return shear_share(self.poisson_ratio, self.shear_correction)
 
     def _strains(
         self, beam: AnyBlade, coordinates: FloatArray

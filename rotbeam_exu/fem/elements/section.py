@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
-from analytic import Beam
 from analytic.input_checks import finite_number, positive
 
 POISSON_RATIO = 0.3
@@ -14,15 +11,9 @@ SHEAR_CORRECTION = 5.0 / 6.0
 """Default k_s of a rectangle whose section stays plane; an element may have reason for another."""
 
 
-def shear_modulus(beam: Beam, poisson_ratio: float) -> float:
-    """G = E/(2 (1 + ν)) [Pa]."""
-    return beam.youngs_modulus / (2.0 * (1.0 + poisson_ratio))
-
-
-def rectangle(beam: Beam) -> tuple[float, float]:
-    """Height h in the plane of bending and width b [m] of the rectangle with the beam's A and I."""
-    height = math.sqrt(12.0 * beam.second_moment / beam.area)
-    return height, beam.area / height
+def shear_share(poisson_ratio: float, shear_correction: float) -> float:
+    """k_s G A over EA, with G = E/(2 (1 + ν))."""
+    return shear_correction / (2.0 * (1.0 + poisson_ratio))
 
 
 def checked_shear(poisson_ratio: float, shear_correction: float) -> None:

@@ -1,0 +1,130 @@
+"""The inertia of point masses against rotation, in every element that takes blades."""
+
+import math
+
+import numpy as np
+import pytest
+from exudyn.itemInterface import NodePoint2DSlope1, ObjectGenericODE2
+
+from analytic import SpinUp, linear_modes, spin_up_response
+from rotbeam_exu import natural_frequencies, simulate, steady_stretch
+from rotbeam_exu.fem.elements import Ancf3, Chain, Exact
+from rotbeam_exu.fem.elements.point_masses import add_point_inertias, spins
+from rotbeam_exu.fem.solver import Sensors, solve, solver_settings
+from rotbeam_exu.fem.system import exudyn_system
+
+
+@pytest.fixture(scope="module")
+def heavy(beam):
+    """Tip mass 1 and inertia 0.1 in m0 L and m0 L³, at w̄ = 4."""
+    m0, length = beam.mass_per_length, beam.length
+    return beam.with_tip_mass(m0 * length, 0.1 * m0 * length**3)
+
+
+@pytest.mark.parametrize("psi", [0.0, 0.25 * math.pi])
+def test_frequencies_keep_the_fourth_order(heavy, psi, fitted_order):
+    """A constant mass of the slope would stretch the tip more on each finer mesh: 4e-4 at 64."""
+    blade, omega = heavy.with_setting_angle(psi), 4.0 * heavy.frequency_scale
+    exact = linear_modes(blade, omega, 3).frequencies
+    meshes = np.array([16, 32, 64])
+    errors = np.array(
+        [natural_frequencies(blade, omega, elements=n, count=3) / exact - 1.0 for n in meshes]
+    )
+    assert errors[-1].max() < 1e-7
+    for mode in errors.T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
+
+
+def test_reissners_beam_has_it_on_its_angle(heavy):
+    """Stiff in shear; the sections' own inertia, which the theory has not, is of the order of μ."""
+    omega = 4.0 * heavy.frequency_scale
+    stiff = Exact(nodes=3, shear_correction=1e3)
+    found = natural_frequencies(heavy, omega, element=stiff, elements=32, count=2)
+    exact = linear_modes(heavy, omega, 2).frequencies
+    assert found == pytest.approx(exact, rel=2e-5)
+
+
+def test_the_papers_element_has_it_on_its_section(heavy, fitted_order):
+    """As above but for the law of strain: Green-Lagrange's bending is stiffer by 3ε, 4e-5 here."""
+    omega = 4.0 * heavy.frequency_scale
+    # Soft in shear, round-off stays below the error of 32 elements.
+    soft, meshes = Ancf3(shear_correction=0.01), np.array([8, 16, 32])
+    fine, *found = (
+        natural_frequencies(heavy, omega, element=soft, elements=n, count=2) for n in (64, *meshes)
+    )
+    for mode in np.abs(np.array(found) / fine - 1.0).T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.2)
+    stiff = Ancf3(shear_correction=100.0)
+    exact = linear_modes(heavy, omega, 2).frequencies
+    assert natural_frequencies(heavy, omega, element=stiff, elements=32, count=2) == pytest.approx(
+        exact, rel=8e-5
+    )
+
+
+def test_a_free_slope_keeps_energy_and_angular_momentum():
+    """Its length grows as well: ½M|ṗ|² + ½Jϑ̇², more than a blade stretches."""
+    M, J, samples = 1.0, 2.0, 3
+    with exudyn_system() as mbs:
+        node = mbs.AddNode(
+            NodePoint2DSlope1(
+                referenceCoordinates=[0.0, 0.0, 1.0, 0.0], initialVelocities=[0.0, 0.0, 0.5, 1.0]
+            )
+        )
+        mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=M * np.eye(4)))
+        chain = Chain(nodes=(node,), turning=((0, J),))
+        add_point_inertias(mbs, chain, lambda t: 0.0)
+        sensors = Sensors(mbs, chain)
+        mbs.Assemble()
+        settings, _ = solver_settings(400, 2.5e-3, 200, "rotating", round_off=1e-10)
+        assert solve(mbs, settings, None) is None
+        found = sensors.read()
+    p, rate = found.coordinates[:, 0, 2:], found.velocities[:, 0, 2:]
+    ((_, spin),) = spins(chain.turning, found.coordinates, found.velocities)
+    assert found.time.size == samples
+    energy = 0.5 * (M * np.sum(rate**2, axis=1) + J * spin**2)
+    momentum = M * (p[:, 0] * rate[:, 1] - p[:, 1] * rate[:, 0]) + J * spin
+    # The length has doubled and the spin halved; the step leaves 1e-6.
+    assert spin[-1] < 0.6 * spin[0]
+    assert energy == pytest.approx(np.full(samples, energy[0]), rel=1e-5)
+    assert momentum == pytest.approx(np.full(samples, momentum[0]), rel=1e-5)
+
+
+@pytest.mark.parametrize("element", ["cable", "exact", "ancf3"])
+def test_inertia_alone_stretches_nothing(beam, element):
+    """Rotation about the clamp spins it, and does not pull at it."""
+    turning = beam.with_tip_mass(0.0, 0.1 * beam.mass_per_length * beam.length**3)
+    omega = 4.0 * beam.frequency_scale
+    one, other = (
+        steady_stretch(blade, omega, element=element, elements=16) for blade in (turning, beam)
+    )
+    assert one == pytest.approx(other, rel=1e-9)
+    one, other = (
+        natural_frequencies(blade, omega, element=element, elements=16, count=1)[0]
+        for blade in (turning, beam)
+    )
+    assert one < 0.8 * other
+
+
+def test_a_spin_up_follows_the_exact_blade_in_either_frame(beam, fitted_order):
+    m0, length = beam.mass_per_length, beam.length
+    blade = beam.with_hub_radius(0.5).with_point_mass(0.1 * m0 * length, 0.5 * length)
+    blade = blade.with_tip_mass(0.2 * m0 * length, 0.1 * m0 * length**3)
+    spin_up = SpinUp(omega=3.0, ramp_time=4.0)
+    steps = np.array([8e-3, 4e-3, 2e-3])
+    inertial, rotating = (
+        [
+            simulate(blade, spin_up, elements=16, duration=6.0, step=step, frame=frame)
+            for step in steps
+        ]
+        for frame in ("inertial", "rotating")
+    )
+    exact = spin_up_response(blade, spin_up, rotating[-1]["time"].to_numpy(), tolerance=1e-5)
+    size = np.abs(exact.q).max()
+    # Mesh and step leave 1.5e-5.
+    assert np.abs(rotating[-1]["q"] - exact.q).max() < 5e-5 * size
+    apart = [float(abs(a["q"] - b["q"]).max()) for a, b in zip(inertial, rotating, strict=True)]
+    assert fitted_order(steps, apart) == pytest.approx(2.0, abs=0.1)
+    for run in inertial[-1], rotating[-1]:
+        steady = run.where(run["time"] >= 4.0, drop=True)
+        energy = steady["jacobi_energy"].to_numpy()
+        assert np.ptp(energy) < 1e-4 * steady["elastic_energy"].max()

@@ -1,0 +1,150 @@
+"""Blades set at an angle, from lag to flap, in Exudyn: against the exact blade and its orbits."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import SpinUp, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
+from analytic.quadrature import gauss_points
+from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
+from rotbeam_exu.fem import add_rotating_beam
+from rotbeam_exu.fem.elements import FORMULATIONS, formulation
+from rotbeam_exu.fem.linearization import growth_rate, mass_matrix
+from rotbeam_exu.verdict import _reach
+
+FLAP = 0.5 * math.pi
+GAUSS = np.append(gauss_points(40)[0], 1.0)
+
+
+@pytest.fixture(scope="module")
+def heavy(beam):
+    return beam.with_hub_radius(0.8).with_tip_mass(0.5)
+
+
+@pytest.mark.parametrize("psi", [0.25 * math.pi, FLAP])
+def test_frequencies_keep_the_fourth_order(heavy, psi, fitted_order):
+    blade = heavy.with_setting_angle(psi)
+    exact = linear_modes(blade, 6.0, 2).frequencies
+    meshes = np.array([16, 32, 64])
+    errors = np.array(
+        [natural_frequencies(blade, 6.0, elements=n, count=2) / exact - 1.0 for n in meshes]
+    )
+    assert errors[-1].max() < 1e-7
+    for mode in errors.T:
+        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.05)
+
+
+@pytest.mark.parametrize("element", ["cable", "exact", "ancf3"])
+def test_flap_squared_is_lag_squared_and_the_speed_squared(heavy, element):
+    """So it is of an inextensible blade; the Coriolis force along a blade that gives is of μ w̄²."""
+    omega = 6.0
+    lag, flap = (
+        natural_frequencies(blade, omega, element=element, elements=8, count=2)
+        for blade in (heavy, heavy.with_setting_angle(FLAP))
+    )
+    w_bar = omega / heavy.frequency_scale
+    allowed = 4.0 * heavy.slenderness * w_bar**2
+    assert flap**2 == pytest.approx(lag**2 + omega**2, rel=allowed)
+
+
+def test_all_of_the_rotation_stretches_the_blade_at_any_angle(heavy):
+    lag, flap = (
+        steady_stretch(blade, 6.0, elements=8) for blade in (heavy, heavy.with_setting_angle(FLAP))
+    )
+    assert flap == pytest.approx(lag, rel=1e-12)
+    assert growth_rate(heavy.with_setting_angle(FLAP), 6.0, element="cable", elements=8) == 0.0
+
+
+@pytest.mark.parametrize("name", FORMULATIONS)
+def test_mass_couples_what_is_along_the_blade_with_nothing_across(beam, name):
+    """By this M P e and M J² e are gradients, those of ½w²∫((R + x)² + c²y²) dm."""
+    model = formulation(name)
+    mass = mass_matrix(model, beam, 3).toarray()
+    nodes = mass.shape[0] // model.angles.size
+    across = np.tile((model.quarter_turn > 0.0).any(axis=1), nodes)
+    along = np.tile((model.quarter_turn > 0.0).any(axis=0), nodes)
+    assert np.abs(mass[np.ix_(along, across)]).max() == 0.0
+    assert mass[np.ix_(along, along)] == pytest.approx(mass[np.ix_(across, across)], abs=1e-15)
+
+
+def test_a_spin_up_follows_the_exact_blade(beam):
+    blade = beam.with_hub_radius(0.8).with_tip_mass(0.2).with_setting_angle(0.25 * math.pi)
+    spin_up = SpinUp(omega=3.0, ramp_time=3.0)
+    run = simulate(blade, spin_up, elements=16, duration=6.0, step=2e-3, frame="rotating")
+    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+    size = np.abs(exact.q).max()
+    assert run.attrs["verdict"] == "passed"
+    # Mesh and step leave 1e-4.
+    assert np.abs(run["q"] - exact.q).max() < 3e-4 * size
+    assert np.abs(run["q_dot"] - exact.q_dot).max() < 3e-4 * np.abs(exact.q_dot).max()
+    for k, name in enumerate(("tip_x", "tip_y")):
+        assert np.abs(run[name] - exact.tip[:, k]).max() < 3e-4 * size
+    # From above the tip seems nearer to the clamp than it is, by 4e-2 of the largest deflection.
+    seen = (exact.tip @ [1.0, 1.0j]) * np.exp(-1j * spin_up.angle(exact.time))
+    away = np.hypot(seen.real - blade.hub_radius, exact.q)
+    assert np.abs(_reach(run) - away).max() < 3e-4 * size
+
+
+def kinetics(blade, w, state):
+    """T and L_z of blade.md's integrals over dm, the tip mass's point last."""
+    own = blade.mass - blade.point_masses[0].mass
+    dm = np.append(own * gauss_points(40)[1], blade.point_masses[0].mass)
+    c, x, y = math.cos(blade.setting_angle), blade.hub_radius + GAUSS * blade.length, state.v
+    x = x + state.u
+    across = x * state.v_dot - y * state.u_dot
+    relative = state.u_dot**2 + state.v_dot**2
+    around = x**2 + c**2 * y**2
+    kinetic = 0.5 * dm @ (relative + 2.0 * w * c * across + w**2 * around)
+    return kinetic, dm @ (c * across + w * around)
+
+
+def test_a_blade_with_all_there_is_follows_the_exact_one(beam):
+    """Hub, taper, masses with inertia and a setting angle; the paper's element sees the taper."""
+    m0, length = beam.mass_per_length, beam.length
+    blade = beam.with_hub_radius(0.5).with_taper(0.2, 0.3).with_setting_angle(0.25 * math.pi)
+    blade = blade.with_point_mass(0.1 * m0 * length, 0.5 * length)
+    blade = blade.with_tip_mass(0.1 * m0 * length, 0.02 * m0 * length**3)
+    spin_up = SpinUp(omega=3.0, ramp_time=3.0)
+    run = simulate(
+        blade, spin_up, element="ancf3", elements=8, duration=5.0, step=4e-3, frame="rotating"
+    )
+    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-5)
+    assert run.attrs["verdict"] == "passed"
+    # Mesh and step leave 2e-4, the shear and the sections' inertia less.
+    assert np.abs(run["q"] - exact.q).max() < 4e-4 * np.abs(exact.q).max()
+
+
+@pytest.mark.parametrize("psi", [0.25 * math.pi, FLAP])
+def test_an_orbit_stays_the_orbit_and_keeps_its_jacobi_energy(beam, psi):
+    """No Euler force bends a blade in flap: an orbit is what sets it in motion."""
+    blade, omega = beam.with_hub_radius(0.8).with_tip_mass(0.5).with_setting_angle(psi), 3.0
+    orbit = periodic_orbits(blade, omega, [0.2])
+    run = simulate(
+        blade, SteadyRotation(omega=omega), elements=16, duration=3.0, step=1e-3, frame="rotating",
+        initial_state=lambda x: orbit.state(0, x),
+    )  # fmt: skip
+    phase = orbit.frequency[0] * run["time"].to_numpy()
+    exact = [orbit.state(0, [blade.length], phase=p).v[0] for p in phase]
+    assert np.abs(run["q"] - exact).max() < 1e-3 * np.abs(exact).max()
+    jacobi = run["jacobi_energy"].to_numpy()
+    # Of second order in the step; a wrong energy would vary by the elastic one.
+    assert np.ptp(jacobi) < 1e-5 * run["elastic_energy"].max()
+    kinetic, momentum = kinetics(blade, omega, orbit.state(0, GAUSS * blade.length))
+    assert run["kinetic_energy"][0] == pytest.approx(kinetic, rel=1e-6)
+    elastic = run["elastic_energy"][0].item()
+    assert jacobi[0] - elastic == pytest.approx(kinetic - omega * momentum, rel=1e-6)
+
+
+def test_a_sweep_takes_it_in_the_rotating_frame_only(beam, tmp_path):
+    blade = beam.with_setting_angle(0.3)
+    options = {"omegas": [4.0], "ramp_times": [3.0], "elements": 2, "duration": 8.0, "step": 1e-2}
+    found = sweep(blade, **options, jobs=1, cache=tmp_path, frame="rotating")
+    assert np.isfinite(found["frequency"]).all()
+    for refused in (
+        lambda: sweep(blade, **options, jobs=1, cache=tmp_path),
+        lambda: add_rotating_beam(None, blade, SpinUp(omega=4.0, ramp_time=3.0)),
+        lambda: simulate(blade, SpinUp(omega=4.0, ramp_time=3.0)),
+    ):
+        with pytest.raises(ValueError, match="setting angle with the cosine 0.9553: take frame='r"):
+            refused()
