@@ -14,12 +14,18 @@ from typing import Any, Generic, Literal, TypeVar
 import numpy as np
 
 from ..arrays import FloatArray
+from .arclength import NoWayOnError
 from .fourier import full_period, full_waves
 from .system import DrivenSystem, Tangent
 
 D = TypeVar("D", bound=DrivenSystem)
 
 _DIFFERENCE = 1e-6  # of the parameter, for derivatives to it
+_TRUNCATED = 5e-6  # residual of the harmonics left out, which leave 1e-6 of the amplitude
+_UNRESOLVED = 1e-4  # residual of the functions left out; the amplitude is off by its square
+_MOST_HARMONICS = 40
+_MOST_FUNCTIONS = 64
+_MOST_UNKNOWNS = 4000
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
 
@@ -148,6 +154,8 @@ class DrivenOrbit(Generic[D]):
 
     def on(self, system: D) -> DrivenOrbit[D]:
         """Return the same orbit in the finer `system`."""
+        if system is self.system:
+            return self
         return replace(
             self, system=system, coefficients=self.system.lifted(self.coefficients, system)
         )
@@ -171,8 +179,28 @@ class ResponseCurve(Generic[D]):
     scale: float
 
     def unknowns(self, orbit: DrivenOrbit[Any]) -> FloatArray:
-        """Return the unknowns of an orbit."""
+        """Return the unknowns of an orbit, cut or padded to these harmonics and functions."""
+        orbit = orbit.with_harmonics(self.harmonics).on(self.system)
         return np.append(orbit.coefficients.ravel(), (orbit.parameter - self.origin) / self.scale)
+
+    def finer(self, orbit: DrivenOrbit[Any]) -> ResponseCurve[D] | None:
+        """Return the curve on more harmonics or functions, if the orbit lacks any."""
+        if orbit.truncation > _TRUNCATED:
+            curve = replace(self, harmonics=self.harmonics + 2)
+        elif orbit.residual > _UNRESOLVED:
+            curve = replace(self, system=self.system.refined())
+        else:
+            return None
+        if (
+            curve.harmonics > _MOST_HARMONICS
+            or curve.system.functions > _MOST_FUNCTIONS
+            or (2 * curve.harmonics + 1) * curve.system.size > _MOST_UNKNOWNS
+        ):
+            raise NoWayOnError(
+                f"{orbit.harmonics} harmonics and {orbit.system.functions} functions leave a "
+                f"residual of {orbit.residual:.1e}"
+            )
+        return curve
 
     def orbit(self, z: FloatArray) -> DrivenOrbit[D]:
         """Return the orbit of the unknowns."""

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise
-from typing import Any, Generic
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from .arclength import NoWayOnError, Point, advanced, corrected, located
 from .driven import D, DrivenOrbit, Mark, ResponseCurve
+from .orbit_curve import At
 
-_TRUNCATED = 5e-6  # residual of the harmonics left out, which leave 1e-6 of the amplitude
-_UNRESOLVED = 1e-4  # residual of the functions left out; the amplitude is off by its square
-_MOST_HARMONICS = 40
-_MOST_FUNCTIONS = 64
-_MOST_UNKNOWNS = 4000
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
 
@@ -29,50 +25,6 @@ class ResponseNotFollowedError(Exception):
     def __init__(self, message: str, orbits: list[DrivenOrbit[Any]]) -> None:
         super().__init__(message)
         self.orbits = orbits
-
-
-@dataclass(frozen=True, eq=False)
-class _At(Generic[D]):
-    """A point and the curve it is on."""
-
-    curve: ResponseCurve[D]
-    point: Point
-
-    @cached_property
-    def orbit(self) -> DrivenOrbit[D]:
-        return self.curve.orbit(self.point.z)
-
-    def on(self, curve: ResponseCurve[D]) -> _At[D]:
-        """Return the nearest point of a finer curve."""
-
-        def lifted(z: FloatArray) -> FloatArray:
-            orbit = self.curve.orbit(z).with_harmonics(curve.harmonics).on(curve.system)
-            return curve.unknowns(orbit)
-
-        here = lifted(self.point.z)
-        return _At(curve, corrected(curve, here, lifted(self.point.z + self.point.tangent) - here))
-
-    def resolved(self) -> _At[D]:
-        """Return the same with as many harmonics and functions as it needs."""
-        at, curve = self, self.curve
-        while True:
-            if at.orbit.truncation > _TRUNCATED:
-                curve = replace(curve, harmonics=curve.harmonics + 2)
-            elif at.orbit.residual > _UNRESOLVED:
-                curve = replace(curve, system=curve.system.refined())
-            else:
-                return at
-            size = (2 * curve.harmonics + 1) * curve.system.size
-            if (
-                curve.harmonics > _MOST_HARMONICS
-                or curve.system.functions > _MOST_FUNCTIONS
-                or size > _MOST_UNKNOWNS
-            ):
-                raise NoWayOnError(
-                    f"{at.orbit.harmonics} harmonics and {at.orbit.system.functions} functions "
-                    f"leave a residual of {at.orbit.residual:.1e}"
-                )
-            at = at.on(curve)
 
 
 def response_curve(
@@ -98,7 +50,7 @@ def response_curve(
         step = _FIRST_STEP
         while len(orbits) < _MOST_POINTS:
             point, step = advanced(at.curve, at.point, step, _LONGEST_STEP)
-            there = _At(at.curve, point).resolved()
+            there = At(at.curve, point).resolved()
             if there.curve is not at.curve:
                 at = at.on(there.curve)
             between, over = _between(at, there, parameters)
@@ -115,19 +67,19 @@ def response_curve(
     raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", orbits)
 
 
-def _beginning(curve: ResponseCurve[D]) -> _At[D]:
+def _beginning(curve: ResponseCurve[D]) -> At[ResponseCurve[D]]:
     """Return the small response at the first parameter."""
     rest = np.zeros((2 * curve.harmonics + 1, curve.system.size))
     rest[0] = curve.system.rest(curve.origin)
     across = np.eye(1, rest.size + 1, rest.size)[0]
-    resolved = _At(curve, corrected(curve, np.append(rest.ravel(), 0.0), across)).resolved()
+    resolved = At(curve, corrected(curve, np.append(rest.ravel(), 0.0), across)).resolved()
     curve, z = resolved.curve, resolved.point.z
     z[-1] = 0.0  # refining goes across the curve, not along the parameter
-    return _At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))
+    return At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))
 
 
 def _between(
-    at: _At[D], there: _At[D], parameters: FloatArray
+    at: At[ResponseCurve[D]], there: At[ResponseCurve[D]], parameters: FloatArray
 ) -> tuple[list[DrivenOrbit[D]], bool]:
     """Return what is special between two points, in order, and whether the curve's end is."""
     curve = at.curve
