@@ -4,6 +4,8 @@ from .blade import Blade as Blade
 from .blade import PointMass as PointMass
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.branches import BackboneBranch as BackboneBranch
+from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
@@ -13,6 +15,7 @@ from .exact.forced import gravity_response as gravity_response
 from .exact.forced_orbits import ForcedResponse as ForcedResponse
 from .exact.forced_orbits import ResponseNotReachedError as ResponseNotReachedError
 from .exact.forced_orbits import ResponsePoint as ResponsePoint
+from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
 from .exact.periodic import periodic_orbits as periodic_orbits

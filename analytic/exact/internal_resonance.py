@@ -1,48 +1,188 @@
-"""Where a harmonic of an orbit meets another mode: internal resonance."""
+"""Where a harmonic of an orbit meets another mode: internal resonance.
+
+Small motion about an orbit of frequency Ω has frequencies of its own, ν_j, which its Floquet
+multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: the multiplier is 1.
+"""
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..input_checks import RotbeamWarning
+from ..methods.floquet import floquet_multipliers
 from .steady import BeamOrbit
 
-_NEAR = 0.02  # an internal resonance is this near, relative to the other mode's frequency
+_NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
+_PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
+_FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no round-off
 _NOTICEABLE = 1e-6  # size of a harmonic, relative to the first, that can drive another mode
 
 
-def nearest_resonance(orbit: BeamOrbit, modes: FloatArray, mode: int) -> str:
-    """Return which harmonic is nearest to another mode: the usual reason why a branch bends."""
-    multiples = np.arange(2, orbit.harmonics + 1) * orbit.frequency
-    distance = np.abs(multiples[:, None] / modes - 1.0)
-    distance[:, mode - 1] = np.inf
-    k, j = np.unravel_index(np.argmin(distance), distance.shape)
-    return f" (harmonic {k + 2} is {100.0 * distance[k, j]:.1f} % from mode {j + 1} there)"
+class Resonance(NamedTuple):
+    """An internal resonance on a backbone.
+
+    Attributes
+    ----------
+    harmonic : int
+        Of the orbit.
+    mode : int
+        That it meets, from 1.
+    amplitude : float
+        Peak |q|/L.
+    frequency : float
+        Of the orbit [rad/s].
+    """
+
+    harmonic: int
+    mode: int
+    amplitude: float
+    frequency: float
+
+
+def frequency_ratios(
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, count: int = 4
+) -> tuple[list[int], FloatArray]:
+    """Return the next modes, from 1, and their ν_j/Ω about successive orbits, (orbits, modes).
+
+    Multipliers leave open how many turns a mode makes in a period; it is followed from the linear
+    mode on, in the square of the amplitude.
+
+    Parameters
+    ----------
+    orbits : sequence
+        Of one branch, ascending from the smallest.
+    modes : ndarray
+        Nondimensional linear frequencies.
+    mode : int
+        From which the orbits grow.
+    count : int
+        How many other modes, the lowest.
+    """
+    others = [j for j in range(min(count + 1, modes.size)) if j != mode - 1]
+    squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
+    ratios = [modes[others] / modes[mode - 1]]
+    for i, orbit in enumerate(orbits, start=1):
+        expected = ratios[-1]
+        if i > 1:
+            slope = (ratios[-1] - ratios[-2]) / (squares[i - 1] - squares[i - 2])
+            expected = expected + slope * (squares[i] - squares[i - 1])
+        ratios.append(_nearest(orbit, expected))
+    return [j + 1 for j in others], np.array(ratios[1:])
+
+
+def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
+    turns = _turns(orbit, expected.size)
+    above = np.round(expected - turns) + turns
+    below = np.round(expected + turns) - turns
+    nearer = np.abs(above - expected) < np.abs(below - expected)
+    return np.where(nearer, above, below)
+
+
+def _turns(orbit: BeamOrbit, count: int) -> FloatArray:
+    """Return how far each mode's multiplier is from 1, in turns, 0 to ½, without the own mode."""
+    found = floquet_multipliers(orbit, modes=count + 1)
+    # Two for each mode, after the orbit's own.
+    return np.asarray(np.abs(np.angle(found.values[2::2])) / (2.0 * np.pi))
+
+
+def resonances_along(
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
+) -> list[Resonance]:
+    """Return the internal resonances between successive orbits, in order.
+
+    Parameters as of `frequency_ratios`, and what nondimensional frequencies are multiples of
+    [rad/s].
+    """
+    others, ratios = frequency_ratios(orbits, modes, mode)
+    amplitudes = np.array([orbit.amplitude for orbit in orbits])
+    frequencies = np.array([orbit.frequency for orbit in orbits])
+    met: list[Resonance] = []
+    for i, pair in enumerate(pairwise(ratios)):
+        for j, before, after in zip(others, *pair, strict=True):
+            low, high = sorted((float(before), float(after)))
+            for k in range(math.floor(low) + 1, math.floor(high) + 1):
+                if not _drives(orbits[i], k):
+                    continue
+                share = (k - before) / (after - before)
+                a = amplitudes[i] + share * (amplitudes[i + 1] - amplitudes[i])
+                a = _pole(orbits[max(i - 1, 0) : i + 3], k) or float(a)
+                frequency = float(np.interp(a, amplitudes, frequencies)) * per_second
+                met.append(Resonance(k, j, a, frequency))
+    return sorted(met, key=lambda one: one.amplitude)
+
+
+def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
+    """Return the amplitude at which harmonic k changes its sign through infinity, if it does.
+
+    There the mode is in resonance; ratios are held back from the whole number beside it.
+    """
+    for last, orbit in pairwise(orbits):
+        if k > min(last.harmonics, orbit.harmonics):
+            continue
+        before, after = (o.gauge_harmonics[k - 1] / o.gauge_harmonics[0] for o in (last, orbit))
+        if before * after < 0.0 and min(abs(before), abs(after)) > _FELT:
+            share = (1.0 / before) / (1.0 / before - 1.0 / after)
+            return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
+    return None
+
+
+def _drives(orbit: BeamOrbit, k: int) -> bool:
+    """Return whether the orbit has harmonic k at all: without Coriolis forces no even ones."""
+    coupled = orbit.system.rate * orbit.system.model.blade.setting
+    return k % 2 == 1 or abs(coupled) > 1e-9
+
+
+def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int) -> str:
+    """Return which harmonic is nearest to another mode at the last orbit: why a branch bends."""
+    others, ratios = frequency_ratios(orbits, modes, mode)
+    # Slower modes have no harmonic to meet.
+    distance = np.where(ratios[-1] > 1.5, np.abs(np.round(ratios[-1]) / ratios[-1] - 1.0), np.inf)
+    nearest = int(np.argmin(distance))
+    return (
+        f" (harmonic {round(float(ratios[-1, nearest]))} is {100.0 * distance[nearest]:.1f} % from "
+        f"mode {others[nearest]} there)"
+    )
 
 
 def warn_of_resonances(
     orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
 ) -> None:
-    """Warn once for each pair of a harmonic and another mode that come within 2 %."""
+    """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
     warned: set[tuple[int, int]] = set()
     for orbit in orbits:
-        sizes = np.linalg.norm(orbit.sines, axis=1) / np.linalg.norm(orbit.sines[0])
-        for k in (1 + np.flatnonzero(sizes > _NOTICEABLE)).tolist():
-            frequency = k * orbit.frequency
-            near = np.abs(frequency / modes - 1.0) < _NEAR
-            for j in (1 + np.flatnonzero(near)).tolist():
-                if j == mode or (k, j) in warned:
-                    continue
-                warned.add((k, j))
-                warnings.warn(
-                    f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the "
-                    f"orbit of mode {mode} ({frequency * per_second:.4f} rad/s) is within 2 % of "
-                    f"mode {j} ({modes[j - 1] * per_second:.4f} rad/s); the backbone may branch "
-                    "there",
-                    RotbeamWarning,
-                    stacklevel=3,
-                )
+        sizes = np.linalg.norm(orbit.sines, axis=1)
+        outstanding = [
+            k + 1
+            for k in range(2, sizes.size)
+            if sizes[k] > max(sizes[k - 1], _NOTICEABLE * sizes[0])
+        ]
+        if not outstanding:
+            continue
+        others = [j for j in range(min(5, modes.size)) if j != mode - 1]
+        turns = _turns(orbit, len(others))
+        for k in outstanding:
+            # Of the modes whose linear frequency is not far, that whose multiplier is nearest 1.
+            near = [
+                (float(t), j + 1)
+                for t, j in zip(turns, others, strict=True)
+                if abs(modes[j] / orbit.frequency / k - 1.0) < _PERHAPS and t < _NEAR
+            ]
+            if not near or (k, min(near)[1]) in warned:
+                continue
+            distance, j = min(near)
+            warned.add((k, j))
+            warnings.warn(
+                f"internal resonance: harmonic {k} of the orbit of mode {mode} with a = "
+                f"{orbit.amplitude:g} ({k * orbit.frequency * per_second:.4f} rad/s) is "
+                f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
+                "tell; backbone_branch follows what branches there",
+                RotbeamWarning,
+                stacklevel=3,
+            )

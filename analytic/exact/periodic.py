@@ -12,16 +12,23 @@ from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
     MOST_FUNCTIONS,
-    followed,
+    Path,
     linear_orbit,
     meets_the_equations,
 )
 from ..methods.harmonic_balance import NoOrbitError, solve
 from .backbone import AmplitudeNotReachedError, Backbone
 from .continuum import Continuum
-from .internal_resonance import nearest_resonance, warn_of_resonances
+from .internal_resonance import (
+    Resonance,
+    nearest_resonance,
+    resonances_along,
+    warn_of_resonances,
+)
 from .modes import resolved_model, solve_modes
-from .steady import BeamOrbit, steady_rotation
+from .steady import BeamOrbit, SteadyBeam, steady_rotation
+
+_LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
 
 def periodic_orbits(
@@ -77,15 +84,11 @@ def periodic_orbits(
             "of the tip over the beam's length"
         )
     warn_if_rpm(beam, omega)
-    if any(beam.unit.damping):
-        raise ValueError(
-            "a damped blade has no free periodic orbits: take forced_response, or the free orbits "
-            "of beam.with_damping(Damping())"
-        )
+    require_undamped(beam)
     model = resolved_model(beam, mode, inextensible, rotary_inertia, functions)
-    branch = _branch(beam, omega, mode, model)
+    branch = branch_of(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)
-    found, refused = _followed_up(branch, ascending)
+    found, refused = _found(branch, ascending)
     warn_of_resonances(list(found.values()), branch.modes, mode, beam.frequency_scale)
     kept = [found[a] for a in ascending[place].tolist() if a in found]
     backbone = branch.backbone(kept) if kept else None
@@ -94,57 +97,82 @@ def periodic_orbits(
     return backbone
 
 
-def _followed_up(branch: _Branch, ascending: FloatArray) -> tuple[dict[float, BeamOrbit], str]:
+def require_undamped(beam: AnyBlade) -> None:
+    """Refuse a damped blade, which has no free orbits."""
+    if any(beam.unit.damping):
+        raise ValueError(
+            "a damped blade has no free periodic orbits: take forced_response, or the free orbits "
+            "of beam.with_damping(Damping())"
+        )
+
+
+def _found(branch: Branch, ascending: FloatArray) -> tuple[dict[float, BeamOrbit], str]:
     """Return the orbits found by their amplitudes, and what to say of the first that was not."""
     found: dict[float, BeamOrbit] = {}
     refused = ""
-    last: BeamOrbit = branch.double
-    before: BeamOrbit | None = branch.seed
     for a in ascending.tolist():
-        if a < last.amplitude:
-            last, before = branch.seed, None
         try:
-            last, before = followed(last, before, a)
+            found[a] = branch.path.at(a)
         except NoOrbitError as reason:
-            nearest = nearest_resonance(reason.last or last, branch.modes, branch.mode)
-            tiny = a < branch.seed.amplitude
-            remedy = (
-                "round-off drowns so small an orbit, so take linear_modes, from which it differs "
-                "by the square of its amplitude"
-                if tiny
-                else "ask for smaller amplitudes"
-            )
             refused = refused or (
                 f"no orbit of {branch.name} with a peak |q|/L of {a:g} was found: {reason}"
-                f"{nearest}; {remedy}"
+                f"{_why(branch, a)}"
             )
-            if tiny:
-                continue
-            break
-        found[a] = last
     return found, refused
 
 
+def _why(branch: Branch, a: float) -> str:
+    """Return what stands in the way of an orbit, and what to try."""
+    if a < branch.path.seed.amplitude:
+        return (
+            "; round-off drowns so small an orbit, so take linear_modes, from which it differs by "
+            "the square of its amplitude"
+        )
+    nodes = branch.path.nodes
+    below = [orbit for orbit in nodes if orbit.amplitude <= a]
+    nearest = nearest_resonance(below, branch.modes, branch.mode)
+    if below[-1] is nodes[-1]:
+        return f"{nearest}; ask for smaller amplitudes"
+    return f"{nearest}; ask for amplitudes beyond it, or take backbone_branch, which follows it"
+
+
 @dataclass(frozen=True, kw_only=True)
-class _Branch:
-    """What grows out of one linear mode: its two smallest orbits, on the same functions."""
+class Branch:
+    """What grows out of one linear mode.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    omega : float
+    mode : int
+    modes : ndarray
+        Nondimensional frequencies that the functions resolve.
+    path : Path
+        The orbits, laid as far as they were asked for.
+    """
 
     beam: AnyBlade
     omega: float
     mode: int
-    modes: FloatArray  # nondimensional frequencies that the functions resolve
-    seed: BeamOrbit
-    double: BeamOrbit
+    modes: FloatArray
+    path: Path[SteadyBeam]
 
     @property
     def name(self) -> str:
+        """What it is called in a sentence."""
         return f"mode {self.mode} at omega = {self.omega:g} rad/s"
+
+    def resonances(self) -> list[Resonance]:
+        """Return the internal resonances that the path has met so far."""
+        per_second = self.beam.frequency_scale
+        return resonances_along(self.path.nodes, self.modes, self.mode, per_second)
 
     def backbone(self, orbits: Sequence[BeamOrbit]) -> Backbone:
         """Return the orbits as a backbone; λ_ω is extrapolated from the two smallest."""
         linear = float(self.modes[self.mode - 1])
         near, far = (
-            (1.0 - o.frequency / linear) / o.amplitude**2 for o in (self.seed, self.double)
+            (1.0 - o.frequency / linear) / o.amplitude**2
+            for o in (self.path.seed, self.path.double)
         )
         count = max(orbit.harmonics for orbit in orbits)
         per_second = self.beam.frequency_scale
@@ -166,7 +194,7 @@ class _Branch:
         )
 
 
-def _branch(beam: AnyBlade, omega: float, mode: int, model: Continuum) -> _Branch:
+def branch_of(beam: AnyBlade, omega: float, mode: int, model: Continuum) -> Branch:
     """Return the branch of a mode, with as many functions as its smallest orbits need."""
     steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:
@@ -180,9 +208,8 @@ def _branch(beam: AnyBlade, omega: float, mode: int, model: Continuum) -> _Branc
         else:
             if meets_the_equations(double):
                 resolved = modes.frequencies[: steady.functions // 2]
-                return _Branch(
-                    beam=beam, omega=omega, mode=mode, modes=resolved, seed=seed, double=double
-                )
+                path = Path(seed=seed, double=double, longest=_LONGEST_STEP)
+                return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
             reason = (
                 f"{steady.functions} functions meet the equations of motion to "
                 f"{double.residual:.1e} only; rotate slower"

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
+import math
+from bisect import bisect_right
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from typing import Any, Generic
 
 import numpy as np
 
@@ -14,12 +17,15 @@ RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
 
 _DRIFT_BOUND = 2e-11  # the drift of the invariant at which the harmonics suffice
-_FEWEST_HARMONICS, _MOST_HARMONICS = 6, 48
+_LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
+_FEWEST_HARMONICS, _MOST_HARMONICS = 6, 64
 MOST_FUNCTIONS = 128
 """For θ; enough for the smallest orbits up to w̄ = 1000."""
 _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
+_LEAPS = 4  # half steps within which the path is sought again
+_SAME_PATH = 2e-3  # relative difference of its frequency from that expected
 
 
 def linear_orbit(
@@ -36,41 +42,133 @@ def linear_orbit(
 
 def meets_the_equations(orbit: PeriodicOrbit[Any]) -> bool:
     """Return whether the functions suffice, by the residual on half as many again."""
-    return orbit.residual <= RESIDUAL_BOUND
+    return bool(orbit.residual <= RESIDUAL_BOUND)
 
 
-def followed(
-    last: PeriodicOrbit[S], before: PeriodicOrbit[S] | None, amplitude: float
-) -> tuple[PeriodicOrbit[S], PeriodicOrbit[S] | None]:
-    """Return the orbit of the peak `amplitude` and its forerunner, starting from two known ones.
+@dataclass(frozen=True, kw_only=True)
+class Gap:
+    """Amplitudes at which the path has no orbit: it goes off to another mode, and comes back.
 
-    Steps are halved where Newton's method fails.
-
-    Raises
-    ------
-    NoOrbitError
-        If they would have to become too small, saying where and why.
+    Attributes
+    ----------
+    before, after : PeriodicOrbit
+        The last orbit found below the gap, and the first above.
     """
-    target = min(amplitude, _LARGEST_FACTOR * last.amplitude)
-    halvings = 0
-    while True:
-        try:
-            found = _resolved(_predicted(last, before, target), target)
-        except NoOrbitError as reason:
-            halvings += 1
-            if halvings > _HALVINGS:
+
+    before: PeriodicOrbit[Any]
+    after: PeriodicOrbit[Any]
+
+
+@dataclass(kw_only=True)
+class Path(Generic[S]):
+    """The orbits that grow out of a linear mode, by their amplitude.
+
+    It is laid from its two smallest orbits upwards in steps that do not depend on what is asked
+    for, and so are the answers.
+
+    Attributes
+    ----------
+    seed, double : PeriodicOrbit
+        The smallest orbits.
+    longest : float
+        Longest step of the amplitude.
+    nodes : list of PeriodicOrbit
+        Those found so far, ascending.
+    gaps : list of Gap
+    """
+
+    seed: PeriodicOrbit[S]
+    double: PeriodicOrbit[S]
+    longest: float
+    nodes: list[PeriodicOrbit[S]] = field(init=False)
+    gaps: list[Gap] = field(init=False, default_factory=list)
+    _end: str = field(init=False, default="")
+    _step: float = field(init=False, default=math.inf)
+
+    def __post_init__(self) -> None:
+        self.nodes = [self.seed, self.double]
+
+    def at(self, amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit of the peak `amplitude`.
+
+        Raises
+        ------
+        NoOrbitError
+            If there is none, or none is found: where and why.
+        """
+        while self.nodes[-1].amplitude < amplitude:
+            self._extend()
+        for gap in self.gaps:
+            if gap.before.amplitude < amplitude < gap.after.amplitude:
                 raise NoOrbitError(
-                    f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}",
-                    last,
-                ) from None
-            target = 0.5 * (last.amplitude + target)
-            continue
-        if found.amplitude > last.amplitude:
-            before = last
-        last = found
-        if target == amplitude:
-            return last, before
-        target = min(amplitude, _LARGEST_FACTOR * target)
+                    f"the orbits grow to {gap.before.amplitude:.4g} and go on at "
+                    f"{gap.after.amplitude:.4g} only",
+                    gap.before,
+                )
+        place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
+        below = self.nodes[max(place - 1, 0)]
+        if below.amplitude == amplitude:
+            return below
+        before = self.nodes[place - 2] if place >= 2 else None
+        try:
+            return _resolved(_predicted(below, before, amplitude), amplitude)
+        except NoOrbitError as reason:
+            if place == len(self.nodes):
+                raise
+            try:
+                return _resolved(self.nodes[place].scaled(amplitude), amplitude)
+            except NoOrbitError:
+                raise NoOrbitError(str(reason), below) from None
+
+    def _extend(self) -> None:
+        """Add the next node, beyond a gap if it must be."""
+        if self._end:
+            raise NoOrbitError(self._end, self.nodes[-1])
+        last, reason = self.nodes[-1], ""
+        step = min((_LARGEST_FACTOR - 1.0) * last.amplitude, self.longest, 2.0 * self._step)
+        while step > self.longest / 2.0**_HALVINGS:
+            try:
+                found = self._stepped(last.amplitude + step)
+            except NoOrbitError as failed:
+                reason, step = reason or str(failed), 0.5 * step
+                continue
+            self.nodes.append(found)
+            self._step = step
+            return
+        self._leap(reason)
+
+    def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
+        return _resolved(_predicted(self.nodes[-1], self.nodes[-2], amplitude), amplitude)
+
+    def _leap(self, reason: str) -> None:
+        """Find the path again beyond where it goes off, from where it was still smooth."""
+        last = self.nodes[-1]
+        smooth = [o for o in self.nodes if o.amplitude < last.amplitude - 0.4 * self.longest]
+        for steps in range(1, _LEAPS + 1) if len(smooth) > 1 else ():
+            target = last.amplitude + steps * 0.5 * self.longest
+            guess = _predicted(smooth[-1], smooth[-2], target)
+            try:
+                found = _resolved(guess, target)
+            except NoOrbitError:
+                continue
+            if abs(found.frequency / guess.frequency - 1.0) < _SAME_PATH:
+                self._begin_again(last, found)
+                return
+        self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"
+        raise NoOrbitError(self._end, last)
+
+    def _begin_again(self, last: PeriodicOrbit[S], found: PeriodicOrbit[S]) -> None:
+        """Add the nodes beyond a gap, from its edge on."""
+        lower, step = [found], 0.5 * (found.amplitude - last.amplitude)
+        for _ in range(_HALVINGS):
+            target = lower[-1].amplitude - step
+            if target > last.amplitude:
+                with suppress(NoOrbitError):
+                    lower.append(_resolved(lower[-1].scaled(target), target))
+            step *= 0.5
+        self.gaps.append(Gap(before=last, after=lower[-1]))
+        self._step = self.longest
+        self.nodes += lower[::-1]
 
 
 def _predicted(
@@ -91,28 +189,47 @@ def _predicted(
 
 
 def _resolved(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
-    """Return the orbit near `guess` with as many harmonics and functions as it needs.
+    """Return the orbit near `guess` with as many harmonics and functions as it needs."""
+    orbit = solve(guess, amplitude)
+    while (larger := refined(orbit)) is not None:
+        orbit = solve(larger, amplitude)
+    return orbit
+
+
+def refined(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S] | None:
+    """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
     Harmonics until the invariant is constant, functions until the residual is small.
+
+    Raises
+    ------
+    NoOrbitError
+        If it needs more than are taken.
     """
-    orbit = solve(guess, amplitude)
-    while True:
-        if orbit.invariant_drift > _DRIFT_BOUND + orbit.invariant_noise:
-            reason = (
+    if orbit.invariant_drift > _DRIFT_BOUND + orbit.invariant_noise:
+        most = orbit.harmonics >= _MOST_HARMONICS
+        if most and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
+            return None
+        count = orbit.harmonics + max(4, orbit.harmonics // 4)
+        larger = orbit.with_harmonics(min(count, _MOST_HARMONICS))
+        if most or _too_large(larger):
+            raise NoOrbitError(
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
                 f"{orbit.invariant_drift:.1e}"
             )
-            larger = orbit.with_harmonics(orbit.harmonics + 4)
-            too_many = larger.harmonics > _MOST_HARMONICS
-        elif not meets_the_equations(orbit):
-            reason = (
-                f"{orbit.system.functions} functions meet the equations of motion to "
-                f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
-            )
-            larger = orbit.on(orbit.system.refined())
-            too_many = larger.system.functions > MOST_FUNCTIONS
-        else:
-            return orbit
-        if too_many or larger.harmonics * larger.system.size > _MOST_UNKNOWNS:
-            raise NoOrbitError(reason)
-        orbit = solve(larger, amplitude)
+        return larger
+    return None if meets_the_equations(orbit) else _on_more_functions(orbit)
+
+
+def _on_more_functions(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+    larger = orbit.on(orbit.system.refined())
+    if larger.system.functions > MOST_FUNCTIONS or _too_large(larger):
+        raise NoOrbitError(
+            f"{orbit.system.functions} functions meet the equations of motion to "
+            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
+        )
+    return larger
+
+
+def _too_large(orbit: PeriodicOrbit[Any]) -> bool:
+    return bool(orbit.harmonics * orbit.system.size > _MOST_UNKNOWNS)

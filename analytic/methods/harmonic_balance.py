@@ -145,6 +145,8 @@ class PeriodicOrbit(Generic[S]):
 
     def on(self, system: S) -> PeriodicOrbit[S]:
         """Return the same orbit in the finer `system`."""
+        if system is self.system:
+            return self
         return replace(
             self, system=system, coefficients=self.system.lifted(self.coefficients, system)
         )
@@ -163,8 +165,11 @@ class PeriodicOrbit(Generic[S]):
         return replace(self, amplitude=amplitude, coefficients=coefficients)
 
 
-def _jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
-    """Return the derivatives of the harmonics of the residual to those of q and to Ω."""
+def jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
+    """Return the derivatives of the harmonics of the residual to those of q and to Ω.
+
+    The last row is left to the amplitude, or to whatever picks one orbit of the branch.
+    """
     half, system = half_period(orbit.harmonics), orbit.system
     q, q_dot, q_ddot = orbit.coordinates(half.phase)
     tangent = system.tangent(q, q_dot, q_ddot)
@@ -198,13 +203,13 @@ def _jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
         ..., 0
     ] / orbit.frequency
     unknowns = len(by_harmonics) + 1
-    jacobian = np.zeros((unknowns, unknowns))
-    jacobian[:-1, :-1] = by_harmonics
-    jacobian[:-1, -1] = half.project(by_frequency, system.odd)
-    return jacobian
+    matrix = np.zeros((unknowns, unknowns))
+    matrix[:-1, :-1] = by_harmonics
+    matrix[:-1, -1] = half.project(by_frequency, system.odd)
+    return matrix
 
 
-def _at_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float, FloatArray]:
+def at_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float, FloatArray]:
     """Return the orbit with its peak's phase, the peak and its derivatives to the unknowns.
 
     The phase is where the gauge is stationary, so it adds nothing to the derivatives.
@@ -241,15 +246,15 @@ def solve(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
     orbit, factors, last = guess, None, np.inf
     half, odd = half_period(orbit.harmonics), orbit.system.odd
     for _ in range(_NEWTON_STEPS):
-        orbit, peak, row = _at_peak(orbit)
+        orbit, peak, row = at_peak(orbit)
         defect = orbit.system.residual(*orbit.coordinates(half.phase))
         defect = np.append(half.project(defect, odd), peak - amplitude)
         if not np.all(np.isfinite(defect)):
             break
         if factors is None:
-            jacobian = _jacobian(orbit)
-            jacobian[-1] = row
-            factors = linalg.lu_factor(jacobian, check_finite=False)
+            matrix = jacobian(orbit)
+            matrix[-1] = row
+            factors = linalg.lu_factor(matrix, check_finite=False)
         change = linalg.lu_solve(factors, defect, check_finite=False)
         orbit = replace(
             orbit,
@@ -263,7 +268,7 @@ def solve(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
         contraction = size / last if np.isfinite(last) else 1.0
         stagnates = size < _ROUND_OFF and contraction > _SLOW
         if stagnates or size * min(1.0, contraction) < _CONVERGED:
-            return replace(_at_peak(orbit)[0], amplitude=amplitude)
+            return replace(at_peak(orbit)[0], amplitude=amplitude)
         if size > 1.0 or orbit.frequency <= 0.0:
             break
         if contraction > _SLOW and np.isfinite(last):

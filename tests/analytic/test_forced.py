@@ -204,6 +204,7 @@ def test_damping_ratios_in_rotation():
         damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 1, 0.1)), 0.0)
 
 
+@pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_what_a_response_says_of_itself(loaded):
     assert "folds at 3.04082 rad/s, 3.03923 rad/s" in str(loaded)
     i = int(np.argmax(loaded.amplitude))

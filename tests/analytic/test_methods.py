@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from analytic.methods.continuation import followed, linear_orbit
+from analytic.methods.continuation import Path, linear_orbit
 from analytic.methods.floquet import floquet_multipliers
 from analytic.methods.harmonic_balance import solve
 from analytic.methods.system import Tangent
@@ -78,11 +78,9 @@ class Alone(Duffing):
 
 
 def orbits(system, amplitudes):
-    last = solve(linear_orbit(system, np.array([1.0, 0.0]), 1.0, 0.05), 0.05)
-    before = None
-    for amplitude in amplitudes:
-        last, before = followed(last, before, amplitude)
-        yield last
+    seed = solve(linear_orbit(system, np.array([1.0, 0.0]), 1.0, 0.05), 0.05)
+    path = Path(seed=seed, double=solve(seed.scaled(0.1), 0.1), longest=1.0)
+    return [path.at(amplitude) for amplitude in amplitudes]
 
 
 @pytest.mark.parametrize("amplitude", [0.1, 1.0, 3.0])

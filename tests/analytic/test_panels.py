@@ -83,6 +83,7 @@ def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():
     assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.05)
 
 
+@pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_stations_of_a_uniform_blade_change_nothing():
     x = np.linspace(0.0, 1.0, 5)
     flat = Section(

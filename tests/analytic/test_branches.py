@@ -1,0 +1,105 @@
+"""The backbone as a branch: internal resonances by their own exponents, folds, and one answer."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Damping, backbone_branch, periodic_orbits
+from analytic.exact.internal_resonance import frequency_ratios
+from analytic.exact.modes import resolved_model
+from analytic.exact.periodic import branch_of
+from analytic.input_checks import RotbeamWarning
+
+
+def orbits(beam, omega, amplitudes, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)
+        return periodic_orbits(beam, omega, amplitudes, **options)
+
+
+def test_the_answer_does_not_depend_on_the_list(beam):
+    """Beyond the tongue of 6:1, at 2 rad/s."""
+    found = [orbits(beam, 2.0, asked).frequency[-1] for asked in ([0.6, 0.7], [0.65, 0.7], [0.7])]
+    assert found[1:] == pytest.approx(found[:1] * 2, rel=1e-12)
+
+
+def test_across_a_resonance_its_harmonic_turns_around(beam):
+    """Driven through resonance, mode 2 answers against the sixth harmonic, then with it."""
+    found = orbits(beam, 2.0, [0.63, 0.7])
+    sixth = found.harmonics[:, 5] / found.harmonics[:, 0]
+    assert sixth == pytest.approx([-7.3e-3, 6.8e-3], abs=1e-4)
+
+
+def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
+    branch = branch_of(beam, 2.0, 1, resolved_model(beam, 1, False, False, 16))
+    small = [branch.path.at(a) for a in (0.05, 0.1, 0.15)]
+    modes, ratios = frequency_ratios(small, branch.modes, 1)
+    assert modes == [2, 3, 4, 5]
+    linear = branch.modes[1:5] / branch.modes[0]
+    changes = (ratios - linear) / np.array([[0.05], [0.1], [0.15]]) ** 2
+    # The next term is of the fourth power, and multipliers of fast modes are right to 1e-4.
+    assert changes[0] == pytest.approx(changes[1], rel=0.05)
+    assert np.all(changes < 0.0)
+
+
+@pytest.fixture(scope="module")
+def branch():
+    return backbone_branch(Beam.reference(), 2.0, up_to=0.7, inextensible=True)
+
+
+def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
+    (met,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
+    # Between the fold of the lower side and the orbits beyond.
+    assert 0.6374 < met.amplitude < 0.65
+    (fold,) = branch.folds
+    assert fold.amplitude == pytest.approx(0.63745, abs=1e-5)
+    assert fold.frequency == pytest.approx(3.0465, abs=2e-4)
+    # In the tongue the amplitude falls again while the second mode takes over.
+    tongue = branch.amplitude[branch.piece == 1]
+    assert tongue.max() > tongue[0]
+    assert tongue[-1] < tongue.max() - 0.02
+    assert "6:2 at 0.64" in str(branch)
+    state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
+    assert np.isfinite(state.v).all()
+
+
+def test_a_branch_without_a_felt_resonance_is_the_backbone(beam):
+    branch = backbone_branch(beam, 6.0, up_to=0.3)
+    assert not branch.folds
+    assert np.all(branch.piece == 0)
+    assert branch.stable.all()
+    assert branch.stability_changes.size == 0
+    same = orbits(beam, 6.0, branch.amplitude)
+    assert branch.frequency == pytest.approx(same.frequency, rel=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("omega", "resonances"),
+    [
+        (2.0, {(17, 3): 0.125, (33, 4): 0.262, (6, 2): 0.644, (32, 4): 0.668, (16, 3): 0.682}),
+        (4.0, {(16, 3): 0.128, (30, 4): 0.606, (6, 2): 0.745}),
+        (6.0, {(15, 3): 0.431, (28, 4): 0.530}),
+        (8.0, {}),
+    ],
+)
+def test_resonances_of_the_papers_beam_by_two_resolutions(beam, omega, resonances):
+    for functions in (16, 22):
+        found = backbone_branch(beam, omega, up_to=0.7 if omega == 2.0 else 0.76,
+                                functions=functions)  # fmt: skip
+        met = {(r.harmonic, r.mode): r.amplitude for r in found.resonances if r.mode <= 4}
+        assert met == pytest.approx(resonances, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda beam: backbone_branch(beam, 6.0, up_to=1.0), "up_to must be below 1"),
+        (lambda beam: backbone_branch(beam.with_damping(Damping(axial=0.1)), 6.0),
+         "no free periodic orbits"),
+    ],
+)  # fmt: skip
+def test_bad_input(beam, call, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        call(beam)
