@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 from .blade import Blade
 from .input_checks import RotbeamWarning, positive
-from .loads import Damping
+from .loads import UNDAMPED, Damping
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
 
@@ -197,6 +197,11 @@ class Beam:
 
 AnyBlade = Beam | Blade
 """What theory and simulation take."""
+
+
+def undamped(beam: AnyBlade) -> AnyBlade:
+    """Return the same without damping."""
+    return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
 
 
 def require_steady_state(beam: AnyBlade, omega: float) -> None:

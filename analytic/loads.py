@@ -151,3 +151,34 @@ HarmonicLoad = SpeedRipple | TipForce | DistributedForce
 
 Load = HarmonicLoad | Gravity
 """What a motion in time takes."""
+
+
+def loads_in_time(loads: Any) -> tuple[Load, ...]:
+    """Return the loads of a motion in time as a tuple, each with all that it needs.
+
+    Raises
+    ------
+    TypeError
+        If it is no sequence of loads.
+    ValueError
+        If a harmonic load has no frequency, or a ripple the frequency zero.
+    """
+    if not isinstance(loads, (tuple, list)):
+        raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
+    for load in loads:
+        if not isinstance(load, Load):
+            raise TypeError(
+                f"a load must be a SpeedRipple, TipForce, DistributedForce or Gravity, got {load!r}"
+            )
+        if isinstance(load, Gravity):
+            continue
+        if load.frequency is None:
+            raise ValueError(
+                f"a motion in time needs the frequency of {load}: give frequency= [rad/s]"
+            )
+        if isinstance(load, SpeedRipple) and load.frequency == 0.0:
+            raise ValueError(
+                "a ripple of frequency 0 is another speed: give a frequency above 0 rad/s, or "
+                "add the amplitude to omega"
+            )
+    return tuple(loads)

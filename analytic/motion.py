@@ -148,3 +148,55 @@ class SpinUp:
         if isinstance(t, np.ndarray):
             return np.clip(t, 0.0, self.ramp_time), np.sin
         return min(max(t, 0.0), self.ramp_time), math.sin
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rippled:
+    """A rotation whose rate has a ripple, ε cos νt, from t = 0 on.
+
+    Parameters
+    ----------
+    rotation : Rotation
+        Without the ripple.
+    amplitude : float
+        ε [rad/s].
+    frequency : float
+        ν [rad/s], not zero.
+    """
+
+    rotation: Rotation
+    amplitude: float
+    frequency: float
+
+    @overload
+    def angle(self, t: float) -> float: ...
+    @overload
+    def angle(self, t: FloatArray) -> FloatArray: ...
+    def angle(self, t: float | FloatArray) -> float | FloatArray:
+        """Angle [rad], with (ε/ν) sin νt; `t` [s] scalar or array."""
+        angle: float | FloatArray = self.rotation.angle(t) + (
+            self.amplitude / self.frequency * np.sin(self.frequency * t)
+        )
+        return angle
+
+    @overload
+    def rate(self, t: float) -> float: ...
+    @overload
+    def rate(self, t: FloatArray) -> FloatArray: ...
+    def rate(self, t: float | FloatArray) -> float | FloatArray:
+        """Angular velocity [rad/s], in the shape of `t`."""
+        rate: float | FloatArray = self.rotation.rate(t) + (
+            self.amplitude * np.cos(self.frequency * t)
+        )
+        return rate
+
+    @overload
+    def acceleration(self, t: float) -> float: ...
+    @overload
+    def acceleration(self, t: FloatArray) -> FloatArray: ...
+    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
+        """Angular acceleration [rad/s²], in the shape of `t`."""
+        acceleration: float | FloatArray = self.rotation.acceleration(t) - (
+            self.amplitude * self.frequency * np.sin(self.frequency * t)
+        )
+        return acceleration

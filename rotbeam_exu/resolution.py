@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 
 from analytic import AnyBlade, linear_modes
 from analytic.beam import require_steady_state
@@ -32,9 +33,17 @@ _SECONDS_PER_ELEMENT_STEP = 2e-6
 
 
 def checked_steps(
-    beam: AnyBlade, omega: float, ramp_time: float, elements: int, duration: float, step: float
+    beam: AnyBlade,
+    omega: float,
+    ramp_time: float,
+    elements: int,
+    duration: float,
+    step: float,
+    driven: Sequence[float] = (),
 ) -> tuple[int, int]:
     """Return how many steps a run has, and of how many one is kept.
+
+    Loads go by the frequencies `driven` [rad/s].
 
     Raises
     ------
@@ -57,27 +66,32 @@ def checked_steps(
     require_stretch(beam)
     require_resolved_ramp(ramp_time, step)
     require_feasible(elements, steps)
-    every = sampling(beam, omega, steps, step)
+    every = sampling(beam, omega, steps, step, driven)
     require_feasible(elements, steps, samples=steps // every)
     warn_if_rounded(beam, elements)
     return steps, every
 
 
-def sampling(beam: AnyBlade, omega: float, steps: int, step: float) -> int:
+def sampling(
+    beam: AnyBlade, omega: float, steps: int, step: float, driven: Sequence[float] = ()
+) -> int:
     """Return how many steps lie between two samples: a divisor of `steps`.
 
     Raises
     ------
     ValueError
-        If no steady state exists at the speed `omega` [rad/s], or a period of its first mode has
-        fewer steps than STEPS_PER_PERIOD.
+        If no steady state exists at the speed `omega` [rad/s], or a period of its first mode, or
+        of a load, has fewer steps than STEPS_PER_PERIOD.
     """
     require_steady_state(beam, omega)
-    period = 2.0 * math.pi / float(linear_modes(beam, omega, 1).frequencies[0])
+    fastest, of = float(linear_modes(beam, omega, 1).frequencies[0]), "the natural frequency"
+    if driven and max(driven) > fastest:
+        fastest, of = max(driven), "a load"
+    period = 2.0 * math.pi / fastest
     if period < STEPS_PER_PERIOD * step:
         raise ValueError(
-            f"a step of {step:g} s leaves {period / step:.3g} steps in a period of the natural "
-            f"frequency, {period:.4g} s: take {period / STEPS_PER_PERIOD:.3g} s or less"
+            f"a step of {step:g} s leaves {period / step:.3g} steps in a period of {of}, "
+            f"{period:.4g} s: take {period / STEPS_PER_PERIOD:.3g} s or less"
         )
     most = max(1, int(period / (SAMPLES_PER_PERIOD * step)))
     return max(n for n in range(1, most + 1) if steps % n == 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
@@ -12,8 +12,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from analytic import AnyBlade, Beam, Blade
+from analytic import (
+    AnyBlade,
+    Beam,
+    Blade,
+    DistributedForce,
+    Gravity,
+    SpeedRipple,
+    TipForce,
+)
 from analytic.blade import blade_from
+from analytic.loads import Load
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -77,6 +86,19 @@ def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
     return {f"beam_{name}": value for name, value in asdict(beam).items()}
 
 
+def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
+    """Return the loads that the attributes of a run describe."""
+    kinds = {kind.__name__: kind for kind in (SpeedRipple, TipForce, DistributedForce, Gravity)}
+    written = json.loads(attrs.get("loads", "[]"))
+    return tuple(kinds[one.pop("load")](**one) for one in written)
+
+
+def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
+    """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
+    written = [{"load": type(load).__name__, **asdict(load)} for load in loads]
+    return {"loads": json.dumps(written)} if written else {}
+
+
 def remedy(run: xr.Dataset, t: float) -> str:
     """Return what to try after a run that went wrong at `t` [s].
 
@@ -110,9 +132,10 @@ def remedy(run: xr.Dataset, t: float) -> str:
     before = run["q"].to_numpy()[run["time"].to_numpy() <= t]
     swing = float(np.abs(before).max(initial=0.0)) / beam.length
     if resolved and LARGE_SWING < swing < 1.0:
+        gentler = "smaller loads, more damping" if "loads" in attrs else "a longer ramp_time"
         return (
             f"the tip has swung to {swing:.2g} of the length, where the beam breaks into waves "
-            f"too short for any step: take a longer ramp_time, or a duration below {t:.4g} s"
+            f"too short for any step: take {gentler}, or a duration below {t:.4g} s"
         )
     return smaller
 
@@ -125,6 +148,19 @@ def _reach(run: xr.Dataset) -> NDArray[np.float64]:
     in_plane = np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy()))
     out_of_plane = math.sqrt(1.0 - unit.setting**2) * run["q"].to_numpy()
     return np.asarray(np.hypot(in_plane, out_of_plane))
+
+
+def balanced_energy(run: xr.Dataset) -> tuple[NDArray[np.float64], str]:
+    """Return what of the energy [J] stays constant in steady rotation, (samples,), and its name.
+
+    The Jacobi energy E - ω L_z, less what loads, damping and changes of the speed supplied of it,
+    where the run has any.
+    """
+    energy = run["jacobi_energy"].to_numpy()
+    if "supplied_energy" not in run:
+        return energy, "the steady Jacobi energy E - ω L_z"
+    supplied = run["supplied_energy"].to_numpy()
+    return energy - supplied, "the Jacobi energy E - ω L_z from the energy supplied"
 
 
 def check_run(run: xr.Dataset) -> str:
@@ -140,7 +176,7 @@ def check_run(run: xr.Dataset) -> str:
     SimulationError
         If the run did not reach its end, holds a number that is not finite, leaves the reach of
         the beam, strains it beyond the linear law, violates the clamp, or does not conserve the
-        Jacobi energy E - ω L_z once the rotation is steady.
+        Jacobi energy E - ω L_z once the rotation is steady, but for the energy supplied.
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs
@@ -155,8 +191,8 @@ def check_run(run: xr.Dataset) -> str:
     # A beam that hardly vibrates has no elastic energy to speak of.
     scale = max(run["elastic_energy"].max().item(), 1e-4 * run["kinetic_energy"].max().item())
     steady = time >= float(attrs["ramp_time"])
-    jacobi = run["jacobi_energy"].to_numpy()
-    drift = np.where(steady, np.abs(jacobi - jacobi[int(np.argmax(steady))]), 0.0)
+    energy, its_name = balanced_energy(run)
+    drift = np.where(steady, np.abs(energy - energy[int(np.argmax(steady))]), 0.0)
     checks = (
         _Check(
             name="the tip's distance from the clamp over the length",
@@ -179,7 +215,7 @@ def check_run(run: xr.Dataset) -> str:
             limit=RESIDUAL_LIMIT,
         ),
         _Check(
-            name="the drift of the steady Jacobi energy E - ω L_z over the largest elastic energy",
+            name=f"the drift of {its_name} over the largest elastic energy",
             size=drift / max(scale, np.finfo(float).tiny),
             limit=DRIFT_LIMIT,
         ),
@@ -197,14 +233,15 @@ def check_run(run: xr.Dataset) -> str:
 
 
 def energy_drift(run: xr.Dataset) -> tuple[float, float]:
-    """Return drift and ripple of the steady Jacobi energy E - ω L_z over the largest elastic one.
+    """Return drift and ripple of the steady `balanced_energy` over the largest elastic one.
 
     The drift is the change of its trend, a straight line, over the steady phase: what the
     integrator gains or loses for good. The ripple is the largest deviation from that line: the
     truncation error that comes and goes with the oscillation, of second order in the step.
     """
-    steady = run["jacobi_energy"].where(run["time"] >= run.attrs["ramp_time"], drop=True)
-    time, energy = steady["time"].to_numpy(), steady.to_numpy()
+    time = run["time"].to_numpy()
+    steady = time >= run.attrs["ramp_time"]
+    time, energy = time[steady], balanced_energy(run)[0][steady]
     trend = np.polynomial.Polynomial.fit(time, energy, 1)
     scale = max(float(run["elastic_energy"].max()), float(np.finfo(float).tiny))
     return (

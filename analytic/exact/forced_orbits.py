@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, undamped
 from ..input_checks import finite_array, finite_number
-from ..loads import UNDAMPED, Gravity, HarmonicLoad
+from ..loads import Gravity, HarmonicLoad
 from ..methods.driven import DrivenOrbit
 from ..methods.floquet import Multipliers, floquet_multipliers
 from .backbone import Backbone
@@ -165,8 +165,3 @@ class ForcedResponse:
             f"{self.amplitude.max():.6g} at {self.frequency[np.argmax(self.amplitude)]:.6g} rad/s, "
             f"folds at {folds or 'none'}; residual at most {self.residual.max():.1e}"
         )
-
-
-def undamped(beam: AnyBlade) -> AnyBlade:
-    """Return the same without damping."""
-    return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam

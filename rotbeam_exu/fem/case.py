@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
 from analytic import AnyBlade, SpinUp, SteadyRotation
 from analytic.input_checks import positive, whole_number
+from analytic.loads import Load, loads_in_time
+from analytic.motion import Rotation
 
 from ..resolution import checked_steps
-from ..verdict import beam_attributes
+from ..verdict import beam_attributes, loads_attributes
 from .elements import Formulation, formulation, options_of, require_modeled
+from .loading import rippled
 from .solver import Frame, require_frame
 
 
@@ -26,7 +30,7 @@ class Case:
     spin_up : SpinUp or SteadyRotation
     element : str or Formulation
         A name becomes the formulation.
-    elements, duration, step, frame
+    elements, duration, step, frame, loads
         As in `simulate`; NumPy's numbers become Python's.
 
     Raises
@@ -42,6 +46,7 @@ class Case:
     duration: float = 15.0
     step: float = 1e-3
     frame: Frame = "inertial"
+    loads: Sequence[Load] = ()
 
     def __post_init__(self) -> None:
         for name, value in (
@@ -49,6 +54,7 @@ class Case:
             ("elements", whole_number("elements", self.elements)),
             ("duration", positive("duration", self.duration, "s")),
             ("step", positive("step", self.step, "s")),
+            ("loads", loads_in_time(self.loads)),
         ):
             object.__setattr__(self, name, value)
         require_frame(self.beam, self.frame)
@@ -77,12 +83,23 @@ class Case:
         """Time from rest to the steady angular velocity [s]; zero for a beam that turns already."""
         return float(getattr(self.spin_up, "ramp_time", 0.0))
 
+    @property
+    def rotation(self) -> Rotation:
+        """Rotation of the clamp, ripples of its speed included."""
+        return rippled(self.spin_up, self.loads)
+
+    @property
+    def exchanges_energy(self) -> bool:
+        """Whether loads or damping bring energy or take it."""
+        return bool(self.loads) or any(self.beam.unit.damping)
+
     @cached_property
     def steps_and_sampling(self) -> tuple[int, int]:
         """How many steps there are, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.omega, self.ramp_time, self.elements, self.duration, self.step
-        )
+            self.beam, self.omega, self.ramp_time, self.elements, self.duration, self.step,
+            [getattr(load, "frequency", self.omega) for load in self.loads],
+        )  # fmt: skip
 
     def describe(self) -> dict[str, Any]:
         """Return every input as plain values: the attributes of a run, and the key of a result."""
@@ -96,4 +113,5 @@ class Case:
             "duration": self.duration,
             "step": self.step,
             "frame": self.frame,
+            **loads_attributes(self.loads),
         }

@@ -150,7 +150,7 @@ def add_inertial_forces(
         [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
     )
     angular = setting * (mass @ np.tile(element.angles, nodes))
-    stiff_triplets, gyro_triplets = _triplets(centrifugal), _triplets(gyroscopic)
+    stiff_triplets, gyro_triplets = triplets(centrifugal), triplets(gyroscopic)
 
     def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
         total = reference + np.asarray(q)
@@ -186,6 +186,7 @@ def add_inertial_forces(
     add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
 
 
-def _triplets(matrix: sparse.csr_array) -> FloatArray:
+def triplets(matrix: sparse.csr_array) -> FloatArray:
+    """Return (rows, columns, values) of a matrix, as Exudyn takes them."""
     entries = matrix.tocoo()
     return np.column_stack([entries.row, entries.col, entries.data]).astype(np.float64)

@@ -1,4 +1,4 @@
-"""The finite element model about its rotating equilibrium: mass, stretch, natural frequencies."""
+"""The model about its rotating equilibrium, undamped: mass, stretch, natural frequencies."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scipy import linalg, sparse
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_steady_state, warn_if_rpm
+from analytic.beam import require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 
 from ..resolution import require_feasible, require_stretch, warn_if_coarse
@@ -74,9 +74,9 @@ def natural_frequencies(
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
-    Small vibration in the plane of bending, about the equilibrium stretched by the rotation,
-    Coriolis and centrifugal terms included: the ω_n to which a nonlinear frequency of the same
-    mesh belongs.
+    Small undamped vibration in the plane of bending, about the equilibrium stretched by the
+    rotation, Coriolis and centrifugal terms included: the ω_n to which a nonlinear frequency of
+    the same mesh belongs. Damping of the blade does not count.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def linearized(
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    model, units = formulation(element), Units.of(beam)
+    beam, model, units = undamped(beam), formulation(element), Units.of(beam)
     require_modeled(beam, model)
     rotation = units.rotation(SteadyRotation(omega=omega))
     unit_beam = units.beam(beam)

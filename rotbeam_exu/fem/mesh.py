@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic import AnyBlade, Blade, PointMass
+from analytic import AnyBlade, Blade, Damping, PointMass
 from analytic.arrays import FloatArray
+from analytic.loads import UNDAMPED
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
 
@@ -60,6 +61,11 @@ class Mesh:
     def hub_radius(self) -> float:
         """Where the root is, from the axis."""
         return self.blade.hub_radius if isinstance(self.blade, Blade) else 0.0
+
+    @property
+    def damping(self) -> Damping:
+        """That of the blade; a beam has none."""
+        return self.blade.damping if isinstance(self.blade, Blade) else UNDAMPED
 
     @cached_property
     def positions(self) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import exudyn
@@ -10,11 +11,13 @@ from scipy import sparse
 
 from analytic import AnyBlade
 from analytic.input_checks import whole_number
+from analytic.loads import Load, loads_in_time
 from analytic.motion import Rotation
 
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
 from .linearization import mass_matrix
+from .loading import Loading, rippled
 from .solver import Frame, require_frame
 
 
@@ -34,6 +37,10 @@ class RotatingBeam:
     mass : csr_array
         Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
         chain's turning nodes.
+    rotation : Rotation
+        Of the clamp, ripples of its speed included.
+    loading : Loading
+        Loads and drag.
     """
 
     model: Formulation
@@ -42,6 +49,8 @@ class RotatingBeam:
     tip_marker: exudyn.MarkerIndex
     tip_sensor: exudyn.SensorIndex
     mass: sparse.csr_array
+    rotation: Rotation
+    loading: Loading
 
     @property
     def nodes(self) -> tuple[exudyn.NodeIndex, ...]:
@@ -62,6 +71,7 @@ def add_rotating_beam(
     element: str | Formulation = "cable",
     elements: int = 16,
     frame: Frame = "inertial",
+    loads: Sequence[Load] = (),
 ) -> RotatingBeam:
     """Put a beam whose clamped end follows `rotation` into an Exudyn system.
 
@@ -76,17 +86,19 @@ def add_rotating_beam(
         In the units of the system, SI as a rule.
     rotation : SpinUp or SteadyRotation
         Angle of the clamp over time.
-    element, elements, frame
-        As in `simulate`.
+    element, elements, frame, loads
+        As in `simulate`; loads in the units of the system.
 
     Raises
     ------
-    ValueError
+    ValueError, TypeError
         If an input is refused, or the formulation does not model the blade.
     """
     model, elements = formulation(element), whole_number("elements", elements)
     require_modeled(beam, model)
     require_frame(beam, frame)
+    loads = loads_in_time(loads)
+    rotation = rippled(rotation, loads)
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
     if frame == "inertial":
@@ -95,6 +107,9 @@ def add_rotating_beam(
     else:
         drive.fix_root(mbs, chain, model, direction=True)
         drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
+    loading = Loading(model, beam, elements, mass, loads)
+    if loading:
+        loading.add(mbs, chain, rotation, frame)
     root, tip = (mbs.AddMarker(MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1))
     sensor = mbs.AddSensor(
         SensorNode(
@@ -105,5 +120,6 @@ def add_rotating_beam(
         )
     )
     return RotatingBeam(
-        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor, mass=mass
-    )
+        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor, mass=mass,
+        rotation=rotation, loading=loading,
+    )  # fmt: skip

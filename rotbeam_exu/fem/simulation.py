@@ -6,7 +6,7 @@ import json
 import platform
 import time as clock
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
@@ -19,17 +19,18 @@ from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.input_checks import RotbeamWarning
+from analytic.loads import Load
 from analytic.motion import Rotation
 
 from .. import __version__
 from ..verdict import SimulationError, check_run, remedy
 from .case import Case
+from .columns import columns
 from .elements import Chain, Formulation
-from .elements.formulation import spun, turned, turned_velocities
-from .kinetics import energy_and_momentum
+from .elements.formulation import spun
 from .linearization import round_off
 from .rotating_beam import RotatingBeam, add_rotating_beam
-from .solver import Frame, Sensors, Trajectory, solve, solver_settings
+from .solver import Frame, Sensors, solve, solver_settings
 from .system import exudyn_system
 from .units import Units
 
@@ -43,10 +44,11 @@ def simulate(
     duration: float = 15.0,
     step: float = 1e-3,
     frame: Frame = "inertial",
+    loads: Sequence[Load] = (),
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Spin the beam up and let it oscillate (Secs. 2 and 6), undamped.
+    """Spin the beam up and let it oscillate (Secs. 2 and 6), damped as the blade is.
 
     Solved in the beam's own units, so that any beam is as well resolved as the paper's; samples
     are kept at least 200 times a period of ω_n. Exudyn cannot be left in mid-run: an interpreter
@@ -72,6 +74,9 @@ def simulate(
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule, whose
         step error at 2, 6 and 8 rad/s is 3.5, 14 and 19 times smaller for the paper's beam; only
         there may the blade have a setting angle.
+    loads : sequence of SpeedRipple, TipForce, DistributedForce and Gravity
+        What acts on the blade, from t = 0 on; harmonic loads with their frequency. Everything
+        that is relative to the clamp is so with the ripples of its speed.
     initial_state : callable, optional
         Gives the state at material points x [m] at t = 0, as
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does; otherwise the beam
@@ -85,7 +90,9 @@ def simulate(
         Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x, tip_y [m] in the
         plane of rotation and the inertial frame, angle [rad], kinetic_energy, elastic_energy,
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
-        [-] (largest along the beam). The attributes hold every input, versions, settings, wall
+        [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
+        from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
+        jacobi_energy changes. The attributes hold every input, versions, settings, wall
         time and the verdict.
 
     Raises
@@ -99,7 +106,7 @@ def simulate(
     """
     case = Case(
         beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
-        step=step, frame=frame,
+        step=step, frame=frame, loads=loads,
     )  # fmt: skip
     return run_case(case, initial_state=initial_state, progress=progress)
 
@@ -121,7 +128,7 @@ def run_case(
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = built.sensors.read()
-    run = _dataset(case, units, beam, built.beam, trajectory)
+    run = columns(case, units, beam, built.beam, trajectory)
     run.attrs = {
         **case.describe(),
         "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
@@ -149,10 +156,10 @@ def _built(
 ) -> _Built:
     """Lay the beam, drive its clamp, set its state and assemble."""
     model = case.model
-    rotation = units.rotation(case.spin_up)
     built = add_rotating_beam(
-        mbs, beam, rotation, element=model, elements=case.elements, frame=case.frame
-    )
+        mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
+        frame=case.frame, loads=units.loads(case.loads),
+    )  # fmt: skip
     chain = built.chain
     sensors = Sensors(mbs, chain)
     start = None
@@ -160,7 +167,7 @@ def _built(
         x = np.linspace(0.0, 1.0, len(chain.nodes))
         state = units.state(initial_state(case.beam.length * x))
         start = model.coordinates(beam.unit.hub + x, state)
-    _start(mbs, chain, model, rotation, case.frame, start)
+    _start(mbs, chain, model, built.rotation, case.frame, start)
     mbs.Assemble()
     return _Built(beam=built, sensors=sensors)
 
@@ -225,63 +232,3 @@ def versions() -> dict[str, str]:
     """Return the versions that a result depends on."""
     libraries = {name: metadata.version(name) for name in ("exudyn", "numpy", "scipy")}
     return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}
-
-
-def _dataset(
-    case: Case, units: Units, beam: AnyBlade, built: RotatingBeam, trajectory: Trajectory
-) -> xr.Dataset:
-    """Everything a run is asked for in SI units, as seen from the frame of the clamp."""
-    model, setting = case.model, beam.unit.setting
-    # Counted, not added up: the times of the steps asked for.
-    time = case.step * np.rint(trajectory.time * units.time / case.step)
-    coordinates, velocities = trajectory.coordinates, trajectory.velocities
-    elastic = trajectory.elastic_energy
-    angle, rate = case.spin_up.angle(time), units.time * case.spin_up.rate(time)
-    if case.frame == "inertial":
-        coordinates = turned(model, coordinates, -angle)
-        absolute = turned_velocities(model, velocities, -angle)
-    else:
-        absolute = velocities + setting * rate[:, None, None] * spun(model, coordinates)
-    kinetic, angular_momentum = energy_and_momentum(built, coordinates, absolute, rate, setting)
-    x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
-    # Out of the plane of rotation the deflection has a share that is not seen there.
-    seen = (x + 1j * setting * y) * np.exp(1j * angle)
-    root = coordinates[:, 0]
-    gradient, target = model.clamp(0.0)
-    columns = {
-        "q": (y, "m", "tip displacement q"),
-        "q_dot": (absolute[:, -1, 1] - setting * rate * x, "m/s", "tip velocity dq/dt"),
-        "tip_x": (seen.real, "m", "tip position along inertial x"),
-        "tip_y": (seen.imag, "m", "tip position along inertial y"),
-        "angle": (angle, "rad", "angle of the clamp"),
-        "kinetic_energy": (kinetic, "J", "kinetic energy"),
-        "elastic_energy": (elastic, "J", "elastic energy"),
-        "jacobi_energy": (
-            kinetic + elastic - rate * angular_momentum,
-            "J",
-            "Jacobi energy E - ω L_z",
-        ),
-        "clamp_residual": (
-            np.hypot(root[:, 0] - beam.length * beam.unit.hub, root[:, 1]),
-            "m",
-            "position error of the clamp",
-        ),
-        "direction_residual": (
-            np.abs(root @ gradient.T - target).max(axis=1),
-            "1",
-            "direction error of the clamp",
-        ),
-        "axial_strain": (
-            np.abs(model.axial_strain(beam, coordinates)).max(axis=1),
-            "1",
-            "largest axial strain along the beam",
-        ),
-    }
-    scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
-    return xr.Dataset(
-        {
-            name: ("time", scale.get(unit, 1.0) * values, {"units": unit, "long_name": label})
-            for name, (values, unit, label) in columns.items()
-        },
-        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
-    )

@@ -8,10 +8,24 @@ sums of steps are exact.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from typing import Any
 
-from analytic import AnyBlade, Beam, BeamState, Blade, PointMass, Section
+from analytic import (
+    AnyBlade,
+    Beam,
+    BeamState,
+    Blade,
+    Damping,
+    DistributedForce,
+    Gravity,
+    PointMass,
+    Section,
+    SpeedRipple,
+    TipForce,
+)
+from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.profiles import in_units
 
@@ -78,7 +92,29 @@ class Units:
                 )
                 for one in blade.point_masses
             ),
+            damping=Damping(
+                bending=blade.damping.bending / self.time,
+                axial=blade.damping.axial / self.time,
+                external=blade.damping.external * self.length * self.time / self.mass,
+            ),
         )
+
+    def loads(self, loads: Iterable[Load]) -> tuple[Load, ...]:
+        """Return the loads of a motion in time in these units."""
+        force = self.energy / self.length
+        units = {
+            SpeedRipple: 1.0 / self.time,
+            TipForce: force,
+            DistributedForce: force / self.length,
+        }
+
+        def of(load: Any) -> Load:
+            if isinstance(load, Gravity):
+                return Gravity(load.gravity * self.time**2 / self.length)
+            amplitude = load.amplitude / units[type(load)]
+            return replace(load, amplitude=amplitude, frequency=load.frequency * self.time)  # type: ignore[no-any-return]
+
+        return tuple(of(load) for load in loads)
 
     def rotation(self, rotation: Rotation) -> Rotation:
         """Return the rotation over time in these units."""

@@ -7,9 +7,9 @@ from rotbeam_exu.fem.system import exudyn_system
 
 @pytest.fixture(scope="session")
 def elastic_force():
-    """Elastic forces of a free chain as Exudyn adds them up, flat, and the chain's reference."""
+    """Forces inside a free chain as Exudyn adds them up, flat, and the chain's reference."""
 
-    def evaluate(model, beam, elements, coordinates=None):
+    def evaluate(model, beam, elements, coordinates=None, velocities=None):
         with exudyn_system() as mbs:
             chain = model.lay(mbs, beam, elements)
             mbs.Assemble()
@@ -25,6 +25,8 @@ def elastic_force():
                 solver = exudyn.MainSolverStatic()
                 solver.InitializeSolver(mbs, settings)
                 mbs.systemData.SetODE2Coordinates(displacement)
+                if velocities is not None:
+                    mbs.systemData.SetODE2Coordinates_t(velocities.ravel())
                 solver.ComputeODE2RHS(mbs)
                 force = np.array(solver.GetSystemResidual())[: reference.size]
                 solver.FinalizeSolver(mbs, settings)

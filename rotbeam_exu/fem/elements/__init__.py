@@ -66,11 +66,21 @@ def require_modeled(beam: AnyBlade, model: Formulation) -> None:
     if unit == UNIFORM:
         return
     if not getattr(model, "takes_blades", False):
-        takes = [name for name, cls in FORMULATIONS.items() if getattr(cls, "takes_blades", False)]
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
-            f"{unit.differences}: take {', '.join(map(repr, takes[:-1]))} or {takes[-1]!r}"
+            f"{unit.differences}: take {_those_with('takes_blades')}"
         )
+    bending, axial, _ = unit.damping
+    if (bending or axial) and not getattr(model, "takes_viscosity", False):
+        raise ValueError(
+            f"element {model.name!r} has no viscosity, and this blade has bending or axial "
+            f"damping: take {_those_with('takes_viscosity')}, or external damping"
+        )
+
+
+def _those_with(ability: str) -> str:
+    names = [repr(name) for name, cls in FORMULATIONS.items() if getattr(cls, ability, False)]
+    return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
 def options_of(element: Formulation) -> dict[str, Any]:

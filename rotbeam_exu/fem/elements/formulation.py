@@ -33,12 +33,16 @@ class Chain:
     turning : tuple of TurningNode
         Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
         and `drive` adds it.
+    dissipation : callable, optional
+        The power [W], (samples,), that the viscosity of the beam takes, from coordinates and rates
+        of the nodes (samples, nodes, n) in any one frame, where the beam has viscosity.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
     bodies: tuple[exudyn.ObjectIndex, ...] = ()
     elastic_energy: Callable[[FloatArray], FloatArray] | None = None
     turning: tuple[TurningNode, ...] = ()
+    dissipation: Callable[[FloatArray, FloatArray], FloatArray] | None = None
 
 
 class Formulation(Protocol):
@@ -48,8 +52,9 @@ class Formulation(Protocol):
     how to make it again. The coordinates of a node are those that Exudyn integrates, reference
     values included, here as arrays of shape (..., nodes, n). A rotation by θ takes them, and
     mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
-    a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``; to others only
-    the uniform beam is given.
+    a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``, and by
+    ``takes_viscosity = True`` if with its bending and axial damping; to others only the uniform
+    beam is given, and blades without.
     """
 
     name: ClassVar[str]
@@ -89,6 +94,7 @@ class NoDivergence:
     """The answer of formulations that describe large deformation exactly."""
 
     takes_blades: ClassVar[bool] = False
+    takes_viscosity: ClassVar[bool] = False
 
     def divergence_speed(self, beam: Any, elements: int) -> float:
         """Return infinity: divergence is an artifact of linear elastic frames (Sec. 1)."""

@@ -24,6 +24,7 @@ from analytic.input_checks import whole_number
 
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
+from .hermite import HERMITE, scales
 from .node_kinds import QUARTER_TURN, SlopeNodes
 
 FloatingFrame = Literal["tangent", "pinned"]
@@ -232,14 +233,10 @@ def _turned(rotation: FloatArray, vectors: FloatArray) -> FloatArray:
 
 def _cell(beam: Beam, length: float) -> tuple[FloatArray, FloatArray]:
     """Mass and linear stiffness matrix (8, 8) of a cubic cell of `length`, exactly integrated."""
-    basis = [
-        np.polynomial.Polynomial(c)
-        for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])
-    ]
-    scale = np.array([1.0, length, 1.0, length])
+    scale = scales(length)
 
     def products(order: int) -> FloatArray:
-        shapes = [b.deriv(order) if order else b for b in basis]
+        shapes = [b.deriv(order) if order else b for b in HERMITE]
         table = [[(a * b).integ()(1.0) for b in shapes] for a in shapes]
         return np.array(table) * np.outer(scale, scale) * length ** (1 - 2 * order)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import exudyn
@@ -24,7 +25,8 @@ class Exact(AngleNodes, NoDivergence):
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
     integrated at one Gauss point fewer than there are nodes, which keeps shear from locking. The
-    section has its rotary inertia ρI; at a setting angle ψ it turns by φ' + θ' cos ψ.
+    section has its rotary inertia ρI; at a setting angle ψ it turns by φ' + θ' cos ψ. Damping of
+    a blade is that of bending and stretch; shear is not damped.
 
     Parameters
     ----------
@@ -40,6 +42,7 @@ class Exact(AngleNodes, NoDivergence):
 
     name: ClassVar[str] = "exact"
     takes_blades: ClassVar[bool] = True
+    takes_viscosity: ClassVar[bool] = True
     summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
 
     def __post_init__(self) -> None:
@@ -64,13 +67,20 @@ class Exact(AngleNodes, NoDivergence):
                     bendingStiffness=section.bending_stiffness,
                     axialStiffness=section.axial_stiffness,
                     shearStiffness=self._shear_share * section.axial_stiffness,
+                    bendingDamping=section.bending_stiffness * mesh.damping.bending,
+                    axialDamping=section.axial_stiffness * mesh.damping.axial,
                 )
             )
         for node, one in mesh.lumped():
             mbs.AddObject(
                 ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
             )
-        return Chain(nodes=nodes, elastic_energy=lambda e: self.elastic_energy(beam, e))
+        viscous = mesh.damping.bending or mesh.damping.axial
+        return Chain(
+            nodes=nodes,
+            elastic_energy=lambda e: self.elastic_energy(beam, e),
+            dissipation=partial(self._dissipation, mesh) if viscous else None,
+        )
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
@@ -79,6 +89,27 @@ class Exact(AngleNodes, NoDivergence):
     def elastic_energy(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
         axial, shear, curvature = self._strains(beam, coordinates)
+        EA, EI = self._stiffness(beam, coordinates)
+        density = EA * (axial**2 + self._shear_share * shear**2) + EI * curvature**2
+        # The points of an element, one or two, weigh the same.
+        return np.asarray(0.5 * beam.length * density.mean(axis=-1))
+
+    def _dissipation(
+        self, mesh: Mesh, coordinates: FloatArray, velocities: FloatArray
+    ) -> FloatArray:
+        """Return the power (samples,) that bending and axial damping take."""
+        e, e_x = self._at_gauss_points(mesh.blade, coordinates)
+        rate, rate_x = self._at_gauss_points(mesh.blade, velocities)
+        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
+        shear = cosine * e_x[..., 1] - sine * e_x[..., 0]
+        axial = cosine * rate_x[..., 0] + sine * rate_x[..., 1] + rate[..., 2] * shear
+        EA, EI = self._stiffness(mesh.blade, coordinates)
+        damping = mesh.damping
+        density = damping.axial * EA * axial**2 + damping.bending * EI * rate_x[..., 2] ** 2
+        return np.asarray(mesh.blade.length * density.mean(axis=-1))
+
+    def _stiffness(self, beam: AnyBlade, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """EA and EI at the Gauss points, each (points,)."""
         inner = self.nodes - 1
         mesh = Mesh(blade=beam, elements=(coordinates.shape[-2] - 1) // inner)
         sections = list(mesh.sections())
@@ -86,9 +117,7 @@ class Exact(AngleNodes, NoDivergence):
             np.repeat([getattr(section, name) for section in sections], inner)
             for name in ("axial_stiffness", "bending_stiffness")
         )
-        density = EA * (axial**2 + self._shear_share * shear**2) + EI * curvature**2
-        # The points of an element, one or two, weigh the same.
-        return np.asarray(0.5 * beam.length * density.mean(axis=-1))
+        return EA, EI
 
     @property
     def _shear_share(self) -> float:
@@ -98,6 +127,18 @@ class Exact(AngleNodes, NoDivergence):
         self, beam: AnyBlade, coordinates: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Axial, shear and bending strain at the Gauss points, each (..., points)."""
+        e, e_x = self._at_gauss_points(beam, coordinates)
+        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
+        return (
+            cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0,
+            cosine * e_x[..., 1] - sine * e_x[..., 0],
+            e_x[..., 2],
+        )
+
+    def _at_gauss_points(
+        self, beam: AnyBlade, coordinates: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the coordinates and their slopes at the Gauss points, each (..., points, 3)."""
         inner = self.nodes - 1
         count = (coordinates.shape[-2] - 1) // inner
         length = beam.length / count
@@ -112,13 +153,8 @@ class Exact(AngleNodes, NoDivergence):
                 [0.5 * points * (points - 1), 1 - points**2, 0.5 * points * (points + 1)], axis=1
             )
             slopes = np.stack([points - 0.5, -2 * points, points + 0.5], axis=1) * 2.0 / length
-        e, e_x = (np.einsum("pn,...jnc->...jpc", s, per_element) for s in (values, slopes))
-        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
-        strains = (
-            cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0,
-            cosine * e_x[..., 1] - sine * e_x[..., 0],
-            e_x[..., 2],
+        flat = (*coordinates.shape[:-2], inner * count, 3)
+        e, e_x = (
+            np.einsum("pn,...jnc->...jpc", s, per_element).reshape(flat) for s in (values, slopes)
         )
-        flat = (*coordinates.shape[:-2], -1)
-        axial, shear, curvature = (s.reshape(flat) for s in strains)
-        return axial, shear, curvature
+        return e, e_x

@@ -1,0 +1,172 @@
+"""Loads on a chain and the drag of the air, in either frame, and the power they bring.
+
+As in `analytic.exact.loading` a load is a complex force in the frame of the clamp, its real part
+along the blade and its imaginary one across, times what it acts on: all that has mass (gravity),
+the length, or the tip. A ripple of the speed is no force but part of the clamp's rotation. Drag is
+-d ṙ per length with the velocity relative to the clamp,
+
+    f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
+
+where e' of the rotating frame is relative already; D is a mass matrix of constant density.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import ObjectGenericODE2
+from scipy import sparse
+
+from analytic import AnyBlade, Beam, DistributedForce, Gravity, SpeedRipple, TipForce
+from analytic.arrays import ComplexArray, FloatArray
+from analytic.loads import Load
+from analytic.motion import Rippled, Rotation
+
+from .drive import triplets
+from .elements import Chain, Formulation
+from .elements.formulation import turned_velocities
+from .linearization import mass_matrix
+from .mesh import Mesh
+from .solver import Frame
+
+_NO_INERTIA = 1e-30
+"""Of a section: zero stands for that of a homogeneous one, which the air does not brake."""
+
+
+def rippled(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
+    """Return the rotation of the clamp with the ripples among the loads."""
+    for load in loads:
+        if isinstance(load, SpeedRipple) and load.frequency is not None:
+            rotation = Rippled(
+                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency
+            )
+    return rotation
+
+
+class Loading:
+    """What acts on a chain besides its inertia: the consistent loads and the drag.
+
+    Parameters
+    ----------
+    model : Formulation
+    beam : Beam or Blade
+    elements : int
+    mass : csr_array
+        Mass matrix of the chain, point masses included.
+    loads : sequence of Load
+        With frequencies, and in the units of the beam.
+    """
+
+    def __init__(
+        self,
+        model: Formulation,
+        beam: AnyBlade,
+        elements: int,
+        mass: sparse.csr_array,
+        loads: Sequence[Load],
+    ) -> None:
+        forces = [load for load in loads if not isinstance(load, SpeedRipple)]
+        external = Mesh(blade=beam, elements=elements).damping.external
+        size, per_node = mass.shape[0], model.angles.size
+        of_length = sparse.csr_array(mass.shape)
+        if external or any(isinstance(load, DistributedForce) for load in forces):
+            of_length = mass_matrix(model, _of_unit_density(beam), elements)
+        at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
+        acted_on = {Gravity: mass, DistributedForce: of_length, TipForce: at_tip}
+        # Unit translations along and across the blade.
+        shifts = np.tile(np.eye(2, per_node), size // per_node)
+        self._pushes = [(load, np.asarray(shifts @ acted_on[type(load)])) for load in forces]
+        self._drag, self._model, self._setting = external * of_length, model, beam.unit.setting
+        self._acts = bool(forces) or external > 0.0
+
+    def __bool__(self) -> bool:
+        return self._acts
+
+    def forces(self, t: FloatArray, angle: FloatArray) -> FloatArray:
+        """Return the nodal forces of all loads in the frame of the clamp, (samples, n)."""
+        total = np.zeros((t.size, self._drag.shape[0]))
+        for load, onto in self._pushes:
+            force = _complex_force(load, self._setting, t, angle)
+            total += np.stack([force.real, force.imag], axis=1) @ onto
+        return total
+
+    def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:
+        """Return the power (samples,) that loads bring and drag takes.
+
+        Parameters
+        ----------
+        t, angle : ndarray (samples,)
+        velocities : ndarray (samples, nodes, n)
+            Relative to the frame of the clamp, by its axes.
+        """
+        v = velocities.reshape(t.size, -1)
+        return np.asarray(np.sum((self.forces(t, angle) - v @ self._drag) * v, axis=1))
+
+    def add(self, mbs: exudyn.MainSystem, chain: Chain, rotation: Rotation, frame: Frame) -> None:
+        """Put loads and drag on the chain, whose clamp follows `rotation`."""
+        inertial, n = frame == "inertial", self._drag.shape[0]
+        turn = sparse.kron(sparse.eye_array(len(chain.nodes)), self._model.quarter_turn)
+        turning = (self._drag @ turn).tocsr()
+        reference = np.concatenate(
+            [mbs.GetNodeParameter(node, "referenceCoordinates") for node in chain.nodes]
+        )
+        drag_triplets, turning_triplets = triplets(self._drag), triplets(turning)
+        time, acting = np.nan, np.zeros(n)
+
+        def act(t: float) -> None:
+            nonlocal time, acting
+            time, angle = t, np.array([rotation.angle(t)])
+            acting = self.forces(np.array([t]), angle).ravel()
+            if inertial:
+                per_node = acting.reshape(1, len(chain.nodes), -1)
+                acting = turned_velocities(self._model, per_node, angle).ravel()
+
+        def frame_rate(t: float) -> float:
+            """How fast the velocities of the clamp's frame turn in the coordinates."""
+            return rotation.rate(t) if inertial else 0.0
+
+        def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
+            if t != time:
+                act(t)
+            carried = frame_rate(t) * (turning @ (reference + np.asarray(q)))
+            return np.asarray(acting + carried - self._drag @ np.asarray(q_t))
+
+        def jacobian(
+            mbs: Any, t: float, item: int, q: Any, q_t: Any, factor_q: float, factor_q_t: float
+        ) -> Any:
+            damping, coupling = drag_triplets.copy(), turning_triplets.copy()
+            damping[:, 2] *= factor_q_t
+            coupling[:, 2] *= -factor_q * frame_rate(t)
+            container = exudyn.MatrixContainer()
+            container.SetWithSparseMatrix(np.vstack([damping, coupling]), n, n)
+            return container
+
+        empty = exudyn.MatrixContainer()
+        empty.SetWithSparseMatrix(sparse.csr_matrix((n, n)))
+        mbs.AddObject(
+            ObjectGenericODE2(
+                nodeNumbers=list(chain.nodes),
+                massMatrix=empty,
+                forceUserFunction=force,
+                jacobianUserFunction=jacobian,
+            )
+        )
+
+
+def _of_unit_density(beam: AnyBlade) -> AnyBlade:
+    """Return the same blade with a mass per length of one and no other mass."""
+    if isinstance(beam, Beam):
+        # It has no drag, and a force that shifts its sections does not turn them.
+        return replace(beam, density=1.0 / beam.area)
+    section = replace(beam.section, mass_per_length=1.0, rotary_inertia=_NO_INERTIA)
+    return replace(beam, section=section, point_masses=())
+
+
+def _complex_force(load: Any, setting: float, t: FloatArray, angle: FloatArray) -> ComplexArray:
+    if isinstance(load, Gravity):
+        return np.asarray(-load.gravity * (np.sin(angle) + 1j * setting * np.cos(angle)))
+    return np.asarray(1j * load.amplitude * np.cos(load.frequency * t))

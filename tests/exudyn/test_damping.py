@@ -1,0 +1,203 @@
+"""Damping in Exudyn: free decay as of the exact blade, what takes energy, and what is refused."""
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from analytic import (
+    BeamState,
+    Damping,
+    SpinUp,
+    SteadyRotation,
+    TipForce,
+    damping_ratios,
+    linear_modes,
+    periodic_orbits,
+)
+from rotbeam_exu import SimulationError, load, natural_frequencies, save, simulate, steady_stretch
+from rotbeam_exu.fem.elements import Ancf3, Cable, Exact
+from rotbeam_exu.fem.elements.formulation import spun
+from rotbeam_exu.fem.linearization import mass_matrix
+from rotbeam_exu.fem.loading import Loading
+from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.verdict import beam_of, check_run, energy_drift
+
+
+def by_mass(beam, c):
+    """Mass-proportional damping c, over the beam's frequency scale."""
+    return Damping(external=c * beam.mass_per_length * beam.frequency_scale)
+
+
+def fitted_decay(time, signal, ratio, frequency):
+    """Damping ratio of a decaying tone, by least squares from a guess of it and its frequency."""
+    signal = signal / np.abs(signal).max()
+
+    def misfit(p):
+        return p[0] * np.exp(-p[1] * time) * np.cos(p[2] * time + p[3]) + p[4] - signal
+
+    found = least_squares(misfit, [1.0, ratio * frequency, frequency, 0.0, 0.0], x_scale="jac").x
+    return found[1] / np.hypot(found[1], found[2])
+
+
+@pytest.mark.parametrize("omega", [0.0, 6.0])
+@pytest.mark.parametrize(
+    ("element", "frame", "damping"),
+    [
+        ("cable", "rotating", Damping(bending=0.01, axial=0.01)),
+        ("cable", "inertial", Damping(bending=0.01)),
+        ("exact", "rotating", Damping(bending=0.01, axial=0.01)),
+        ("cable", "inertial", "by mass"),
+        ("exact", "inertial", "by mass"),
+        ("ancf3", "rotating", "by mass"),
+    ],
+)
+def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damping):
+    """Mesh, step and shear leave 5e-4 of the ratio, as they do of frequencies."""
+    blade = beam.with_damping(by_mass(beam, 0.04) if damping == "by mass" else damping)
+    exact = damping_ratios(blade, omega, 1)[0]
+    start = periodic_orbits(beam, omega, [0.005])
+    run = simulate(
+        blade, SteadyRotation(omega=omega), element=element, elements=16, duration=8.0, step=4e-3,
+        frame=frame, initial_state=lambda x: start.state(0, x),
+    )  # fmt: skip
+    frequency = linear_modes(beam, omega, 1).frequencies[0]
+    found = fitted_decay(run["time"].to_numpy(), run["q"].to_numpy(), exact, frequency)
+    assert found == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.parametrize("element", ["cable", "exact"])
+def test_an_axial_vibration_decays_by_the_axial_damping(beam, element):
+    """λ² + η_a ω² λ + ω² = 0, where bending damping has no part; ω is 1600 times bending's."""
+    omega, length = beam.burst_speed, beam.length
+    blade = beam.with_damping(Damping(bending=0.1, axial=0.02 / omega))
+    wave = 0.5 * np.pi / length
+
+    def stretched(x):
+        u, slope, zero = 1e-4 * np.sin(wave * x), 1e-4 * wave * np.cos(wave * x), 0.0 * x
+        return BeamState(
+            u=u, v=zero, u_slope=slope, v_slope=zero, u_dot=zero, v_dot=zero, u_slope_dot=zero,
+            v_slope_dot=zero,
+        )  # fmt: skip
+
+    # A load of no size, for samples as dense as its frequency wants them.
+    run = simulate(
+        blade, SteadyRotation(omega=0.0), element=element, elements=32, duration=0.06, step=2e-5,
+        loads=[TipForce(amplitude=0.0, frequency=omega)], frame="rotating", initial_state=stretched,
+    )  # fmt: skip
+    moved = run["tip_x"].to_numpy() - length
+    found = fitted_decay(run["time"].to_numpy(), moved, 0.01, omega)
+    assert found == pytest.approx(0.01, rel=2e-3)
+
+
+@pytest.mark.parametrize("model", [Cable(), Exact(), Exact(nodes=3)])
+@pytest.mark.parametrize("damping", [Damping(bending=0.3), Damping(axial=0.2)])
+def test_what_is_counted_as_taken_is_what_exudyn_takes(beam, elastic_force, model, damping):
+    """At any state, on a taper; and nothing of it in a rotation, of the frame or of the blade."""
+    blade = beam.with_taper(0.2, 0.3).with_damping(damping)
+    elements, rng = 3, np.random.default_rng(3)
+    with exudyn_system() as mbs:
+        dissipation = model.lay(mbs, blade, elements).dissipation
+    reference = elastic_force(model, blade, elements)[1]
+    at = reference + 0.2 * rng.standard_normal(reference.shape)
+    resting = elastic_force(model, blade, elements, at, 0.0 * at)[0]
+    moving = rng.standard_normal(at.shape)
+    force = elastic_force(model, blade, elements, at, moving)[0] - resting
+    power = -force @ moving.ravel()
+    assert power > 0.0
+    assert dissipation(at[None], moving[None]) == pytest.approx([power], rel=1e-9)
+    rotation = spun(model, at)
+    force = elastic_force(model, blade, elements, at, rotation)[0] - resting
+    assert np.abs(force).max() < 1e-9 * np.abs(resting).max()
+    assert dissipation(at[None], rotation[None])[0] < 1e-12 * power
+
+
+@pytest.mark.parametrize("model", [Cable(), Exact(), Exact(nodes=3), Ancf3()])
+def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
+    """Along a straight blade that turns about the axis it takes w² d ((R + L)³ - R³)/3."""
+    d, radius, rate, length = 0.03, 0.7, 2.0, beam.length
+    blade = beam.with_hub_radius(radius).with_taper(0.1, 0.2).with_tip_mass(0.1, 0.2)
+    blade = blade.with_damping(Damping(external=d))
+    with exudyn_system() as mbs:
+        nodes = model.lay(mbs, blade, 4).nodes
+        at = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
+    loading = Loading(model, blade, 4, mass_matrix(model, blade, 4), [])
+    taken = -loading.power(np.zeros(1), np.zeros(1), rate * spun(model, at)[None])
+    wanted = rate**2 * d * ((radius + length) ** 3 - radius**3) / 3.0
+    # A braked section would add μ times 3 of it.
+    assert taken == pytest.approx([wanted], rel=1e-9)
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+@pytest.mark.parametrize("element", ["cable", "exact", "ancf3"])
+def test_the_energy_balance_closes_to_second_order_in_the_step(beam, element, frame):
+    viscous = {"bending": 0.01, "axial": 1e-4} if element != "ancf3" else {}
+    air = by_mass(beam, 0.05).external
+    blade = beam.with_hub_radius(0.5).with_damping(Damping(external=air, **viscous))
+    errors = []
+    for step in (8e-3, 4e-3):
+        run = simulate(
+            blade, SpinUp(omega=6.0, ramp_time=3.0), element=element, elements=8, duration=4.8,
+            step=step, frame=frame,
+        )  # fmt: skip
+        balance = (run["jacobi_energy"] - run["supplied_energy"]).to_numpy()
+        errors.append(np.abs(balance - balance[0]).max() / run["elastic_energy"].max().item())
+    assert run["supplied_energy"][0] == 0.0
+    # What was supplied is several times the elastic energy.
+    assert np.abs(run["supplied_energy"]).max() > 3.0 * run["elastic_energy"].max()
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_natural_frequencies_and_stretch_are_those_without_damping(beam):
+    blade = beam.with_hub_radius(0.5).with_tip_mass(0.1)
+    damped = blade.with_damping(Damping(bending=0.1, axial=0.1, external=0.1))
+    for element in ("cable", "exact", "ancf3"):
+        for of in (natural_frequencies, steady_stretch):
+            free, other = (of(one, 6.0, element=element, elements=4) for one in (blade, damped))
+            assert np.array_equal(free, other)
+
+
+@pytest.fixture(scope="module")
+def decaying(beam):
+    blade = beam.with_damping(Damping(bending=0.02, external=0.01))
+    return simulate(blade, SpinUp(omega=4.0, ramp_time=3.0), elements=4, duration=6.0, step=5e-3)
+
+
+def test_energy_that_nothing_took_fails(decaying):
+    assert decaying.attrs["verdict"] == "passed"
+    assert energy_drift(decaying)[0] < 1e-3
+    leak = np.linspace(0.0, 2.0, decaying.sizes["time"])
+    run = decaying.assign(jacobi_energy=decaying["jacobi_energy"] - leak)
+    sentence = "drift of the Jacobi energy E - ω L_z from the energy supplied over the largest"
+    with pytest.raises(SimulationError, match=f"{sentence}.*: take a smaller step than 0.005 s"):
+        check_run(run)
+    # As long as it decays, the energy itself is none that stays.
+    with pytest.raises(SimulationError, match="drift of the steady Jacobi energy"):
+        check_run(decaying.drop_vars("supplied_energy"))
+
+
+def test_a_run_tells_its_damping(decaying, tmp_path):
+    for ending in ("nc", "csv"):
+        save(decaying, tmp_path / f"run.{ending}")
+        blade = beam_of(load(tmp_path / f"run.{ending}").attrs)
+        assert blade.damping == Damping(bending=0.02, external=0.01)
+
+
+def test_an_undamped_run_has_no_energy_to_account_for(beam):
+    run = simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), elements=2, duration=4.0, step=1e-2)
+    assert "supplied_energy" not in run
+    assert "loads" not in run.attrs
+
+
+@pytest.mark.parametrize(
+    ("damping", "element", "sentence"),
+    [
+        (Damping(bending=0.01), "ancf3", "damping: take 'cable' or 'exact', or external damping"),
+        (Damping(axial=0.01), "ancf3", "element 'ancf3' has no viscosity"),
+        (Damping(external=0.01), "linear", "has damping: take 'cable', 'exact' or 'ancf3'"),
+        (Damping(bending=0.01), "substructures", "for the uniform beam .* this blade has damping"),
+    ],
+)
+def test_damping_that_would_be_ignored_is_refused(beam, damping, element, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        simulate(beam.with_damping(damping), SpinUp(omega=1.0, ramp_time=3.0), element=element)

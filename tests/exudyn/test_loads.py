@@ -1,0 +1,283 @@
+"""Loads in Exudyn: its motion settles on the exact blade's responses, in both frames."""
+
+import json
+import math
+from dataclasses import replace
+
+import exudyn
+import numpy as np
+import pytest
+
+from analytic import (
+    Damping,
+    DistributedForce,
+    Gravity,
+    SpeedRipple,
+    SpinUp,
+    SteadyRotation,
+    TipForce,
+    forced_response,
+    gravity_response,
+)
+from rotbeam_exu import SimulationError, load, save, simulate
+from rotbeam_exu.fem import add_rotating_beam
+from rotbeam_exu.fem.case import Case
+from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.verdict import check_run, loads_of, remedy
+
+ALL = (
+    Gravity(2.0),
+    SpeedRipple(amplitude=0.1, frequency=5.0),
+    TipForce(amplitude=0.3, frequency=2.0),
+    DistributedForce(amplitude=0.1, frequency=3.0),
+)
+
+
+def by_mass(blade, c, **viscous):
+    """The blade with mass-proportional damping c, over its frequency scale."""
+    external = c * blade.mass_per_length * blade.frequency_scale
+    return blade.with_damping(Damping(external=external, **viscous))
+
+
+def last_cycle(blade, omega, loads, frequency, cycles, **options):
+    """The last of some cycles of the load, spun up from rest: time, angle, q/L."""
+    period = 2.0 * np.pi / frequency
+    run = simulate(
+        blade, SpinUp(omega=omega, ramp_time=2.0), loads=loads, duration=cycles * period,
+        step=period / 500, elements=8, **options,
+    )  # fmt: skip
+    last = run.isel(time=run["time"].to_numpy() > (cycles - 1.0) * period)
+    return last["time"].to_numpy(), last["angle"].to_numpy(), last["q"].to_numpy() / blade.length
+
+
+@pytest.mark.parametrize(
+    ("frame", "dressed"), [("inertial", False), ("rotating", False), ("rotating", True)]
+)
+def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed):
+    """With c = 1.5 and w̄ = 2, plain or with hub, tip mass and setting angle."""
+    blade = by_mass(beam, 1.5)
+    if dressed:
+        blade = blade.with_hub_radius(0.8).with_tip_mass(0.2).with_setting_angle(0.25 * math.pi)
+    omega = 2.0 * beam.frequency_scale
+    exact = gravity_response(blade, [0.9 * omega, omega, 1.05 * omega])
+    _, angle, q = last_cycle(blade, omega, [Gravity()], omega, 7, frame=frame)
+    (i,) = exact.at(omega)
+    assert exact.amplitude[i] > 0.2
+    # What is left of the start, and the step's share, are a third of it.
+    assert np.abs(q - exact.response(angle, i)).max() < 1e-3 * exact.amplitude[i]
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "omega", "element", "frame"),
+    [
+        (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
+        (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
+        (TipForce, 0.5, 2.0, Exact(nodes=3), "rotating"),
+        (TipForce, 0.5, 2.0, "cable", "inertial"),
+        (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
+        (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
+    ],
+)
+def test_under_a_harmonic_load_it_settles_on_the_exact_response(
+    beam, kind, size, omega, element, frame
+):
+    blade, scale = by_mass(beam, 2.0), beam.frequency_scale
+    force = beam.bending_stiffness / beam.length**2
+    unit = {SpeedRipple: scale, TipForce: force, DistributedForce: force / beam.length}[kind]
+    pushed, nu = kind(amplitude=size * unit), 3.8 * scale
+    exact = forced_response(blade, omega, pushed, [0.9 * nu, nu, 1.1 * nu])
+    drive = replace(pushed, frequency=nu)
+    time, _, q = last_cycle(blade, omega, [drive], nu, 7, frame=frame, element=element)
+    (i,) = exact.at(nu)
+    assert exact.amplitude[i] > 0.2
+    # The step in the inertial frame; elsewhere a third of it.
+    assert np.abs(q - exact.response(nu * time, i)).max() < 2e-3 * exact.amplitude[i]
+
+
+@pytest.mark.parametrize("loads", [(one,) for one in ALL] + [ALL], ids=str)
+def test_the_energy_balance_closes_to_second_order_in_the_step(beam, loads):
+    """In flap and lag at once, with masses; each load alone, and all."""
+    blade = beam.with_hub_radius(0.5).with_tip_mass(0.1, 0.01).with_setting_angle(0.7)
+    errors = []
+    for step in (8e-3, 4e-3):
+        run = simulate(
+            blade, SpinUp(omega=4.0, ramp_time=2.0), elements=8, duration=4.0, step=step,
+            frame="rotating", loads=loads,
+        )  # fmt: skip
+        balance = (run["jacobi_energy"] - run["supplied_energy"]).to_numpy()
+        errors.append(np.abs(balance - balance[0]).max() / run["elastic_energy"].max().item())
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_both_frames_agree_to_second_order_in_the_step(beam):
+    blade = by_mass(beam, 0.1, bending=0.01, axial=1e-4).with_hub_radius(1.0).with_tip_mass(0.3)
+
+    def apart(step):
+        inertial, rotating = (
+            simulate(
+                blade, SpinUp(omega=4.0, ramp_time=3.0), elements=8, duration=5.0, step=step,
+                frame=frame, loads=ALL,
+            )["q"]
+            for frame in ("inertial", "rotating")
+        )  # fmt: skip
+        return float(abs(inertial - rotating).max())
+
+    assert apart(4e-3) / apart(2e-3) == pytest.approx(4.0, rel=0.05)
+
+
+def test_everything_is_relative_to_the_clamp_with_its_ripple(beam):
+    spin_up, ripple = SpinUp(omega=4.0, ramp_time=3.0), SpeedRipple(amplitude=0.5, frequency=4.0)
+    run = simulate(beam, spin_up, elements=4, duration=4.0, step=4e-3, loads=[ripple])
+    time = run["time"].to_numpy()
+    turned = 0.5 / 4.0 * np.sin(4.0 * time)
+    assert run["angle"].to_numpy() == pytest.approx(spin_up.angle(time) + turned)
+    tip = (run["tip_x"] + 1j * run["tip_y"]).to_numpy() * np.exp(-1j * run["angle"].to_numpy())
+    assert tip.imag == pytest.approx(run["q"].to_numpy(), abs=1e-12)
+    # At t = 0 it turns with the clamp, as one: what it would not do if only the ramp turned it.
+    assert run["q_dot"][0] == pytest.approx(0.0, abs=1e-12)
+    swing = np.gradient(run["q"].to_numpy(), time, edge_order=2)
+    assert np.abs(swing - run["q_dot"].to_numpy()).max() < 1e-3 * np.abs(run["q_dot"]).max()
+
+
+def test_a_run_tells_its_loads(beam, tmp_path):
+    options = {"spin_up": SpinUp(omega=4.0, ramp_time=3.0), "elements": 2, "step": 1e-2}
+    run = simulate(beam, **options, duration=5.0, loads=ALL)
+    for ending in ("nc", "csv"):
+        save(run, tmp_path / f"run.{ending}")
+        assert loads_of(load(tmp_path / f"run.{ending}").attrs) == ALL
+    assert json.loads(run.attrs["loads"])[0] == {"load": "Gravity", "gravity": 2.0}
+    # A cache is keyed by what a case says of itself.
+    keys = [
+        json.dumps(Case(beam=beam, **options, loads=loads).describe())
+        for loads in ((), ALL[:1], ALL[1:2], (replace(ALL[1], frequency=6.0),))
+    ]
+    assert len(set(keys)) == len(keys)
+    assert loads_of(simulate(beam, **options, duration=5.0).attrs) == ()
+
+
+def test_a_system_of_ones_own_takes_loads(beam):
+    """In SI units, with the user's own settings of the solver."""
+    blade, rotation = by_mass(beam, 0.1), SteadyRotation(omega=2.0)
+    run = simulate(blade, rotation, elements=4, duration=3.0, step=4e-3, loads=ALL)
+    with exudyn_system() as mbs:
+        numbers = add_rotating_beam(mbs, blade, rotation, elements=4, loads=ALL)
+        for node in numbers.nodes:
+            x = mbs.GetNodeParameter(node, "referenceCoordinates")[0]
+            rate = 2.0 + ALL[1].amplitude
+            mbs.SetNodeParameter(node, "initialVelocities", [0.0, rate * x, 0.0, rate])
+        mbs.Assemble()
+        settings = exudyn.SimulationSettings()
+        settings.timeIntegration.endTime = 3.0
+        settings.timeIntegration.numberOfSteps = 750
+        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+        settings.timeIntegration.newton.relativeTolerance = 1e-8
+        settings.timeIntegration.newton.absoluteTolerance = 1e-6
+        settings.timeIntegration.adaptiveStep = False
+        settings.solution.file.write = False
+        settings.solution.sensors.writePeriod = 3.0
+        mbs.SolveDynamic(settings)
+        stored = np.array(mbs.GetSensorStoredData(numbers.tip_sensor))
+    end = run.isel(time=-1)
+    assert stored[-1, 1:3] == pytest.approx([end["tip_x"].item(), end["tip_y"].item()], abs=1e-5)
+
+
+def settling(blade, response, i, nu, cycles, steps, elements):
+    """Where a run settles that starts on a disturbed response, over that response.
+
+    The first harmonic of q over each cycle is z* + A ρ^k + B ρ̄^k with the Floquet multipliers ρ of
+    the exact response; returned are |z*| over the exact one, how much of the disturbance was left
+    at the end, and the misfit, both over the disturbance.
+    """
+
+    def disturbed(x):
+        state = response.state(i, x)
+        rates = ("u_dot", "v_dot", "u_slope_dot", "v_slope_dot")
+        return replace(state, **{name: 1.03 * getattr(state, name) for name in rates})
+
+    period = 2.0 * np.pi / nu
+    run = simulate(
+        blade, SteadyRotation(omega=6.0), elements=elements, duration=cycles * period,
+        step=period / steps, frame="rotating", loads=[replace(response.load, frequency=nu)],
+        initial_state=disturbed,
+    )  # fmt: skip
+    time, q = run["time"].to_numpy()[:-1], run["q"].to_numpy()[:-1] / blade.length
+    z = 2.0 * (q * np.exp(-1j * nu * time)).reshape(cycles, -1).mean(axis=1)
+    rho = response.multipliers[i, 0] ** np.arange(cycles)
+    columns = np.stack([np.ones(cycles), rho, rho.conj()], axis=1)
+    (limit, *parts), *_ = np.linalg.lstsq(columns, z, rcond=None)
+    away = np.abs(z - limit)
+    misfit = np.abs(columns @ [limit, *parts] - z).max()
+    return abs(limit / response.harmonics[i, 1]), away[-1] / away[0], misfit / away[0]
+
+
+def test_a_disturbed_response_is_returned_to_at_its_floquet_multipliers(beam):
+    blade, nu = by_mass(beam, 0.2, axial=1e-4), 4.4 * beam.frequency_scale
+    ripple = SpeedRipple(amplitude=0.08 * beam.frequency_scale)
+    exact = forced_response(blade, 6.0, ripple, [0.98 * nu, nu, 1.02 * nu])
+    (i,) = exact.at(nu)
+    assert exact.amplitude[i] > 0.3
+    size, left, misfit = settling(blade, exact, i, nu, cycles=15, steps=400, elements=16)
+    assert size == pytest.approx(1.0, abs=1e-3)
+    assert left < 0.1
+    assert misfit < 0.05
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("branch", "amplitude", "steps", "left"), [(0, 0.13454, 800, 0.8), (2, 0.38698, 1800, 0.9)]
+)
+def test_between_the_folds_both_stable_responses_are_returned_to(
+    beam, branch, amplitude, steps, left
+):
+    """Case D3 of the extensible beam; a third of its decay time of 300 s, and where it leads.
+
+    So near to a fold the step's 2e-6 of the frequency is 5e-4 of the upper amplitude. The axial
+    damping moves that by 1e-5, and keeps the trapezoidal rule from giving up after ten seconds.
+    """
+    scale = 4.50886824 * beam.frequency_scale
+    blade, nu = by_mass(beam, 0.008, axial=1e-4), 0.997 * scale
+    ripple = SpeedRipple(amplitude=0.003 * beam.frequency_scale)
+    exact = forced_response(blade, 6.0, ripple, [0.985 * scale, nu, 1.015 * scale])
+    i = exact.at(nu)[branch]
+    assert exact.amplitude[i] == pytest.approx(amplitude, abs=1e-5)
+    size, remains, misfit = settling(blade, exact, i, nu, cycles=40, steps=steps, elements=64)
+    assert size == pytest.approx(1.0, abs=1e-3)
+    assert remains < left
+    assert misfit < 0.05
+
+
+def test_energy_that_no_load_supplied_fails(beam):
+    run = simulate(
+        beam, SpinUp(omega=4.0, ramp_time=3.0), elements=4, duration=6.0, step=5e-3,
+        loads=[TipForce(amplitude=1.0, frequency=3.0)],
+    )  # fmt: skip
+    leak = np.linspace(0.0, 20.0, run.sizes["time"])
+    with pytest.raises(SimulationError, match="from the energy supplied over the largest elastic"):
+        check_run(run.assign(jacobi_energy=run["jacobi_energy"] - leak))
+    # Swung too far by loads: no ramp helps against them.
+    far = run.assign(q=run["q"] * 0.9 * beam.length / np.abs(run["q"]).max())
+    assert "take smaller loads, more damping, or a duration below 5 s" in remedy(far, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("loads", "error", "sentence"),
+    [
+        ((TipForce(amplitude=1.0),), ValueError, r"needs the frequency of TipForce\(.*: give freq"),
+        ((SpeedRipple(amplitude=1.0),), ValueError, "needs the frequency of SpeedRipple"),
+        ((SpeedRipple(amplitude=1.0, frequency=0.0),), ValueError, "add the amplitude to omega"),
+        ((3.0,), TypeError, "must be a SpeedRipple, TipForce, DistributedForce or Gravity, got 3"),
+        (Gravity(), TypeError, r"as in loads=\(Gravity\(\),\), got Gravity"),
+        (None, TypeError, "loads must be several, .* got None"),
+        ((TipForce(amplitude=1.0, frequency=400.0),), ValueError,
+         r"leaves 15\.7 steps in a period of a load, 0\.01571 s: take 0\.000785 s or less"),
+    ],
+)  # fmt: skip
+def test_bad_loads_are_one_sentence(beam, loads, error, sentence):
+    for refused in (
+        lambda: simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
+        lambda: Case(beam=beam, spin_up=SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
+    ):
+        with pytest.raises(error, match=sentence):
+            refused()
