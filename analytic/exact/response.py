@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import ComplexArray, FloatArray
+from ..arrays import FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
-from ..methods.collocation import radau
+from ..loads import Load, loads_in_time
 from ..motion import SpinUp
-from .continuum import Continuum, blade_continuum
+from .continuum import blade_continuum
 from .steady import section_inertia, steady_rate
+from .transient import grid_of, integrated, turning
 
-_STAGES = 8
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
 _STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
 _REFINEMENTS = 7
@@ -75,8 +74,9 @@ def spin_up_response(
     tolerance: float = 1e-8,
     rotary_inertia: bool = False,
     points: ArrayLike = (),
+    loads: Sequence[Load] = (),
 ) -> SpinUpResponse:
-    """Return the exact response of the undamped beam, at rest and straight before t = 0.
+    """Return the exact response of the beam, damped or not, at rest and straight before t = 0.
 
     Radau collocation of order 15 in the rotating frame, with the centrifugal, Coriolis and Euler
     forces of the spin-up; step and functions are refined together until two solutions agree.
@@ -93,6 +93,8 @@ def spin_up_response(
         Give the cross-sections their inertia against rotation.
     points : array_like
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
+    loads : sequence of loads
+        What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
 
     Raises
     ------
@@ -109,6 +111,8 @@ def spin_up_response(
             f"take periodic_orbits"
         )
     warn_if_rpm(beam, spin_up.omega)
+    loads = loads_in_time(loads)
+    rotation = turning(spin_up, loads)
     rotary = section_inertia(beam, rotary_inertia)
     along = points_of_beam("points", points, beam.length)
     _require_feasible(beam, spin_up, time, along)
@@ -120,8 +124,8 @@ def spin_up_response(
         corners, counts = _steps(beam, spin_up, float(time[-1]), level)
         if sum(counts) > _MOST_STEPS:
             break
-        grid = _grid(corners, counts)
-        finer = _integrated(beam, spin_up, model, grid, time, along)
+        grid = grid_of(corners, counts)
+        finer = integrated(beam, rotation, loads, model, grid, time, along)
         if finer is None:
             coarser = None
             continue
@@ -134,7 +138,7 @@ def spin_up_response(
                 unit = beam.unit
                 # Out of the plane of rotation the deflection has a share that is not seen here.
                 seen = beam.length * unit.hub + z.real + 1j * unit.setting * z.imag
-                tip = seen * np.exp(1j * spin_up.angle(time))
+                tip = seen * np.exp(1j * rotation.angle(time))
                 return SpinUpResponse(
                     beam=beam,
                     spin_up=spin_up,
@@ -212,74 +216,3 @@ def _steps(
     lengths = (min(longest, spin_up.ramp_time / 4.0), longest)
     parts = zip(pairwise(corners), lengths, strict=False)
     return corners, [math.ceil((b - a) / step) for (a, b), step in parts]
-
-
-def _grid(corners: list[float], counts: list[int]) -> FloatArray:
-    """Return the ends of the steps [s]."""
-    parts = zip(pairwise(corners), counts, strict=True)
-    return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
-
-
-class _Motion(NamedTuple):
-    """The tip's z and ż (times,), and z (times, points), in the rotating frame; nondimensional."""
-
-    tip: ComplexArray
-    tip_rate: ComplexArray
-    axis: ComplexArray
-
-
-def _integrated(
-    beam: AnyBlade,
-    spin_up: SpinUp,
-    model: Continuum,
-    grid: FloatArray,
-    time: FloatArray,
-    points: FloatArray,
-) -> _Motion | None:
-    """Return the motion on the grid of steps, None where Newton's method fails."""
-    method, per_second = radau(_STAGES), beam.frequency_scale
-    q, q_dot = np.zeros(model.size), np.zeros(model.size)
-    acceleration = np.zeros((_STAGES, model.size))
-    z = np.ones(time.size, dtype=np.complex128)
-    z_dot = np.zeros(time.size, dtype=np.complex128)
-    axis = np.broadcast_to(points, (time.size, points.size)).astype(np.complex128)
-    previous = 0.0
-    for start, end in pairwise(grid):
-        h = (end - start) * per_second
-        stages = start + (end - start) * method.nodes
-        rate = spin_up.rate(stages) / per_second
-        rate_dot = spin_up.acceleration(stages) / per_second**2
-
-        guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
-        if previous:
-            guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
-        found = None
-        for guess in guesses:
-            found = method.step(
-                h,
-                q,
-                q_dot,
-                guess,
-                residual=partial(model.residual, rate=rate, rate_dot=rate_dot),
-                tangent=partial(model.tangent, rate=rate, rate_dot=rate_dot),
-            )
-            if found is not None:
-                break
-        if found is None:
-            return None
-        acceleration, previous = found, h
-        inside = slice(*np.searchsorted(time, (start, end), side="right"))
-        at = (time[inside] - start) / (end - start)
-        velocities = q_dot + h * method.integral(at) @ acceleration
-        positions = (
-            q
-            + h * at[:, None] * q_dot
-            + h**2 * method.integral(at) @ method.velocity @ acceleration
-        )
-        z[inside] = model.tip(positions)
-        z_dot[inside] = model.tip_rate(positions, velocities)
-        if points.size:
-            axis[inside] = model.integrated(model.slope(positions), points)
-        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
-        q, q_dot = positions[-1], velocities[-1]
-    return _Motion(z, z_dot, axis)

@@ -1,0 +1,113 @@
+"""Motion of the exact blade in time, step by step in the rotating frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import ComplexArray, FloatArray
+from ..beam import AnyBlade
+from ..loads import Load, SpeedRipple
+from ..methods.collocation import radau
+from ..motion import Rippled, Rotation
+from .continuum import Continuum
+from .loading import pushes, unit_loads
+
+_STAGES = 8
+
+
+def turning(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
+    """Return the rotation with the ripples among the loads."""
+    for load in loads:
+        if isinstance(load, SpeedRipple):
+            rotation = Rippled(
+                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency or 0.0
+            )
+    return rotation
+
+
+def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
+    """Return the ends of the steps [s]."""
+    parts = zip(pairwise(corners), counts, strict=True)
+    return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
+
+
+class Motion(NamedTuple):
+    """The tip's z and ż (times,), and z (times, points), in the rotating frame; nondimensional."""
+
+    tip: ComplexArray
+    tip_rate: ComplexArray
+    axis: ComplexArray
+
+
+def integrated(
+    beam: AnyBlade,
+    rotation: Rotation,
+    loads: Sequence[Load],
+    model: Continuum,
+    grid: FloatArray,
+    time: FloatArray,
+    points: FloatArray,
+) -> Motion | None:
+    """Return the motion on the grid of steps, None where Newton's method fails."""
+    method, per_second = radau(_STAGES), beam.frequency_scale
+    forces = [
+        (unit_loads(beam, load), getattr(load, "frequency", 0.0))
+        for load in loads
+        if not isinstance(load, SpeedRipple)
+    ]
+    q, q_dot = np.zeros(model.size), np.zeros(model.size)
+    acceleration = np.zeros((_STAGES, model.size))
+    z = np.ones(time.size, dtype=np.complex128)
+    z_dot = np.zeros(time.size, dtype=np.complex128)
+    axis = np.broadcast_to(points, (time.size, points.size)).astype(np.complex128)
+    previous = 0.0
+    for start, end in pairwise(grid):
+        h = (end - start) * per_second
+        stages = start + (end - start) * method.nodes
+        rate = rotation.rate(stages) / per_second
+        rate_dot = rotation.acceleration(stages) / per_second**2
+        phases = [(sizes, frequency * stages) for sizes, frequency in forces]
+        drive = {
+            "rate": rate,
+            "rate_dot": rate_dot,
+            "push": pushes(model, phases, rotation.angle(stages)),
+        }
+
+        guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
+        if previous:
+            guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
+        found = None
+        for guess in guesses:
+            found = method.step(
+                h,
+                q,
+                q_dot,
+                guess,
+                residual=partial(model.residual, **drive),
+                tangent=partial(model.tangent, **drive),
+            )
+            if found is not None:
+                break
+        if found is None:
+            return None
+        acceleration, previous = found, h
+        inside = slice(*np.searchsorted(time, (start, end), side="right"))
+        at = (time[inside] - start) / (end - start)
+        velocities = q_dot + h * method.integral(at) @ acceleration
+        positions = (
+            q
+            + h * at[:, None] * q_dot
+            + h**2 * method.integral(at) @ method.velocity @ acceleration
+        )
+        z[inside] = model.tip(positions)
+        z_dot[inside] = model.tip_rate(positions, velocities)
+        if points.size:
+            axis[inside] = model.integrated(model.slope(positions), points)
+        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
+        q, q_dot = positions[-1], velocities[-1]
+    return Motion(z, z_dot, axis)
