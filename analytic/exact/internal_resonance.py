@@ -22,7 +22,7 @@ from .steady import BeamOrbit
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
 _PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
 _FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no round-off
-_NOTICEABLE = 1e-6  # size of a harmonic, relative to the first, that can drive another mode
+_NOTICEABLE = 1e-3  # size of a harmonic, relative to the first, that can drive another mode
 
 
 class Resonance(NamedTuple):

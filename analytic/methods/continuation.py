@@ -110,15 +110,17 @@ class Path(Generic[S]):
         if below.amplitude == amplitude:
             return below
         before = self.nodes[place - 2] if place >= 2 else None
-        try:
-            return _resolved(_predicted(below, before, amplitude), amplitude)
-        except NoOrbitError as reason:
-            if place == len(self.nodes):
-                raise
+        above = self.nodes[place] if place < len(self.nodes) else None
+        guesses = [_predicted(below, before, amplitude)]
+        if above is not None and amplitude > below.amplitude:
+            guesses = [_between(below, above, amplitude), *guesses, above.scaled(amplitude)]
+        reasons = []
+        for guess in guesses:
             try:
-                return _resolved(self.nodes[place].scaled(amplitude), amplitude)
-            except NoOrbitError:
-                raise NoOrbitError(str(reason), below) from None
+                return _resolved(guess, amplitude)
+            except NoOrbitError as reason:
+                reasons.append(str(reason))
+        raise NoOrbitError(reasons[0], below)
 
     def _extend(self) -> None:
         """Add the next node, beyond a gap if it must be."""
@@ -185,6 +187,25 @@ def _predicted(
         guess,
         coefficients=guess.coefficients + weight * (guess.coefficients - other.coefficients),
         frequency=guess.frequency + weight * (guess.frequency - other.frequency),
+    )
+
+
+def _between(
+    below: PeriodicOrbit[S], above: PeriodicOrbit[S], amplitude: float
+) -> PeriodicOrbit[S]:
+    """Return the guess between two orbits: harmonic k as a^k, times a linear function of a²."""
+    if above.system is not below.system:
+        below = below.on(above.system)
+    one, other = (
+        orbit.with_harmonics(max(below.harmonics, above.harmonics)).scaled(amplitude)
+        for orbit in (below, above)
+    )
+    span = above.amplitude**2 - below.amplitude**2
+    weight = (amplitude**2 - below.amplitude**2) / span
+    return replace(
+        one,
+        coefficients=one.coefficients + weight * (other.coefficients - one.coefficients),
+        frequency=one.frequency + weight * (other.frequency - one.frequency),
     )
 
 

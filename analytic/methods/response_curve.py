@@ -106,7 +106,7 @@ def _between(
     for one, other in pairwise(stops):
         for value in wanted:
             if (one.z[-1] - value) * (other.z[-1] - value) < 0.0 or other.z[-1] == value:
-                point = located(curve, one, other, partial(_beyond, float(value)))
+                point = _at_parameter(curve, one, other, float(value))
                 if point is not None:
                     place = float(at.point.tangent @ (point.z - at.point.z))
                     found.append((place, "asked", point))
@@ -118,6 +118,17 @@ def _between(
             over = True
             break
     return orbits, over
+
+
+def _at_parameter(curve: ResponseCurve[D], one: Point, other: Point, value: float) -> Point | None:
+    """Return the point between two, with no fold between them, at a value of the last unknown."""
+    share = (value - one.z[-1]) / (other.z[-1] - one.z[-1])
+    guess = one.z + share * (other.z - one.z)
+    try:
+        found = corrected(curve, guess, np.eye(1, guess.size, guess.size - 1)[0])
+    except NoWayOnError:  # next to a fold
+        return located(curve, one, other, partial(_beyond, value))
+    return found
 
 
 def _beyond(value: float, point: Point) -> float:

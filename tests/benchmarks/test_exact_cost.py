@@ -6,7 +6,14 @@ from statistics import median
 import numpy as np
 import pytest
 
-from analytic import SpinUp, periodic_orbits, spin_up_response
+from analytic import (
+    Damping,
+    SpeedRipple,
+    SpinUp,
+    forced_response,
+    periodic_orbits,
+    spin_up_response,
+)
 from rotbeam_exu import simulate
 
 pytestmark = pytest.mark.benchmarks
@@ -36,3 +43,22 @@ def test_spin_up_to_1e_6_takes_less_than_64_elements(beam, omega, ramp_time):
     run = seconds(lambda: simulate(beam, spin_up, elements=64, duration=15.0), repeats=1)
     exact = seconds(lambda: spin_up_response(beam, spin_up, times, tolerance=1e-6))
     assert exact < run, f"{exact:.3f} s against {run:.3f} s"
+
+
+def test_a_response_curve_with_two_folds_takes_less_than_a_simulation(beam):
+    """Case D3, a hundred points asked for."""
+    scale = beam.frequency_scale
+    blade = beam.with_damping(Damping(external=0.008 * beam.mass_per_length * scale))
+    frequencies = 4.50886824 * scale * np.linspace(0.985, 1.015, 60)
+
+    def curve():
+        found = forced_response(
+            blade, 6.0, SpeedRipple(amplitude=0.003 * scale), frequencies, inextensible=True
+        )
+        assert found.frequency.size >= 100
+        assert len(found.folds) == 2
+
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
+    response = seconds(curve)
+    assert response < run, f"{response:.3f} s against {run:.3f} s"
