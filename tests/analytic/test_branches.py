@@ -47,7 +47,7 @@ def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
 
 @pytest.fixture(scope="module")
 def branch():
-    return backbone_branch(Beam.reference(), 2.0, up_to=0.7, inextensible=True)
+    return backbone_branch(Beam.reference(), 2.0, up_to=0.7, inextensible=True, functions=12)
 
 
 def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
