@@ -14,15 +14,12 @@ from analytic import (
     Gravity,
     ResponseNotReachedError,
     SpeedRipple,
-    SpinUp,
     TipForce,
-    damping_ratios,
     forced_response,
     gravity_response,
     linear_modes,
     periodic_orbits,
     reduced_model,
-    spin_up_response,
 )
 from analytic.methods.collocation import radau
 
@@ -216,22 +213,6 @@ def test_leading_order_is_a_few_percent_high(loaded, rippled):
     assert ratios == pytest.approx([1.0807, 1.0349], abs=1e-4)
 
 
-def test_damping_ratios_in_rotation():
-    frequencies = linear_modes(BEAM, 6.0).frequencies
-    by_the_mass = damping_ratios(by_mass(0.008), 6.0)
-    # Mass-proportional: c/(2ω_j), however fast it turns, but for the Coriolis coupling to axial
-    # motion, of the order μw̄².
-    assert by_the_mass == pytest.approx(0.5 * 0.008 * SCALE / frequencies, rel=3e-4)
-    at_rest = damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 2, 0.01)), 0.0)
-    assert at_rest[1] == pytest.approx(0.01, rel=1e-9)
-    assert at_rest[0] / at_rest[1] == pytest.approx(3.5160153 / 22.034492, rel=1e-5)
-    # The centrifugal stiffness is not damped, but makes the beam bend more at the clamp.
-    turning = damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM)), 6.0)
-    assert 0.01 * BEAM.omega_0 / frequencies[0] < turning[0] < 0.01
-    with pytest.raises(ValueError, match="mode 3 is damped so much that it does not oscillate"):
-        damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 1, 0.1)), 0.0)
-
-
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_what_a_response_says_of_itself(loaded):
     assert "folds at 3.04082 rad/s, 3.03923 rad/s" in str(loaded)
@@ -281,53 +262,3 @@ def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
         forced_response(by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0], inextensible=True)
     assert caught.value.response is None or caught.value.response.amplitude.max() > 0.5
     assert "take more damping" in str(caught.value)
-
-
-def test_in_time_the_beam_settles_on_its_response_to_gravity():
-    """From rest through a spin-up, by an integrator that knows no Fourier series."""
-    omega, gravity = 2.0 * SCALE, 1.791 * FORCE / BEAM.mass_per_length
-    blade = by_mass(1.5)
-    settled = gravity_response(blade, [0.9 * omega, omega, 1.1 * omega], gravity)
-    spin_up = SpinUp(omega=omega, ramp_time=6.0)
-    # The transient falls by exp(-½ 1.5 SCALE t), to 1e-7 by then.
-    period = 2.0 * np.pi / omega
-    end = 6.0 + 9.0 * period
-    time = end + period * np.arange(40) / 40.0
-    found = spin_up_response(blade, spin_up, time, tolerance=1e-6, loads=(Gravity(gravity),))
-    (i,) = settled.at(omega)
-    expected = settled.response(spin_up.angle(time), i)
-    assert found.q / BEAM.length == pytest.approx(expected, abs=2e-6)
-
-
-@pytest.mark.parametrize(
-    "damping",
-    [Damping(bending=2e-3), Damping(external=0.02 * BEAM.mass_per_length * SCALE)],
-    ids=["bending", "external"],
-)
-def test_free_vibration_decays_at_the_damping_ratio(damping):
-    """After a slow spin-up that leaves little, the first mode rings on alone."""
-    blade = BEAM.with_damping(damping)
-    omega = 4.0
-    frequency = linear_modes(BEAM, omega).frequencies[0]
-    ratio = damping_ratios(blade, omega)[0]
-    spin_up = SpinUp(omega=omega, ramp_time=10.0)
-    period = 2.0 * np.pi / frequency
-    time = 14.0 + period * np.arange(600) / 100.0
-    q = spin_up_response(blade, spin_up, time, tolerance=1e-7).q
-    # ∫q² over a period falls by exp(-4πζ), higher modes decaying faster or being 1e-3 of it.
-    energy = np.sum((q**2).reshape(6, 100), axis=1)
-    found = -np.polyfit(np.arange(6), np.log(energy), 1)[0] / (4.0 * np.pi)
-    assert found == pytest.approx(ratio, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("loads", "error", "sentence"),
-    [
-        (Gravity(), TypeError, "loads must be several"),
-        ((TipForce(amplitude=1.0),), ValueError, "needs the frequency of"),
-        ((1.0,), TypeError, "a load must be a"),
-    ],
-)
-def test_loads_in_time_are_checked(loads, error, sentence):
-    with pytest.raises(error, match=sentence):
-        spin_up_response(BEAM, SpinUp(omega=1.0, ramp_time=3.0), [1.0], loads=loads)
