@@ -216,7 +216,7 @@ def _tongue(
         return [], None
     low, high = sorted((before.amplitude, last.amplitude))
     felt = [one for one in met if one.harmonic <= last.harmonics]
-    felt = [one for one in felt if _share(last, one.harmonic) >= _FELT]
+    felt = [one for one in felt if _share(last, one.harmonic) >= 10.0 * _FELT]
     if any(low < one.amplitude < high for one in felt):
         return [], None  # another resonance is nearer, and two sides of it give no direction
 
