@@ -187,8 +187,8 @@ def settling(blade, response, i, nu, cycles, steps, elements):
     """Where a run settles that starts on a disturbed response, over that response.
 
     The first harmonic of q over each cycle is z* + A ρ^k + B ρ̄^k with the Floquet multipliers ρ of
-    the exact response; returned are |z*| over the exact one, how much of the disturbance was left
-    at the end, and the misfit, both over the disturbance.
+    the exact response; returned are |z*| over the exact one, and over the first distance from it
+    the last one and the misfit.
     """
 
     def disturbed(x):
@@ -218,23 +218,19 @@ def test_a_disturbed_response_is_returned_to_at_its_floquet_multipliers(beam):
     exact = forced_response(blade, 6.0, ripple, [0.98 * nu, nu, 1.02 * nu])
     (i,) = exact.at(nu)
     assert exact.amplitude[i] > 0.3
-    size, left, misfit = settling(blade, exact, i, nu, cycles=15, steps=400, elements=16)
+    size, left, misfit = settling(blade, exact, i, nu, cycles=20, steps=400, elements=16)
     assert size == pytest.approx(1.0, abs=1e-3)
     assert left < 0.1
     assert misfit < 0.05
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("branch", "amplitude", "steps", "left"), [(0, 0.13454, 800, 0.8), (2, 0.38698, 1800, 0.9)]
-)
-def test_between_the_folds_both_stable_responses_are_returned_to(
-    beam, branch, amplitude, steps, left
-):
-    """Case D3 of the extensible beam; a third of its decay time of 300 s, and where it leads.
+@pytest.mark.parametrize(("branch", "amplitude"), [(0, 0.13454), (2, 0.38698)])
+def test_between_the_folds_both_stable_responses_are_returned_to(beam, branch, amplitude):
+    """Case D3 of the extensible beam, over a quarter of its decay time of 300 s.
 
-    So near to a fold the step's 2e-6 of the frequency is 5e-4 of the upper amplitude. The axial
-    damping moves that by 1e-5, and keeps the trapezoidal rule from giving up after ten seconds.
+    So near to a fold the step's 2e-6 of the frequency is 5e-4 of the amplitude. The axial damping
+    moves that by 1e-5, and keeps the trapezoidal rule from giving up after ten seconds.
     """
     scale = 4.50886824 * beam.frequency_scale
     blade, nu = by_mass(beam, 0.008, axial=1e-4), 0.997 * scale
@@ -242,10 +238,9 @@ def test_between_the_folds_both_stable_responses_are_returned_to(
     exact = forced_response(blade, 6.0, ripple, [0.985 * scale, nu, 1.015 * scale])
     i = exact.at(nu)[branch]
     assert exact.amplitude[i] == pytest.approx(amplitude, abs=1e-5)
-    size, remains, misfit = settling(blade, exact, i, nu, cycles=40, steps=steps, elements=64)
+    size, _, misfit = settling(blade, exact, i, nu, cycles=40, steps=1800, elements=64)
     assert size == pytest.approx(1.0, abs=1e-3)
-    assert remains < left
-    assert misfit < 0.05
+    assert misfit < 5e-3
 
 
 def test_energy_that_no_load_supplied_fails(beam):
