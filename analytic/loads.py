@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from .input_checks import finite_number, not_negative, whole_number
+from .motion import Rippled, Rotation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -182,3 +184,13 @@ def loads_in_time(loads: Any) -> tuple[Load, ...]:
                 "add the amplitude to omega"
             )
     return tuple(loads)
+
+
+def rippled(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
+    """Return the rotation of the clamp with the ripples among the loads."""
+    for load in loads:
+        if isinstance(load, SpeedRipple) and load.frequency is not None:
+            rotation = Rippled(
+                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency
+            )
+    return rotation

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
-from ..loads import Load, loads_in_time
+from ..loads import Load, loads_in_time, rippled
 from ..motion import SpinUp
 from .continuum import blade_continuum
 from .steady import section_inertia, steady_rate
-from .transient import grid_of, integrated, turning
+from .transient import grid_of, integrated
 
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
 _STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
@@ -112,7 +112,7 @@ def spin_up_response(
         )
     warn_if_rpm(beam, spin_up.omega)
     loads = loads_in_time(loads)
-    rotation = turning(spin_up, loads)
+    rotation = rippled(spin_up, loads)
     rotary = section_inertia(beam, rotary_inertia)
     along = points_of_beam("points", points, beam.length)
     _require_feasible(beam, spin_up, time, along)

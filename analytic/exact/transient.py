@@ -13,21 +13,11 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..loads import Load, SpeedRipple
 from ..methods.collocation import radau
-from ..motion import Rippled, Rotation
+from ..motion import Rotation
 from .continuum import Continuum
 from .loading import pushes, unit_loads
 
 _STAGES = 8
-
-
-def turning(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
-    """Return the rotation with the ripples among the loads."""
-    for load in loads:
-        if isinstance(load, SpeedRipple):
-            rotation = Rippled(
-                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency or 0.0
-            )
-    return rotation
 
 
 def grid_of(corners: list[float], counts: list[int]) -> FloatArray:

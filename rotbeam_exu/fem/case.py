@@ -10,13 +10,12 @@ from typing import Any, cast
 
 from analytic import AnyBlade, SpinUp, SteadyRotation
 from analytic.input_checks import positive, whole_number
-from analytic.loads import Load, loads_in_time
+from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
 from ..resolution import checked_steps
 from ..verdict import beam_attributes, loads_attributes
 from .elements import Formulation, formulation, options_of, require_modeled
-from .loading import rippled
 from .solver import Frame, require_frame
 
 

@@ -24,7 +24,7 @@ from scipy import sparse
 from analytic import AnyBlade, Beam, DistributedForce, Gravity, SpeedRipple, TipForce
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.loads import Load
-from analytic.motion import Rippled, Rotation
+from analytic.motion import Rotation
 
 from .drive import triplets
 from .elements import Chain, Formulation
@@ -35,16 +35,6 @@ from .solver import Frame
 
 _NO_INERTIA = 1e-30
 """Of a section: zero stands for that of a homogeneous one, which the air does not brake."""
-
-
-def rippled(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
-    """Return the rotation of the clamp with the ripples among the loads."""
-    for load in loads:
-        if isinstance(load, SpeedRipple) and load.frequency is not None:
-            rotation = Rippled(
-                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency
-            )
-    return rotation
 
 
 class Loading:

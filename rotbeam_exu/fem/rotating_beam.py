@@ -11,13 +11,13 @@ from scipy import sparse
 
 from analytic import AnyBlade
 from analytic.input_checks import whole_number
-from analytic.loads import Load, loads_in_time
+from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
 from .linearization import mass_matrix
-from .loading import Loading, rippled
+from .loading import Loading
 from .solver import Frame, require_frame
 
 

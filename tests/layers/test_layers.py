@@ -16,8 +16,8 @@ FLOORS = {
     "analytic": [
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
-        {"profiles", "motion", "loads"},
-        {"unit_blade", "section"},
+        {"profiles", "motion"},
+        {"unit_blade", "section", "loads"},
         {"blade"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other
