@@ -204,6 +204,15 @@ def undamped(beam: AnyBlade) -> AnyBlade:
     return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
 
 
+def require_undamped(beam: AnyBlade, what: str) -> None:
+    """Refuse a damped blade where `what` has no damping."""
+    if any(beam.unit.damping):
+        raise ValueError(
+            f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
+            "which has none"
+        )
+
+
 def require_steady_state(beam: AnyBlade, omega: float) -> None:
     """Refuse a rotation speed `omega` [rad/s] at which no stretched state exists."""
     if omega >= beam.burst_speed:

@@ -190,7 +190,7 @@ class Blade:
         return replace(self, section=self.section.tapered(width, height))
 
     def with_damping(self, damping: Damping) -> Blade:
-        """Return the blade with `damping` in place of its own; Damping() takes it away."""
+        """Return the blade with `damping` in place of its own."""
         return replace(self, damping=damping)
 
     @property
@@ -231,9 +231,9 @@ class Blade:
     @cached_property
     def frequencies_at_rest(self) -> FloatArray:
         """Frequencies of bending at rest [rad/s], 24 at least, of which half are resolved."""
-        at = np.array([position for position, _, _ in self.unit.masses])
+        at, _, inertia = np.array(self.unit.masses).reshape(-1, 3).T
         slope = self._basis(at).slope
-        turning = slope.T @ (np.array([one[2] for one in self.unit.masses])[:, None] * slope)
+        turning = slope.T @ (inertia[:, None] * slope)
         return self.frequency_scale * self._at_rest(_ACROSS, self.unit.bending, turning)
 
     @cached_property
@@ -245,9 +245,7 @@ class Blade:
         first = float(self._at_rest(_ALONG, self.unit.axial)[0])
         return first * self.frequency_scale / math.sqrt(self.slenderness)
 
-    def _at_rest(
-        self, moved: int, stiffness: Profile, more: FloatArray | float = 0.0
-    ) -> FloatArray:
+    def _at_rest(self, moved: int, stiffness: Profile, more: Any = 0.0) -> FloatArray:
         """Return the frequencies at rest [-], of motion across or along the blade."""
         x, weights = self.unit.quadrature(_FUNCTIONS + 8)
         at, dm = self.unit.inertia(_FUNCTIONS + 8)

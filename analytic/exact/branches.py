@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, warn_if_rpm
+from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_number, positive, rotation_speed, whole_number
 from ..methods.arclength import NoWayOnError, advanced, corrected, located
 from ..methods.floquet import Multipliers, floquet_multipliers
@@ -21,7 +21,7 @@ from ..methods.harmonic_balance import NoOrbitError
 from ..methods.orbit_curve import At
 from .internal_resonance import Resonance, resonances_along
 from .modes import resolved_model
-from .periodic import Branch, branch_of, require_undamped
+from .periodic import Branch, branch_of
 from .state import BeamState, beam_state
 from .steady import BeamOrbit, SteadyBeam
 
@@ -149,7 +149,7 @@ def backbone_branch(
     if positive("up_to", up_to) >= 1.0:
         raise ValueError(f"up_to must be below 1, got {up_to:g}: it is |q|/L of the tip")
     warn_if_rpm(beam, omega)
-    require_undamped(beam)
+    require_undamped(beam, "a damped blade has no free periodic orbits")
     branch = branch_of(
         beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions)
     )

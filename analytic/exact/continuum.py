@@ -23,8 +23,6 @@ acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is
 
 from __future__ import annotations
 
-import math
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -196,17 +194,8 @@ class Continuum(Kinematics):
         left = np.swapaxes(left, -1, -2)
         psi = self._epsilon * self._psi
         one = np.ones_like(at.turn)
-
-        def derivatives(*blocks: tuple[Any, Any]) -> ComplexArray:
-            """Of `turn` times what has these derivatives to θ and e, then to their rates."""
-            right = np.empty((*at.turn.shape, 3 * n), dtype=np.complex128)
-            right[..., n * len(blocks) :] = 0.0
-            for start, (theta, epsilon) in zip(range(0, 3 * n, n), blocks, strict=False):
-                right[..., start : start + nb] = (at.turn * theta)[..., None] * self._phi
-                right[..., start + nb : start + n] = (at.turn * epsilon)[..., None] * psi
-            return right
-
-        right = derivatives(
+        right = self._derivatives(
+            at.turn,
             (1j * at.acceleration, 1j * at.spin_rate - at.spin**2),
             (2j * at.stretch_rate - 2.0 * at.stretch * at.spin, 2j * at.spin),
             (1j * at.stretch, one),
@@ -219,8 +208,10 @@ class Continuum(Kinematics):
         onto = left @ self._green
         if self._drag is not None:
             turning = self._angle(q_dot)
-            air = derivatives(
-                (1j * at.stretch_rate - at.stretch * turning, 1j * turning), (1j * at.stretch, one)
+            air = self._derivatives(
+                at.turn,
+                (1j * at.stretch_rate - at.stretch * turning, 1j * turning),
+                (1j * at.stretch, one),
             )
             onto = np.concatenate((onto, left @ self._drag), axis=-1)
             right = np.concatenate((right, air), axis=-2)
@@ -236,6 +227,20 @@ class Continuum(Kinematics):
         stiffness[..., :nb, nb:] += self._phi.T @ (normal[..., None] * psi)
         mass[..., :nb, :nb] += self._rotary_mass
         return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
+
+    def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
+        """Return the derivatives (samples, points, 3 n) of `turn` times a field.
+
+        To q, q̇ and q̈, of what has these derivatives to θ and e, to their rates, and so on.
+        """
+        n, nb = self.size, self.bending
+        right = np.zeros((*turn.shape, 3 * n), dtype=np.complex128)
+        for start, (theta, epsilon) in zip(range(0, 3 * n, n), blocks, strict=False):
+            right[..., start : start + nb] = (turn * theta)[..., None] * self._phi
+            right[..., start + nb : start + n] = (self._epsilon * turn * epsilon)[
+                ..., None
+            ] * self._psi
+        return right
 
     def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
         """Return the integral that is constant at a constant rate w of the frame, (samples,).
@@ -276,38 +281,3 @@ class Continuum(Kinematics):
             tangent.residual[0, self.bending :],
         )
         return q
-
-
-@lru_cache(maxsize=32)
-def continuum(
-    slenderness: float,
-    bending: int,
-    axial: int,
-    rotary_inertia: float = 0.0,
-    blade: UnitBlade = UNIFORM,
-) -> Continuum:
-    """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia, blade=blade)
-
-
-def finer_model(model: Continuum) -> Continuum:
-    """Return the discretization with half as many functions again."""
-    panels = model.blade.panel_count
-
-    def more(count: int) -> int:
-        a_panel = count // panels
-        # The inextensible beam keeps its one.
-        return panels * (a_panel + max(a_panel // 2, int(model.slenderness > 0.0)))
-
-    return continuum(
-        model.slenderness, more(model.bending), more(model.axial), model.rotary, model.blade
-    )
-
-
-def blade_continuum(
-    blade: UnitBlade, slenderness: float, bending: int, axial: int, rotary_inertia: float
-) -> Continuum:
-    """Return the discretization by at least so many functions, as many on every panel."""
-    panels = blade.panel_count
-    bending, axial = (panels * math.ceil(count / panels) for count in (bending, axial))
-    return continuum(slenderness, bending, axial, rotary_inertia, blade)

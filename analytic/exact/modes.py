@@ -12,7 +12,8 @@ from scipy import linalg
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
-from .continuum import Continuum, blade_continuum
+from .continuum import Continuum
+from .discretization import blade_continuum
 from .steady import SteadyBeam, section_inertia, steady_rotation
 
 MOST_FUNCTIONS = 256

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, warn_if_rpm
+from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
     MOST_FUNCTIONS,
@@ -84,7 +84,7 @@ def periodic_orbits(
             "of the tip over the beam's length"
         )
     warn_if_rpm(beam, omega)
-    require_undamped(beam)
+    require_undamped(beam, "a damped blade has no free periodic orbits")
     model = resolved_model(beam, mode, inextensible, rotary_inertia, functions)
     branch = branch_of(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)
@@ -95,15 +95,6 @@ def periodic_orbits(
     if backbone is None or refused:
         raise AmplitudeNotReachedError(refused, backbone)
     return backbone
-
-
-def require_undamped(beam: AnyBlade) -> None:
-    """Refuse a damped blade, which has no free orbits."""
-    if any(beam.unit.damping):
-        raise ValueError(
-            "a damped blade has no free periodic orbits: take forced_response, or the free orbits "
-            "of beam.with_damping(Damping())"
-        )
 
 
 def _found(branch: Branch, ascending: FloatArray) -> tuple[dict[float, BeamOrbit], str]:

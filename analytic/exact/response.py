@@ -10,14 +10,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import FloatArray
+from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
 from ..motion import SpinUp
-from .continuum import blade_continuum
+from .discretization import blade_continuum
 from .steady import section_inertia, steady_rate
-from .transient import grid_of, integrated
+from .transient import Motion, grid_of, integrated
 
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
 _STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
@@ -133,20 +133,12 @@ def spin_up_response(
             size = float(np.abs(finer.tip.imag).max())
             error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
             if error <= tolerance:
-                z = beam.length * finer.tip
-                z_dot = beam.length * beam.frequency_scale * finer.tip_rate
-                unit = beam.unit
-                # Out of the plane of rotation the deflection has a share that is not seen here.
-                seen = beam.length * unit.hub + z.real + 1j * unit.setting * z.imag
-                tip = seen * np.exp(1j * rotation.angle(time))
+                turned = np.exp(1j * rotation.angle(time))
                 return SpinUpResponse(
                     beam=beam,
                     spin_up=spin_up,
                     time=time,
-                    q=z.imag,
-                    q_dot=z_dot.imag,
-                    tip=np.stack((tip.real, tip.imag), axis=-1),
-                    axis=beam.length * np.stack((finer.axis.real, finer.axis.imag), axis=-1),
+                    **_in_units(beam, finer, turned),
                     error=error,
                     steps=grid.size - 1,
                     functions=model.bending,
@@ -155,6 +147,19 @@ def spin_up_response(
     raise RuntimeError(
         f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
     )
+
+
+def _in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
+    z, unit = beam.length * motion.tip, beam.unit
+    # Out of the plane of rotation the deflection has a share that is not seen here.
+    tip = (beam.length * unit.hub + z.real + 1j * unit.setting * z.imag) * turned
+    return {
+        "q": z.imag,
+        "q_dot": beam.length * beam.frequency_scale * motion.tip_rate.imag,
+        "tip": np.stack((tip.real, tip.imag), axis=-1),
+        "axis": beam.length * np.stack((motion.axis.real, motion.axis.imag), axis=-1),
+    }
 
 
 def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:

@@ -14,7 +14,8 @@ from ..beam import AnyBlade, require_steady_state
 from ..blade import Blade
 from ..methods.harmonic_balance import PeriodicOrbit
 from ..methods.system import Tangent
-from .continuum import Continuum, finer_model
+from .continuum import Continuum
+from .discretization import finer_model
 
 
 @dataclass(frozen=True, eq=False)

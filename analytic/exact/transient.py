@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,6 +34,28 @@ class Motion(NamedTuple):
     axis: ComplexArray
 
 
+def _drive(
+    beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum
+) -> Callable[[FloatArray], dict[str, Any]]:
+    """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
+    per_second = beam.frequency_scale
+    forces = [
+        (unit_loads(beam, load), getattr(load, "frequency", 0.0))
+        for load in loads
+        if not isinstance(load, SpeedRipple)
+    ]
+
+    def at(times: FloatArray) -> dict[str, Any]:
+        phases = [(sizes, frequency * times) for sizes, frequency in forces]
+        return {
+            "rate": rotation.rate(times) / per_second,
+            "rate_dot": rotation.acceleration(times) / per_second**2,
+            "push": pushes(model, phases, rotation.angle(times)),
+        }
+
+    return at
+
+
 def integrated(
     beam: AnyBlade,
     rotation: Rotation,
@@ -45,11 +67,7 @@ def integrated(
 ) -> Motion | None:
     """Return the motion on the grid of steps, None where Newton's method fails."""
     method, per_second = radau(_STAGES), beam.frequency_scale
-    forces = [
-        (unit_loads(beam, load), getattr(load, "frequency", 0.0))
-        for load in loads
-        if not isinstance(load, SpeedRipple)
-    ]
+    drive = _drive(beam, rotation, loads, model)
     q, q_dot = np.zeros(model.size), np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.ones(time.size, dtype=np.complex128)
@@ -59,28 +77,14 @@ def integrated(
     for start, end in pairwise(grid):
         h = (end - start) * per_second
         stages = start + (end - start) * method.nodes
-        rate = rotation.rate(stages) / per_second
-        rate_dot = rotation.acceleration(stages) / per_second**2
-        phases = [(sizes, frequency * stages) for sizes, frequency in forces]
-        drive = {
-            "rate": rate,
-            "rate_dot": rate_dot,
-            "push": pushes(model, phases, rotation.angle(stages)),
-        }
-
         guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
-        found = None
+        found, driven = None, drive(stages)
+        residual = partial(model.residual, **driven)
+        tangent = partial(model.tangent, **driven)
         for guess in guesses:
-            found = method.step(
-                h,
-                q,
-                q_dot,
-                guess,
-                residual=partial(model.residual, **drive),
-                tangent=partial(model.tangent, **drive),
-            )
+            found = method.step(h, q, q_dot, guess, residual=residual, tangent=tangent)
             if found is not None:
                 break
         if found is None:

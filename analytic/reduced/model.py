@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, warn_if_rpm
+from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import (
     RotbeamWarning,
     finite_array,
@@ -214,8 +214,7 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     Parameters
     ----------
     beam : Beam or Blade
-        The beam.
-    omega : float
+        omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
         "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC" or "FrM" of ours, or any
@@ -244,18 +243,13 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     omega = rotation_speed(omega)
     if isinstance(variant, str):
         variant = variant_named(variant)
-    if any(beam.unit.damping):
-        raise ValueError(
-            "the reduced models have no damping: take that of beam.with_damping(Damping()), or "
-            "forced_response for the damped blade"
-        )
+    require_undamped(beam, "the reduced models have no damping")
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
     others = None
     if beam.unit != UNIFORM:
-        # The same solution as the model's own, kept.
-        w_bar = omega / beam.frequency_scale
-        others = np.array(blade_oscillator(beam.unit, w_bar, variant.coriolis).others)
+        kept = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
+        others = np.array(kept.others)
     warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega, others)
     return model
 

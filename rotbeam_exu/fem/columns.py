@@ -69,10 +69,17 @@ def columns(
     }
     if case.exchanges_energy:
         relative = absolute - setting * rate[:, None, None] * spun(model, coordinates)
-        acceleration = units.time**2 * case.rotation.acceleration(time)
         power = _power(built, time / units.time, angle, coordinates, relative)
-        supplied = _integral(time / units.time, power - acceleration * angular_momentum)
+        power -= units.time**2 * case.rotation.acceleration(time) * angular_momentum
+        supplied = _integral(time / units.time, power)
         values["supplied_energy"] = (supplied, "J", "supplied share of the Jacobi energy")
+    return _in_si(time, units, values)
+
+
+def _in_si(
+    time: FloatArray, units: Units, values: dict[str, tuple[FloatArray, str, str]]
+) -> xr.Dataset:
+    """Return the columns, each with its unit and label, over time [s]."""
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     return xr.Dataset(
         {

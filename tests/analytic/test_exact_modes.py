@@ -5,7 +5,7 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, linear_modes
-from analytic.exact.continuum import continuum
+from analytic.exact.discretization import continuum
 from analytic.exact.modes import solve_modes
 from analytic.exact.steady import SteadyBeam
 from analytic.quadrature import gauss_points, transverse_basis

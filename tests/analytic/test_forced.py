@@ -241,7 +241,7 @@ def test_what_a_response_says_of_itself(loaded):
         (lambda: forced_response(by_mass(0.1), 6.0, 3.0, [3.0, 4.0]), TypeError, "must be a Speed"),
         (lambda: Damping(bending=-0.1), ValueError, "damping takes energy, it gives none"),
         (lambda: periodic_orbits(by_mass(0.1), 6.0, [0.1]), ValueError,
-         "take forced_response, or the free orbits of beam.with_damping"),
+         "no free periodic orbits: take forced_response for the damped blade"),
         (lambda: reduced_model(by_mass(0.1), 6.0, "FrM"), ValueError, "damping"),
     ],
 )  # fmt: skip

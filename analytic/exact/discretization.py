@@ -1,0 +1,44 @@
+"""Which functions the exact blade is resolved by: made once, refined, the same on every panel."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+from ..unit_blade import UNIFORM, UnitBlade
+from .continuum import Continuum
+
+
+@lru_cache(maxsize=32)
+def continuum(
+    slenderness: float,
+    bending: int,
+    axial: int,
+    rotary_inertia: float = 0.0,
+    blade: UnitBlade = UNIFORM,
+) -> Continuum:
+    """Return the discretization, built once for each set of arguments."""
+    return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia, blade=blade)
+
+
+def finer_model(model: Continuum) -> Continuum:
+    """Return the discretization with half as many functions again."""
+    panels = model.blade.panel_count
+
+    def more(count: int) -> int:
+        a_panel = count // panels
+        # The inextensible beam keeps its one.
+        return panels * (a_panel + max(a_panel // 2, int(model.slenderness > 0.0)))
+
+    return continuum(
+        model.slenderness, more(model.bending), more(model.axial), model.rotary, model.blade
+    )
+
+
+def blade_continuum(
+    blade: UnitBlade, slenderness: float, bending: int, axial: int, rotary_inertia: float
+) -> Continuum:
+    """Return the discretization by at least so many functions, as many on every panel."""
+    panels = blade.panel_count
+    bending, axial = (panels * math.ceil(count / panels) for count in (bending, axial))
+    return continuum(slenderness, bending, axial, rotary_inertia, blade)
