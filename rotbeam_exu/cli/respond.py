@@ -15,6 +15,7 @@ from analytic import (
     Beam,
     Damping,
     DistributedForce,
+    ForcedResponse,
     Gravity,
     ResponseNotReachedError,
     SpeedRipple,
@@ -22,6 +23,7 @@ from analytic import (
     forced_response,
     gravity_response,
 )
+from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
 from analytic.loads import HarmonicLoad
 
@@ -152,25 +154,23 @@ def respond(
     """
     load = loads.one()
     beam = dampings.on(Beam.reference() if config is None else load_beam(config))
-    if isinstance(load, Gravity) and omega is not None:
-        raise ValueError(
-            "under --gravity the rotation speeds are those --from one --to another: leave --omega "
-            "out"
-        )
+    if isinstance(load, Gravity):
+        if omega is not None:
+            raise ValueError(
+                "under --gravity the rotation speeds are those --from one --to another: leave "
+                "--omega out"
+            )
+    elif omega is None:
+        raise ValueError("give the rotation speed in rad/s with --omega")
     frequencies = _frequencies(first, last, points)
     inputs = {
         **response_inputs(beam, load, omega),
         "from": first, "to": last, "points": points, "inextensible": int(inextensible),
     }  # fmt: skip
-    path = writable_folder(results.out) / _name(load, omega)
+    path = writable_folder(results.out) / f"{_name(load, omega)}-from-{first:g}-to-{last:g}"
     refuse_to_replace(inputs, *_data_files(path), force=results.force)
     try:
-        if isinstance(load, Gravity):
-            found = gravity_response(beam, frequencies, load.gravity, inextensible=inextensible)
-        elif omega is None:
-            raise ValueError("give the rotation speed in rad/s with --omega")
-        else:
-            found = forced_response(beam, omega, load, frequencies, inextensible=inextensible)
+        found = _response(beam, omega, load, frequencies, inextensible)
     except ResponseNotReachedError as error:
         raise _with_what_was_found(error, inputs, path) from error
     data = comparison.forced_response(found).assign_attrs(inputs)
@@ -183,7 +183,20 @@ def respond(
     new_console().print("written " + listed(written))
 
 
-def _frequencies(first: float, last: float, points: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _response(
+    beam: AnyBlade,
+    omega: float | None,
+    load: HarmonicLoad | Gravity,
+    frequencies: FloatArray,
+    inextensible: bool,
+) -> ForcedResponse:
+    if isinstance(load, Gravity):
+        return gravity_response(beam, frequencies, load.gravity, inextensible=inextensible)
+    assert omega is not None
+    return forced_response(beam, omega, load, frequencies, inextensible=inextensible)
+
+
+def _frequencies(first: float, last: float, points: int) -> FloatArray:
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     if whole_number("points", points) < 2:
@@ -238,7 +251,7 @@ def _print(data: xr.Dataset, title: str) -> None:
             data["frequency"].attrs["long_name"].split()[-1] + " [rad/s]": [
                 f"{nu:.6f}" for nu in data["frequency"].to_numpy()[shown]
             ],
-            "|q|/L": [f"{a:.6f}" for a in data["amplitude"].to_numpy()[shown]],
+            "|q|/L": [f"{a:.6g}" for a in data["amplitude"].to_numpy()[shown]],
             "lag [rad]": [f"{phase:.4f}" for phase in data["phase"].to_numpy()[shown]],
             # A fold is the limit of both.
             "stable": [
