@@ -56,7 +56,7 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
             xlabel=label(highest["frequency"]), ylabel=label(highest["amplitude"]),
             xlim=(highest["frequency"][0], highest["frequency"][-1]), ylim=(0.0, None),
         )  # fmt: skip
-        ax.xaxis.set_major_locator(mpl.ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+        ax.xaxis.set_major_locator(mpl.ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, columnspacing=1.2)
     return ax
 

@@ -144,7 +144,18 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
 
 
 def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
-    lone = ("respond", "--gravity", "--from", "4.5", "--to", "5", "--points", "2", "--out", tmp_path)
+    lone = (
+        "respond",
+        "--gravity",
+        "--from",
+        "4.5",
+        "--to",
+        "5",
+        "--points",
+        "2",
+        "--out",
+        tmp_path,
+    )
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     monkeypatch.setattr(job, "gravity_response", lambda *_, **__: pytest.fail("computed first"))
