@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import xarray as xr
@@ -172,7 +172,14 @@ def respond(
     try:
         found = _response(beam, omega, load, frequencies, inextensible)
     except ResponseNotReachedError as error:
-        raise _with_what_was_found(error, inputs, path) from error
+        if error.response is None:
+            raise
+        part = comparison.forced_response(error.response).assign_attrs(
+            inputs, verdict=f"failed: {error}"
+        )
+        name = free_name(part, path.parent, f"{path.name}-failed")
+        kept = _saved(part, path.with_name(name))[0]
+        raise RuntimeError(f"{error}; what was found is in {kept}, marked failed") from error
     data = comparison.forced_response(found).assign_attrs(inputs)
     written = _saved(data, path)
 
@@ -226,19 +233,6 @@ def _saved(data: xr.Dataset, path: Path) -> list[Path]:
     whole, table = _data_files(path)
     curve = data.drop_dims(["harmonic", "orbit"], errors="ignore")
     return [save(data, whole), save(curve, table)]
-
-
-def _with_what_was_found(
-    error: ResponseNotReachedError, inputs: dict[str, Any], path: Path
-) -> Exception:
-    """Save the part of the curve that was found; return what to say."""
-    if error.response is None:
-        return error
-    part = comparison.forced_response(error.response).assign_attrs(
-        inputs, verdict=f"failed: {error}"
-    )
-    written = _saved(part, path.with_name(free_name(part, path.parent, f"{path.name}-failed")))
-    return RuntimeError(f"{error}; what was found is in {written[0]}, marked failed")
 
 
 def _print(data: xr.Dataset, title: str) -> None:
