@@ -43,12 +43,14 @@ def forced_response(response: ForcedResponse) -> xr.Dataset:
     weight = isinstance(response.load, Gravity)
     omega = None if weight else float(response.omega[0])
     frequency = "rotation speed ω" if weight else "drive frequency ν"
+    # The weight across the blade is greatest, and negative, at θ = 0.
+    phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'}"
     harmonics = ("point", "harmonic")
     data = xr.Dataset(
         {
             "frequency": ("point", response.frequency, _named(frequency, "rad/s")),
             "amplitude": ("point", response.amplitude, _named("amplitude |q|/L")),
-            "phase": ("point", response.phase, _named("lag of q behind the load", "rad")),
+            "phase": ("point", response.phase, _named(phase, "rad")),
             "stable": ("point", response.stable, _named("whether disturbances in the plane decay")),
             "mark": ("point", _marks(response), _named("what is special about the point")),
             "cosine": (harmonics, response.harmonics.real, _named("q/L over cos kφ")),
