@@ -30,6 +30,7 @@ for _command in (
     "backbone",
     "compare",
     "campbell",
+    "respond",
     "figure",
     "table",
     "verify",

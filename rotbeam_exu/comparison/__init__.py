@@ -8,6 +8,7 @@ from __future__ import annotations
 from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
 from .budget import finite_element_budget, model_budget
 from .orbits import figure_15
+from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_map
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
@@ -27,6 +28,7 @@ __all__ = [
     "finite_element_budget",
     "finite_element_points",
     "fitted_softening",
+    "forced_response",
     "model_budget",
     "softening_map",
 ]

@@ -9,10 +9,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from analytic import AnyBlade, Beam, Blade
+from analytic import AnyBlade, Beam, Blade, Damping
 from analytic.blade import blade_from
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
+_DAMPING = tuple(field.name for field in fields(Damping))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
 
 
@@ -23,7 +24,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     axial_stiffness, bending_stiffness and mass_per_length. [blade] gives length and, where they are
     not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
-    stations [x, value]; each [[blade.point_mass]] position, mass and inertia.
+    stations [x, value]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
+    bending [s], axial [s] and external [kg/(m s)], each zero where it is not given.
 
     Raises
     ------
@@ -72,14 +74,17 @@ def _beam(table: dict[str, Any], source: Path) -> Beam:
 def _blade(table: dict[str, Any], source: Path) -> Blade:
     _require_keys(
         table, "[blade]", source, ("length", "section"),
-        ("hub_radius", "setting_angle", "point_mass"),
+        ("hub_radius", "setting_angle", "point_mass", "damping"),
     )  # fmt: skip
     section, masses = table["section"], table.get("point_mass", [])
-    if not isinstance(section, dict) or not isinstance(masses, list):
+    damping = table.get("damping", {})
+    if not (isinstance(section, dict) and isinstance(masses, list) and isinstance(damping, dict)):
         raise ValueError(
-            f"{source}: write [blade.section] and, for each mass, [[blade.point_mass]] as tables"
+            f"{source}: write [blade.section], [blade.damping] and, for each mass, "
+            "[[blade.point_mass]] as tables"
         )
     _require_keys(section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia",))
+    _require_keys(damping, "[blade.damping]", source, (), _DAMPING)
     for one in masses:
         _require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
     values = {name: value for name, value in table.items() if name != "point_mass"}

@@ -40,6 +40,9 @@ COMMANDS = {
     "verify": (("verify", "--element", "none"), ("--element", "--error", "--cost")),
     "compare-modes": (("compare-modes", "--points", "2", "--count", "1", "--orders", "1"),
                       ("--format", "--omega-min", "--points=")),
+    "respond": (("respond", "--from", "1", "--to", "2", "--points", "2", "--damping-ratio", "0.1",
+                 "--gravity", "--out", "{folder}/out"),
+                ("--gravity", "--damping-ratio", "--omega", "--ripple", "--config")),
     "animate": (("animate", "--out", "{folder}/film.pdf"),
                 ("--omega", "--ramp-time", "--duration", "--rate", "--slow-motion", "--config")),
 }  # fmt: skip

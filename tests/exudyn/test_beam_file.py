@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam
+from analytic import Beam, Damping
 from rotbeam_exu.files.beam_file import load_beam
 
 GOOD = """[beam]
@@ -51,6 +51,48 @@ def test_a_good_file_is_a_beam_whatever_wrote_it(tmp_path, content):
 )
 def test_a_bad_file_is_one_sentence(tmp_path, content, sentence):
     path = written(tmp_path / "beam.toml", content)
+    with pytest.raises(ValueError, match=sentence) as refused:
+        load_beam(path)
+    assert str(path) in str(refused.value)
+
+
+DAMPED = """[blade]
+length = 8.0
+
+[blade.section]
+axial_stiffness = 5e6
+bending_stiffness = 566.0
+mass_per_length = 0.2
+
+[blade.damping]
+bending = 1e-3
+external = 0.02
+"""
+
+
+def test_the_damping_of_a_blade_is_read(tmp_path):
+    blade = load_beam(written(tmp_path / "blade.toml", DAMPED))
+    assert blade.damping == Damping(bending=1e-3, external=0.02)
+    without = DAMPED.partition("[blade.damping]")[0]
+    assert not load_beam(written(tmp_path / "blade.toml", without)).damping
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("bending = 1e-3", "bendin = 1", "'bendin' in .blade.damping.; did you mean 'bending'"),
+        (
+            "bending = 1e-3",
+            "ratio = 1e-3",
+            "in .blade.damping.; known are bending, axial, external",
+        ),
+        ("bending = 1e-3", "bending = -1.0", "bending must not be negative, .* it gives none"),
+        ("[blade.damping]", "[blade.dampings]", "'dampings' in .blade.; did you mean 'damping'"),
+        ("[blade.damping]", "[[blade.damping]]", "write .blade.section., .blade.damping. and"),
+    ],
+)
+def test_a_bad_damping_is_one_sentence(tmp_path, old, new, sentence):
+    path = written(tmp_path / "blade.toml", DAMPED.replace(old, new, 1))
     with pytest.raises(ValueError, match=sentence) as refused:
         load_beam(path)
     assert str(path) in str(refused.value)

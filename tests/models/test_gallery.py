@@ -62,6 +62,28 @@ def test_tapered_blade(run):
     assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
 
 
+def test_forced_response(run):
+    least = {omega: curves[0] for omega, curves in run("forced_response")["curves"].items()}
+    # Hardening at 2 rad/s, softening at 6, and jumps at either.
+    for omega, way in ((2.0, 1.0), (6.0, -1.0)):
+        (peak,), folds = least[omega].peaks, least[omega].folds
+        free = least[omega].backbone
+        assert way * (peak.frequency - free.omega_n) > 0.0
+        # On the backbone, to the square of the damping.
+        at_peak = np.interp(peak.amplitude, free.amplitude, free.frequency)
+        assert peak.frequency == pytest.approx(at_peak, rel=2e-5)
+        assert len(folds) == 2
+
+
+def test_gravity(run):
+    found = run("gravity")
+    response = found["response"]
+    for crossing in found["crossings"]:
+        greatest = np.argmax(np.abs(response.harmonics[:, crossing.order]))
+        assert response.omega[greatest] == pytest.approx(crossing.omega, rel=0.05)
+    assert sorted(crossing.order for crossing in found["crossings"]) == [1, 2, 3, 4]
+
+
 def test_blade_in_exudyn(run):
     # The centrifugal force of 0.1 kg 9.1 m from the axis at 3 rad/s; it still swings.
     assert run("blade_in_exudyn")["pull"][-100:].mean() == pytest.approx(8.2, rel=0.25)
@@ -125,3 +147,10 @@ def test_scripts_are_short_and_all_tested():
     tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
     # The main job is the command line's, and tested there.
     assert set(scripts) - tested == {"rotating_beam"}
+
+
+@pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
+def test_internal_resonance(run):
+    found = run("internal_resonance")
+    # The sixth harmonic changes its sign at the resonance, above the fold of the lower side.
+    assert found["branch"].folds[0].amplitude < found["resonance"].amplitude < 0.65

@@ -1,0 +1,38 @@
+r"""
+Forced response
+===============
+
+The beam's response to a ripple of its speed, :math:`\omega+\varepsilon\cos\nu t`, over the drive's
+frequency, at three levels of damping: hardening at 2 rad/s, softening at 6. Where the curve turns
+around, at its folds, the response jumps; what lies between two folds is unstable.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from analytic import Beam, Damping, SpeedRipple, forced_response, linear_modes
+from rotbeam_exu import comparison, figures
+
+beam, ripple = Beam.reference(), SpeedRipple(amplitude=0.002)  # [rad/s]
+curves = {}
+for omega in (2.0, 6.0):
+    omega_n = linear_modes(beam, omega, 1).frequencies[0]
+    curves[omega] = [
+        forced_response(
+            beam.with_damping(Damping.from_ratio(beam, ratio=ratio)),
+            omega,
+            ripple,
+            omega_n * np.array([0.993, 1.007]),
+        )
+        for ratio in (8e-4, 1.2e-3, 2.4e-3)
+    ]
+
+_, axes = plt.subplots(ncols=2, figsize=(9, 4.8), layout="constrained")
+for ax, at_speed in zip(axes, curves.values(), strict=True):
+    figures.forced_response([comparison.forced_response(curve) for curve in at_speed], ax=ax)
+plt.show()
+
+# %%
+# The least damped one at each speed:
+for at_speed in curves.values():
+    print(at_speed[0])

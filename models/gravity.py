@@ -1,0 +1,36 @@
+r"""
+A beam that turns under its weight
+==================================
+
+The paper's beam on earth, in a vertical plane of rotation, damped by the air. Its weight goes
+around once a turn, and bends it with harmonics of all orders: the k-th is greatest about where
+:math:`\omega_n=k\omega`, dotted. Above is the greatest deflection, to whichever side.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from analytic import Beam, Damping, campbell, gravity_response
+from rotbeam_exu import comparison, figures
+
+beam = Beam.reference()
+damping = Damping(external=1.5 * beam.mass_per_length * beam.frequency_scale)
+response = gravity_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36))
+crossings = campbell(beam, np.linspace(0.0, 6.0, 25), count=1, orders=4).crossings
+
+_, (above, below) = plt.subplots(nrows=2, figsize=(6, 7), layout="constrained")
+figures.forced_response(comparison.forced_response(response), ax=above)
+below.semilogy(response.omega, np.abs(response.harmonics[:, 1:5]), label=["1", "2", "3", "4"])
+below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L", xlim=above.get_xlim())
+below.legend(title="k", ncols=4, loc="lower left")
+for crossing in crossings:
+    for ax in (above, below):
+        ax.axvline(crossing.omega, color="0.6", ls=":", lw=0.8)
+    above.annotate(f"{crossing.order}ω", (crossing.omega + 0.02, 0.01), color="0.45", size=7)
+plt.show()
+
+# %%
+# Where each harmonic is greatest, and where it is in resonance:
+for crossing in reversed(crossings):
+    greatest = response.omega[np.argmax(np.abs(response.harmonics[:, crossing.order]))]
+    print(f"{crossing.order}: {greatest:.2f} rad/s, ω_n = kω at {crossing.omega:.4f} rad/s")

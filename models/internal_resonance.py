@@ -1,0 +1,40 @@
+r"""
+Internal resonance
+==================
+
+The backbone of the paper's beam at 2 rad/s. The sixth harmonic, which the Coriolis force brings, meets
+the second mode at two thirds of the length: the branch turns around and the second mode takes over;
+beyond, the backbone goes on from the other side. All other crossings of a harmonic with a mode,
+the dots, are too weak to be seen.
+"""
+
+import matplotlib.pyplot as plt
+
+from analytic import Beam, backbone_branch
+
+branch = backbone_branch(Beam.reference(), omega=2.0, up_to=0.8, inextensible=True)
+print(branch)
+
+_, ax = plt.subplots(figsize=(6.0, 4.2), layout="constrained")
+(resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
+for piece in range(branch.piece.max() + 1):
+    here = branch.piece == piece
+    if piece == 0:
+        lower = branch.amplitude < resonance.amplitude
+        for side in (lower, ~lower):
+            ax.plot(branch.frequency[here & side], branch.amplitude[here & side], "k-")
+    else:
+        ax.plot(branch.frequency[here], branch.amplitude[here], "--", color="tab:red")
+ax.annotate(
+    "harmonic 6, mode 2", (branch.folds[0].frequency, branch.folds[0].amplitude),
+    (3.004, 0.69), arrowprops={"arrowstyle": "-", "color": "0.5"},
+)  # fmt: skip
+for one in branch.resonances:
+    if one is not resonance:
+        ax.plot(one.frequency, one.amplitude, "o", color="0.6", markersize=3)
+        left = one.mode == 4
+        ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
+                    (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=8,
+                    ha="right" if left else "left")  # fmt: skip
+ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", xlim=(2.99, 3.065), ylim=(0.0, 0.85))
+plt.show()

@@ -1,0 +1,258 @@
+"""`rotbeam respond`: the forced response of the exact blade, over its frequency."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import xarray as xr
+from cyclopts import Parameter
+
+from analytic import (
+    AnyBlade,
+    Beam,
+    Damping,
+    DistributedForce,
+    ForcedResponse,
+    Gravity,
+    ResponseNotReachedError,
+    SpeedRipple,
+    TipForce,
+    forced_response,
+    gravity_response,
+)
+from analytic.arrays import FloatArray
+from analytic.input_checks import positive, whole_number
+from analytic.loads import HarmonicLoad
+
+from .. import comparison
+from ..comparison.response import response_inputs
+from ..files.beam_file import load_beam
+from ..files.results import save, writable_folder
+from .cost import require_affordable
+from .options import Results, Whole
+from .output import new_console, print_columns
+from .targets import free_name, listed, refuse_to_replace
+
+_SECONDS_PER_POINT = 0.02
+"""From below."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Loads:
+    """What acts on the blade: one of these.
+
+    Parameters
+    ----------
+    ripple
+        Amplitude ε of the speed ω + ε cos νt [rad/s].
+    tip_force
+        Amplitude of a force on the tip across the blade [N].
+    distributed_force
+        Amplitude of a force per length across the blade [N/m].
+    gravity
+        Weight in a vertical plane of rotation, 9.81 unless given [m/s²].
+    """
+
+    ripple: float | None = None
+    tip_force: float | None = None
+    distributed_force: float | None = None
+    gravity: Annotated[bool | float, Parameter(negative=())] = False
+
+    def one(self) -> HarmonicLoad | Gravity:
+        """Return the load."""
+        given: dict[str, HarmonicLoad | Gravity] = {}
+        if self.ripple is not None:
+            given["--ripple"] = SpeedRipple(amplitude=self.ripple)
+        if self.tip_force is not None:
+            given["--tip-force"] = TipForce(amplitude=self.tip_force)
+        if self.distributed_force is not None:
+            given["--distributed-force"] = DistributedForce(amplitude=self.distributed_force)
+        if self.gravity is not False:
+            given["--gravity"] = Gravity() if self.gravity is True else Gravity(self.gravity)
+        if len(given) != 1:
+            raise ValueError(
+                "give one load, --ripple, --tip-force, --distributed-force or --gravity, got "
+                + (" and ".join(given) or "none")
+            )
+        (load,) = given.values()
+        size = load.gravity if isinstance(load, Gravity) else load.amplitude
+        if size == 0.0:
+            raise ValueError(f"{next(iter(given))} 0 is no load: give its amplitude")
+        return load
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Dampings:
+    """What takes energy from the blade, in place of the damping in its file.
+
+    Parameters
+    ----------
+    damping_ratio
+        Of mode 1 at rest, by damping of the bending.
+    external_damping
+        Force per length and velocity [kg/(m s)].
+    """
+
+    damping_ratio: float | None = None
+    external_damping: float | None = None
+
+    def on(self, beam: AnyBlade) -> AnyBlade:
+        """Return the blade with this damping."""
+        if self.damping_ratio is not None and self.external_damping is not None:
+            raise ValueError("give --damping-ratio or --external-damping, not both")
+        if self.damping_ratio is not None:
+            return beam.with_damping(Damping.from_ratio(beam, 1, self.damping_ratio))
+        if self.external_damping is not None:
+            return beam.with_damping(Damping(external=self.external_damping))
+        if not any(beam.unit.damping):
+            raise ValueError(
+                "the blade is undamped, and at resonance its response has no end: give "
+                "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
+            )
+        return beam
+
+
+_LOADS, _DAMPINGS, _RESULTS = Loads(), Dampings(), Results()
+
+
+def respond(
+    *,
+    first: Annotated[float, Parameter(name="--from")],
+    last: Annotated[float, Parameter(name="--to")],
+    omega: float | None = None,
+    loads: Loads = _LOADS,
+    dampings: Dampings = _DAMPINGS,
+    points: Whole = 41,
+    inextensible: Annotated[bool, Parameter(negative=())] = False,
+    config: Path | None = None,
+    results: Results = _RESULTS,
+) -> None:
+    """Follow the forced response of the exact blade through its folds, write data and figure.
+
+    Printed are both ends and, in order along the curve, all folds and peaks.
+
+    Parameters
+    ----------
+    first
+        Drive frequency at which the curve begins [rad/s]; under gravity the rotation speed, for it
+        goes around once a turn.
+    last
+        The one at which it ends [rad/s].
+    omega
+        Rotation speed [rad/s]; not under gravity.
+    points
+        Frequencies, ends included, at which the curve has points wherever it passes them.
+    inextensible
+        Leave the axial motion out.
+    config
+        TOML file with the beam or blade; without it, the paper's beam.
+    """
+    load = loads.one()
+    beam = dampings.on(Beam.reference() if config is None else load_beam(config))
+    if isinstance(load, Gravity):
+        if omega is not None:
+            raise ValueError(
+                "under --gravity the rotation speeds are those --from one --to another: leave "
+                "--omega out"
+            )
+    elif omega is None:
+        raise ValueError("give the rotation speed in rad/s with --omega")
+    frequencies = _frequencies(first, last, points)
+    inputs = {
+        **response_inputs(beam, load, omega),
+        "from": first, "to": last, "points": points, "inextensible": int(inextensible),
+    }  # fmt: skip
+    path = writable_folder(results.out) / f"{_name(load, omega)}-from-{first:g}-to-{last:g}"
+    refuse_to_replace(inputs, *_data_files(path), force=results.force)
+    try:
+        found = _response(beam, omega, load, frequencies, inextensible)
+    except ResponseNotReachedError as error:
+        if error.response is None:
+            raise
+        part = comparison.forced_response(error.response).assign_attrs(
+            inputs, verdict=f"failed: {error}"
+        )
+        name = free_name(part, path.parent, f"{path.name}-failed")
+        kept = _saved(part, path.with_name(name))[0]
+        raise RuntimeError(f"{error}; what was found is in {kept}, marked failed") from error
+    data = comparison.forced_response(found).assign_attrs(inputs)
+    written = _saved(data, path)
+
+    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+
+    written += figures.save_figure(figures.forced_response(data), path)
+    _print(data, str(found))
+    new_console().print("written " + listed(written))
+
+
+def _response(
+    beam: AnyBlade,
+    omega: float | None,
+    load: HarmonicLoad | Gravity,
+    frequencies: FloatArray,
+    inextensible: bool,
+) -> ForcedResponse:
+    if isinstance(load, Gravity):
+        return gravity_response(beam, frequencies, load.gravity, inextensible=inextensible)
+    assert omega is not None
+    return forced_response(beam, omega, load, frequencies, inextensible=inextensible)
+
+
+def _frequencies(first: float, last: float, points: int) -> FloatArray:
+    if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
+        raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
+    if whole_number("points", points) < 2:
+        raise ValueError(f"points must be at least 2, got {points}")
+    require_affordable(
+        f"a curve through {points} frequencies",
+        seconds=_SECONDS_PER_POINT * points,
+        remedy="take fewer points",
+    )
+    return np.linspace(first, last, points)
+
+
+def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
+    if isinstance(load, Gravity):
+        return f"response-gravity-{load.gravity:g}"
+    kind = {SpeedRipple: "ripple", TipForce: "tip-force", DistributedForce: "distributed-force"}
+    return f"response-omega-{omega:g}-{kind[type(load)]}-{load.amplitude:g}"
+
+
+def _data_files(path: Path) -> tuple[Path, Path]:
+    # Appended, not replaced: a name may have a point in it.
+    return path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
+
+
+def _saved(data: xr.Dataset, path: Path) -> list[Path]:
+    """Write all as netCDF, the curve as CSV."""
+    whole, table = _data_files(path)
+    curve = data.drop_dims(["harmonic", "orbit"], errors="ignore")
+    return [save(data, whole), save(curve, table)]
+
+
+def _print(data: xr.Dataset, title: str) -> None:
+    marks = data["mark"].to_numpy()
+    (shown,) = np.nonzero(marks)
+    stable = np.where(data["stable"].to_numpy(), "yes", "no")
+    print_columns(
+        {
+            "": marks[shown].tolist(),
+            data["frequency"].attrs["long_name"].split()[-1] + " [rad/s]": [
+                f"{nu:.6f}" for nu in data["frequency"].to_numpy()[shown]
+            ],
+            "|q|/L": [f"{a:.6g}" for a in data["amplitude"].to_numpy()[shown]],
+            "lag [rad]": [f"{phase:.4f}" for phase in data["phase"].to_numpy()[shown]],
+            # A fold is the limit of both.
+            "stable": [
+                f"{stable[i - 1]} | {stable[i + 1]}" if marks[i] == "fold" else stable[i]
+                for i in shown
+            ],
+        },
+        "table",
+        title=title,
+    )

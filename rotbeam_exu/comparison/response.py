@@ -1,0 +1,118 @@
+"""A response curve as a Dataset: what its figure draws, and what `rotbeam respond` writes."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
+from analytic.loads import UNDAMPED, HarmonicLoad
+
+from ..fem.simulation import versions
+from ..verdict import beam_attributes
+
+_UNITS = {"SpeedRipple": "rad/s", "TipForce": "N", "DistributedForce": "N/m", "Gravity": "m/s²"}
+
+
+def forced_response(response: ForcedResponse) -> xr.Dataset:
+    """Return a response curve, its stability, and the backbone that it leans on.
+
+    Parameters
+    ----------
+    response : ForcedResponse
+        As `analytic.forced_response` or `analytic.gravity_response` returns it.
+
+    Returns
+    -------
+    Dataset
+        Over the points of the curve, in order, `frequency`, `amplitude`, `phase`, `stable` and
+        `mark`: "start", "end", "peak", "dip", "fold" or nothing. `cosine` and `sine` over (point,
+        harmonic), harmonic k in column k: q/L = Σ cosine cos kφ + sine sin kφ. But under gravity
+        `backbone_frequency` and `backbone_amplitude` over (orbit,). The attributes hold beam,
+        load, damping, versions and the largest residual.
+
+    Warns
+    -----
+    RotbeamWarning
+        If an internal resonance is near the backbone.
+    """
+    weight = isinstance(response.load, Gravity)
+    omega = None if weight else float(response.omega[0])
+    frequency = "rotation speed ω" if weight else "drive frequency ν"
+    # The weight across the blade is greatest, and negative, at θ = 0.
+    phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'}"
+    harmonics = ("point", "harmonic")
+    data = xr.Dataset(
+        {
+            "frequency": ("point", response.frequency, _named(frequency, "rad/s")),
+            "amplitude": ("point", response.amplitude, _named("amplitude |q|/L")),
+            "phase": ("point", response.phase, _named(phase, "rad")),
+            "stable": ("point", response.stable, _named("whether disturbances in the plane decay")),
+            "mark": ("point", _marks(response), _named("what is special about the point")),
+            "cosine": (harmonics, response.harmonics.real, _named("q/L over cos kφ")),
+            "sine": (harmonics, -response.harmonics.imag, _named("q/L over sin kφ")),
+        },
+        attrs={
+            **response_inputs(response.beam, response.load, omega),
+            "residual": float(response.residual.max()),
+            "versions": json.dumps(versions()),
+        },
+    )
+    if weight:
+        return data
+    backbone = _backbone(response)
+    if backbone is None:
+        return data
+    return data.assign(
+        backbone_frequency=(
+            "orbit",
+            np.append(backbone.omega_n, backbone.frequency),
+            _named("frequency of the free, undamped orbit", "rad/s"),
+        ),
+        backbone_amplitude=("orbit", np.append(0.0, backbone.amplitude), _named("amplitude |q|/L")),
+    )
+
+
+def response_inputs(
+    beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
+) -> dict[str, Any]:
+    """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
+    kind = type(load).__name__
+    size = load.gravity if isinstance(load, Gravity) else load.amplitude
+    damping: Damping = getattr(beam, "damping", UNDAMPED)
+    return {
+        **beam_attributes(beam),
+        **{f"damping_{name}": value for name, value in asdict(damping).items()},
+        "load": kind,
+        "load_size": size,
+        "load_unit": _UNITS[kind],
+        **({} if omega is None else {"omega": omega}),
+    }
+
+
+def _backbone(response: ForcedResponse) -> Backbone | None:
+    """Return the backbone, or what of it is reached."""
+    try:
+        return response.backbone
+    except AmplitudeNotReachedError as error:
+        return error.backbone
+
+
+def _marks(response: ForcedResponse) -> list[str]:
+    marks = [""] * response.frequency.size
+    for name, points in (("fold", response.folds), ("peak", response.peaks)):
+        for point in points:
+            here = (response.frequency == point.frequency) & (response.amplitude == point.amplitude)
+            i = int(np.flatnonzero(here)[0])
+            lower = response.amplitude[i] < response.amplitude[i - 1]
+            marks[i] = "dip" if name == "peak" and lower else name
+    marks[0], marks[-1] = "start", "end"
+    return marks
+
+
+def _named(long_name: str, unit: str = "1") -> dict[str, str]:
+    return {"units": unit, "long_name": long_name}

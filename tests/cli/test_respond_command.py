@@ -1,0 +1,165 @@
+"""`rotbeam respond`, as a user meets it."""
+
+import re
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Damping, ResponseNotReachedError, SpeedRipple, forced_response
+from rotbeam_exu import load
+from rotbeam_exu.cli import respond as job
+from rotbeam_exu.verdict import beam_of
+
+RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.6")
+QUICK = ("--to", "3.8", "--points", "3")
+BLADE = """
+[blade]
+length = 8.0
+
+[blade.section]
+axial_stiffness = 5.0e6
+bending_stiffness = 566.0
+mass_per_length = 0.2
+"""
+
+
+@pytest.fixture(scope="module")
+def exact():
+    beam = Beam.reference()
+    damped = beam.with_damping(Damping.from_ratio(beam, 1, 0.0008))
+    return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.6, 3.7, 3.8])
+
+
+def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_path, exact):
+    code, out, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
+    assert code == 0
+    assert error == ""
+    rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
+    assert [row[0] for row in rows] == ["start", "fold", "fold", "peak", "end"]
+    assert [row[4] for row in rows] == ["yes", "yes | no", "no | yes", "yes", "yes"]
+    wanted = [*((fold.frequency, fold.amplitude) for fold in exact.folds), exact.peaks[0]]
+    for row, (nu, a) in zip(rows[1:4], wanted, strict=True):
+        assert [float(row[1]), float(row[2])] == pytest.approx([nu, a], abs=1e-6)
+    # On the backbone a ripple's lag is half a turn, its Euler force being a quarter behind it.
+    assert float(rows[3][3]) == pytest.approx(np.pi, abs=1e-2)
+    name = "response-omega-6-ripple-0.002-from-3.6-to-3.8"
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"{name}.{kind}" for kind in ("nc", "csv", "png", "pdf")
+    }
+    data, table = load(tmp_path / f"{name}.nc"), load(tmp_path / f"{name}.csv")
+    for variable in ("frequency", "amplitude", "phase", "stable"):
+        assert data[variable].to_numpy() == pytest.approx(getattr(exact, variable))
+        assert table[variable].equals(data[variable])
+    assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(exact.harmonics)
+    assert data["backbone_frequency"][0].item() == pytest.approx(exact.backbone.omega_n)
+    assert beam_of(data.attrs) == exact.beam
+    attrs = {"load": "SpeedRipple", "load_size": 0.002, "load_unit": "rad/s", "omega": 6.0}
+    assert attrs.items() <= data.attrs.items()
+    assert data.attrs["residual"] == pytest.approx(exact.residual.max())
+    assert "numpy" in data.attrs["versions"]
+
+
+@pytest.mark.parametrize(
+    ("load_option", "kind", "size"),
+    [
+        (("--tip-force", "0.01"), "TipForce", 0.01),
+        (("--distributed-force", "0.002"), "DistributedForce", 0.002),
+        (("--gravity",), "Gravity", 9.81),
+        (("--gravity", "1.62"), "Gravity", 1.62),
+    ],
+)
+def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
+    omega = () if kind == "Gravity" else ("--omega", "6")
+    code, out, _ = call(
+        "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
+        "--points", "2", "--inextensible", "--out", tmp_path,
+    )  # fmt: skip
+    assert code == 0
+    data = load(next(tmp_path.glob("*.nc")))
+    assert (data.attrs["load"], data.attrs["load_size"]) == (kind, size)
+    assert data.attrs["damping_external"] == 0.5
+    assert ("ω [rad/s]" if kind == "Gravity" else "ν [rad/s]") in out
+    assert ("backbone_frequency" in data) == (kind != "Gravity")
+
+
+def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
+    config = tmp_path / "blade.toml"
+    config.write_text(f"{BLADE}\n[blade.damping]\nbending = 0.02\n")
+    drive = ("--omega", "3", "--tip-force", "0.01", "--from", "2", "--to", "2.5", "--points", "2")
+    found = {}
+    for name, options in (("own", ()), ("other", ("--external-damping", "0.3"))):
+        out = tmp_path / name
+        assert call("respond", *drive, "--config", config, *options, "--out", out)[0] == 0
+        attrs = load(next(out.glob("*.nc"))).attrs
+        found[name] = attrs["damping_bending"], attrs["damping_external"]
+    assert found == {"own": (0.02, 0.0), "other": (0.0, 0.3)}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--omega", "6"), "--distributed-force or --gravity, got none"),
+        (("--gravity", "--ripple", "0.1"), "give one load, .* got --ripple and --gravity"),
+        (("--omega", "6", "--tip-force", "0"), "--tip-force 0 is no load"),
+        (("--tip-force", "1", "--damping-ratio", "0.1"), "rotation speed in rad/s with --omega"),
+        (("--gravity", "--omega", "6", "--damping-ratio", "0.1"), "leave --omega out"),
+        (("--omega", "6", "--tip-force", "1"), "is undamped, .* give --damping-ratio or"),
+        (("--gravity", "--damping-ratio", "0.1", "--external-damping", "1"), "not both"),
+        (("--gravity", "--damping-ratio", "-0.1"), "ratio must not be negative"),
+        (("--gravity", "--damping-ratio", "0.1", "--to", "3"), "--to must be above --from, got 3"),
+        (("--gravity", "--damping-ratio", "0.1", "--points", "1"), "points must be at least 2"),
+        (("--gravity", "--damping-ratio", "0.1", "--points", "9999999999"), "take fewer points"),
+        (("--rippel", "1"), "did you mean --ripple?"),
+    ],
+)
+def test_bad_input_is_one_sentence(call, tmp_path, arguments, sentence):
+    to = () if "--to" in arguments else ("--to", "4")
+    code, _, error = call("respond", "--from", "3.6", *to, *arguments, "--out", tmp_path / "out")
+    assert code == 2
+    assert re.search(sentence, error.replace("?", r"\?") if "?" in sentence else error)
+    assert len(error.strip().splitlines()) == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_without_damping_a_zero_lets_through_what_meets_no_resonance(call, tmp_path):
+    quiet = ("--omega", "6", "--tip-force", "0.1", "--points", "2", "--out", tmp_path)
+    assert "0 for none" in call("respond", *quiet, "--from", "1", "--to", "2")[2]
+    none = (*quiet, "--damping-ratio", "0")
+    assert call("respond", *none, "--from", "1", "--to", "2")[0] == 0
+    code, _, error = call("respond", *none, "--from", "3", "--to", "4")
+    assert code == 2
+    assert "without damping the response has no end at resonance" in error
+
+
+def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatch, exact):
+    def broken(*_, **__):
+        raise ResponseNotReachedError("the response was not found after 3.7 rad/s", exact)
+
+    monkeypatch.setattr(job, "forced_response", broken)
+    code, _, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
+    assert code == 1
+    kept = tmp_path / "response-omega-6-ripple-0.002-from-3.6-to-3.8-failed.nc"
+    assert f"after 3.7 rad/s; what was found is in {kept}, marked failed" in error
+    assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"
+
+
+def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
+    lone = (
+        "respond",
+        "--gravity",
+        "--from",
+        "4.5",
+        "--to",
+        "5",
+        "--points",
+        "2",
+        "--out",
+        tmp_path,
+    )
+    assert call(*lone, "--external-damping", "0.5")[0] == 0
+    assert call(*lone, "--external-damping", "0.5")[0] == 0
+    monkeypatch.setattr(job, "gravity_response", lambda *_, **__: pytest.fail("computed first"))
+    code, _, error = call(*lone, "--external-damping", "0.6")
+    assert code == 2
+    assert "damping_external 0.5 instead of 0.6" in error
+    assert "--force" in error
