@@ -2,10 +2,10 @@ r"""
 Internal resonance
 ==================
 
-The backbone of the paper's beam at 2 rad/s. The sixth harmonic, which the Coriolis force brings, meets
-the second mode at two thirds of the length: the branch turns around and the second mode takes over;
-beyond, the backbone goes on from the other side. All other crossings of a harmonic with a mode,
-the dots, are too weak to be seen.
+The backbone of the paper's beam at 2 rad/s. The sixth harmonic, which the Coriolis force brings,
+meets the second mode at two thirds of the length: the branch turns around and the second mode takes
+over; beyond, the backbone goes on from the other side. All other crossings, the dots, are too weak
+to be seen.
 """
 
 import matplotlib.pyplot as plt
