@@ -40,7 +40,8 @@ suppress_warnings = ["config.cache"]  # the gallery's sort keys do not pickle
 nitpicky = True
 nitpick_ignore_regex = [
     ("py:class", r"(?!analytic\.|rotbeam_exu\.).*"),
-    ("py:class", r".*\.(FloatArray|ComplexArray|Axial|Frame|OnError|Mesh|Profile|AnyBlade|S|D|_.*)"),
+    ("py:class", r".*\.(FloatArray|ComplexArray|Axial|Frame|OnError|Mesh|Profile|AnyBlade)"),
+    ("py:class", r".*\.(S|D|C|_.*)"),
     ("py:(obj|data|exc|meth|func|attr)", r"(?!analytic\.|rotbeam_exu\.).*"),
 ]
 

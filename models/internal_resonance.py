@@ -19,12 +19,9 @@ _, ax = plt.subplots(figsize=(6.0, 4.2), layout="constrained")
 (resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
 for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece
-    if piece == 0:
-        lower = branch.amplitude < resonance.amplitude
-        for side in (lower, ~lower):
-            ax.plot(branch.frequency[here & side], branch.amplitude[here & side], "k-")
-    else:
-        ax.plot(branch.frequency[here], branch.amplitude[here], "--", color="tab:red")
+    lower = branch.amplitude < resonance.amplitude
+    for part in (here & lower, here & ~lower) if piece == 0 else (here,):
+        ax.plot(branch.frequency[part], branch.amplitude[part], "r--" if piece else "k-")
 ax.annotate(
     "harmonic 6, mode 2", (branch.folds[0].frequency, branch.folds[0].amplitude),
     (3.004, 0.69), arrowprops={"arrowstyle": "-", "color": "0.5"},
@@ -36,5 +33,5 @@ for one in branch.resonances:
         ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
                     (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=8,
                     ha="right" if left else "left")  # fmt: skip
-ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", xlim=(2.99, 3.065), ylim=(0.0, 0.85))
+ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85))
 plt.show()
