@@ -73,6 +73,10 @@ def _checked_harmonic(load: SpeedRipple | TipForce | DistributedForce, unit: str
         object.__setattr__(load, "frequency", frequency)
 
 
+def _at(frequency: float | None) -> str:
+    return "" if frequency is None else f" at {frequency:g} rad/s"
+
+
 @dataclass(frozen=True, kw_only=True)
 class SpeedRipple:
     """A ripple of the speed: the clamp turns at ω + ε cos νt.
@@ -90,6 +94,9 @@ class SpeedRipple:
 
     def __post_init__(self) -> None:
         _checked_harmonic(self, "rad/s")
+
+    def __str__(self) -> str:
+        return f"a ripple of {self.amplitude:g} rad/s{_at(self.frequency)}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,6 +117,9 @@ class TipForce:
     def __post_init__(self) -> None:
         _checked_harmonic(self, "N")
 
+    def __str__(self) -> str:
+        return f"a tip force of {self.amplitude:g} N{_at(self.frequency)}"
+
 
 @dataclass(frozen=True, kw_only=True)
 class DistributedForce:
@@ -129,6 +139,9 @@ class DistributedForce:
     def __post_init__(self) -> None:
         _checked_harmonic(self, "N/m")
 
+    def __str__(self) -> str:
+        return f"a distributed force of {self.amplitude:g} N/m{_at(self.frequency)}"
+
 
 @dataclass(frozen=True)
 class Gravity:
@@ -146,6 +159,9 @@ class Gravity:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
+
+    def __str__(self) -> str:
+        return f"gravity of {self.gravity:g} m/s²"
 
 
 HarmonicLoad = SpeedRipple | TipForce | DistributedForce

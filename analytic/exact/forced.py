@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -113,6 +114,14 @@ def gravity_response(
         rotation_speed(omega, "omegas")
     model = resolved_model(beam, 1, inextensible, False, functions)
     steady_rate(beam, float(asked[-1]), model)
+    if not any(beam.unit.damping):
+        slow, fast = (linear_modes(beam, w, 1).frequencies[0] / w for w in asked[[0, -1]].tolist())
+        if math.floor(slow) > math.floor(fast):
+            raise ValueError(
+                f"without damping the response has no end at resonance, and the first mode meets "
+                f"{math.floor(slow)} times the speed in between: take "
+                "beam.with_damping(Damping(...))"
+            )
     system = DrivenBeam(model, None, unit_loads(beam, load))
     return _followed(beam, load, system, asked, harmonics)
 
@@ -156,8 +165,8 @@ def _followed(
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
         raise ResponseNotReachedError(
-            f"the response to {load} was not found{last}: {failed}; take more damping, a smaller "
-            "load, or a first frequency farther from resonance",
+            f"the response to {load} was not found{last}: {failed}; take more damping or a smaller "
+            "load",
             response,
         )
     assert response is not None

@@ -78,14 +78,26 @@ class ForcedResponse:
 
     @property
     def phase(self) -> FloatArray:
-        """By how much the first harmonic of q lags behind the load [rad], (points,), in ±π."""
+        """By how much the first harmonic of q lags behind cos νt [rad], (points,), in ±π.
+
+        The load goes with cos νt; the weight across the blade with -cos θ.
+        """
         return np.asarray(-np.angle(self.harmonics[:, 1]))
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """What is special about each point, (points,).
+
+        "asked" for, a "fold" where the curve turns around, a "peak" where the amplitude is greatest
+        or least, a "branch point" where another curve crosses; else empty.
+        """
+        return tuple(orbit.mark for orbit in self._orbits)
 
     def _marked(self, mark: str) -> tuple[ResponsePoint, ...]:
         return tuple(
             ResponsePoint(float(self.frequency[i]), float(self.amplitude[i]))
-            for i, orbit in enumerate(self._orbits)
-            if orbit.mark == mark
+            for i, here in enumerate(self.marks)
+            if here == mark
         )
 
     @property
@@ -101,7 +113,7 @@ class ForcedResponse:
     def at(self, frequency: float) -> NDArray[np.intp]:
         """Return the indices of the points at one of the frequencies asked for [rad/s]."""
         frequency = finite_number("frequency", frequency, "rad/s")
-        asked = np.array([orbit.mark == "asked" for orbit in self._orbits])
+        asked = np.array(self.marks) == "asked"
         found = np.flatnonzero(asked & np.isclose(self.frequency, frequency, rtol=1e-9, atol=0.0))
         if not found.size:
             raise ValueError(

@@ -179,8 +179,8 @@ def warn_of_resonances(
             distance, j = min(near)
             warned.add((k, j))
             warnings.warn(
-                f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit of "
-                f"mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
+                f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
+                f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
                 "tell; backbone_branch follows what branches there",
                 RotbeamWarning,

@@ -62,8 +62,7 @@ def response_curve(
             orbits.append(there.orbit)
             at = there
     except NoWayOnError as reason:
-        where = f" beyond the frequency {orbits[-1].frequency:.6g}" if orbits else ""
-        raise ResponseNotFollowedError(f"{reason}{where}", orbits) from None
+        raise ResponseNotFollowedError(str(reason), orbits) from None
     raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", orbits)
 
 

@@ -103,13 +103,9 @@ def _backbone(response: ForcedResponse) -> Backbone | None:
 
 
 def _marks(response: ForcedResponse) -> list[str]:
-    marks = [""] * response.frequency.size
-    for name, points in (("fold", response.folds), ("peak", response.peaks)):
-        for point in points:
-            here = (response.frequency == point.frequency) & (response.amplitude == point.amplitude)
-            i = int(np.flatnonzero(here)[0])
-            lower = response.amplitude[i] < response.amplitude[i - 1]
-            marks[i] = "dip" if name == "peak" and lower else name
+    marks = [mark if mark in ("fold", "peak") else "" for mark in response.marks]
+    for i in np.flatnonzero(np.array(marks) == "peak").tolist():
+        marks[i] = "dip" if response.amplitude[i] < response.amplitude[i - 1] else "peak"
     marks[0], marks[-1] = "start", "end"
     return marks
 

@@ -239,6 +239,7 @@ def test_what_a_response_says_of_itself(loaded):
         (lambda: forced_response(by_mass(0.1), 6.0, TipForce(amplitude=1.0), [4.0, 3.0]),
          ValueError, "above 0 and ascending"),
         (lambda: forced_response(by_mass(0.1), 6.0, 3.0, [3.0, 4.0]), TypeError, "must be a Speed"),
+        (lambda: gravity_response(BEAM, [3.0, 3.5]), ValueError, "meets 1 times the speed"),
         (lambda: Damping(bending=-0.1), ValueError, "damping takes energy, it gives none"),
         (lambda: periodic_orbits(by_mass(0.1), 6.0, [0.1]), ValueError,
          "no free periodic orbits: take forced_response for the damped blade"),
@@ -248,6 +249,14 @@ def test_what_a_response_says_of_itself(loaded):
 def test_bad_input_is_one_sentence(call, error, sentence):
     with pytest.raises(error, match=sentence):
         call()
+
+
+def test_what_does_not_excite_leaves_the_blade_at_rest():
+    """A ripple of the speed has no force across a blade that flaps."""
+    blade = by_mass(0.01).with_setting_angle(0.5 * np.pi)
+    found = forced_response(blade, 6.0, SpeedRipple(amplitude=0.01), [5.0, 8.0])
+    assert found.amplitude.max() < 1e-12
+    assert str(found).startswith("Response to a ripple of 0.01 rad/s: ")
 
 
 def test_a_load_without_resonance_needs_no_damping():
