@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -14,23 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_number, positive, rotation_speed, whole_number
-from ..methods.arclength import NoWayOnError, advanced, corrected, located
 from ..methods.floquet import Multipliers, floquet_multipliers
-from ..methods.free import FreeCurve
 from ..methods.harmonic_balance import NoOrbitError
-from ..methods.orbit_curve import At
 from .internal_resonance import Resonance, resonances_along
 from .modes import resolved_model
 from .periodic import Branch, branch_of
 from .state import BeamState, beam_state
-from .steady import BeamOrbit, SteadyBeam
+from .steady import BeamOrbit
+from .tongues import Crossing, follow, leave, tongue
 
 _GRID = 0.05  # of |q|/L between the orbits of the main path
-_STEP, _LONGEST = 0.02, 0.2  # of the arclength in a tongue
-_TONGUE_POINTS = 14
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
-_FELT = 1e-3  # size of a harmonic, over the first, whose resonance is looked into
-_TAKES_OVER = 3.0  # growth of that harmonic by which a tongue is told from the path
 
 
 class Fold(NamedTuple):
@@ -67,6 +59,8 @@ class BackboneBranch:
         about them, ascending.
     folds : tuple of Fold
         Where amplitude turns around.
+    branch_points : tuple of Fold
+        Where another branch crosses a piece that was followed by arclength; `switched` follows it.
     """
 
     beam: AnyBlade
@@ -77,6 +71,8 @@ class BackboneBranch:
     piece: NDArray[np.int_]
     resonances: tuple[Resonance, ...]
     folds: tuple[Fold, ...]
+    branch_points: tuple[Fold, ...]
+    _crossings: tuple[Crossing, ...] = field(repr=False)
     _orbits: tuple[BeamOrbit, ...] = field(repr=False)
 
     @cached_property
@@ -101,6 +97,23 @@ class BackboneBranch:
         orbit, phase = self._orbits[i], finite_number("phase", phase, "rad")
         q, q_dot, _ = orbit.coordinates(np.array([phase]))
         return beam_state(self.beam, orbit.system.model, q[0], q_dot[0], x)
+
+    def switched(self, i: int) -> tuple[FloatArray, FloatArray]:
+        """Return amplitude and frequency [rad/s] along the branch that crosses at branch point `i`.
+
+        Each (points,), from one side of the crossing to the other, as far as it is resolved.
+        """
+        count = len(self._crossings)
+        if not 0 <= i < count:
+            raise IndexError(f"branch point {i} is none of the {count} that there are")
+        here = self._crossings[i]
+        sides = [leave(here, sign) for sign in (-1.0, 1.0)]
+        orbits = [*sides[0][::-1], *sides[1]]
+        per_second = self.beam.frequency_scale
+        return (
+            np.array([orbit.amplitude for orbit in orbits]),
+            np.array([orbit.frequency for orbit in orbits]) * per_second,
+        )
 
     def __str__(self) -> str:
         met = ", ".join(f"{r.harmonic}:{r.mode} at {r.amplitude:.3f}" for r in self.resonances)
@@ -156,17 +169,17 @@ def backbone_branch(
     main = _main_path(branch, up_to)
     per_second = beam.frequency_scale
     met = resonances_along(main, branch.modes, mode, per_second)
-    pieces, folds = [main], []
-    for resonance in met:
-        for below in (True, False):
-            tongue, fold = _tongue(main, met, resonance, below)
-            pieces += [tongue] if tongue else []
-            folds += [fold] if fold else []
+    followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
     if main[-1].amplitude < up_to - 1e-9:
-        tongue, fold = _followed(main[-2], main[-1], lambda orbit: False)
-        pieces += [tongue] if tongue else []
-        folds += [fold] if fold else []
+        followed.append(follow(main[-2], main[-1], lambda orbit: False))
+    off = [piece for piece in followed if piece is not None]
+    pieces = [main, *(piece.orbits for piece in off)]
     orbits = [orbit for piece in pieces for orbit in piece]
+    crossings = [crossing for piece in off for crossing in piece.crossings]
+
+    def places(at: list[BeamOrbit]) -> tuple[Fold, ...]:
+        return tuple(Fold(orbit.amplitude, orbit.frequency * per_second) for orbit in at)
+
     return BackboneBranch(
         beam=beam,
         omega=omega,
@@ -175,7 +188,9 @@ def backbone_branch(
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         piece=np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces]),
         resonances=tuple(met),
-        folds=tuple(Fold(o.amplitude, o.frequency * per_second) for o in folds),
+        folds=places([piece.fold for piece in off if piece.fold is not None]),
+        branch_points=places([one.curve.orbit(one.z) for one in crossings]),
+        _crossings=tuple(crossings),
         _orbits=tuple(orbits),
     )
 
@@ -198,72 +213,3 @@ def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:
         for o, last in zip(both, [None, *both], strict=False)
         if last is None or o.amplitude - last.amplitude > _SAME
     ]
-
-
-def _tongue(
-    main: list[BeamOrbit], met: list[Resonance], resonance: Resonance, below: bool
-) -> tuple[list[BeamOrbit], BeamOrbit | None]:
-    """Return the orbits off the main path into the tongue, from one side, and where they turn."""
-    near = [o for o in main if (o.amplitude < resonance.amplitude) == below]
-    beyond = [o for o in main if (o.amplitude >= resonance.amplitude) == below]
-    if len(near) < 2 or not beyond:
-        return [], None
-    k = resonance.harmonic
-    before, last, other = (
-        (near[-2], near[-1], beyond[0]) if below else (near[1], near[0], beyond[-1])
-    )
-    if k > min(last.harmonics, other.harmonics) or _share(last, k) < _FELT:
-        return [], None
-    low, high = sorted((before.amplitude, last.amplitude))
-    felt = [one for one in met if one.harmonic <= last.harmonics]
-    felt = [one for one in felt if _share(last, one.harmonic) >= 10.0 * _FELT]
-    if any(low < one.amplitude < high for one in felt):
-        return [], None  # another resonance is nearer, and two sides of it give no direction
-
-    def goes_on(orbit: BeamOrbit) -> bool:
-        """Whether the path has crossed the resonance without a tongue."""
-        passed = (orbit.amplitude > other.amplitude) == below
-        return passed and _share(orbit, k) < _TAKES_OVER * _share(other, k)
-
-    return _followed(before, last, goes_on)
-
-
-def _share(orbit: BeamOrbit, k: int) -> float:
-    """Return the size of harmonic k over that of the first."""
-    sizes = np.linalg.norm(orbit.sines, axis=1)
-    return float(sizes[k - 1] / sizes[0])
-
-
-def _followed(
-    before: BeamOrbit, last: BeamOrbit, goes_on: Callable[[BeamOrbit], bool]
-) -> tuple[list[BeamOrbit], BeamOrbit | None]:
-    """Return the orbits that follow two, and that at which the amplitude turns, if it does.
-
-    None of them if the path just goes on.
-    """
-    curve = FreeCurve(last, last.frequency)
-    start = curve.unknowns(last)
-    found, fold, step = [last], None, _STEP
-    # As far as it is resolved.
-    with suppress(NoWayOnError):
-        at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
-        while len(found) < _TONGUE_POINTS:
-            point, step = advanced(at.curve, at.point, step, _LONGEST)
-            there = At(at.curve, point).resolved()
-            if there.curve is not at.curve:
-                at = at.on(there.curve)
-            if goes_on(there.orbit):
-                return [], None
-            fold = fold or _turning_point(at, there)
-            found.append(there.orbit)
-            at = there
-    return (found, fold) if len(found) > 2 else ([], None)
-
-
-def _turning_point(
-    at: At[FreeCurve[SteadyBeam]], there: At[FreeCurve[SteadyBeam]]
-) -> BeamOrbit | None:
-    """Return the orbit between two at which the amplitude is stationary, if there is one."""
-    curve = at.curve
-    point = located(curve, at.point, there.point, lambda p: curve.climb(p.z, p.tangent))
-    return None if point is None else curve.orbit(point.z)

@@ -24,6 +24,7 @@ _SLOW = 0.2  # a contraction worse than this pays for a new factorization
 _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
+_SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
 class Curve(Protocol):
@@ -51,8 +52,9 @@ class Point:
     z : ndarray (N + 1,)
     tangent : ndarray (N + 1,)
         Of unit length, along the way the curve is followed.
-    orientation : float
-        Sign of the determinant of the equations' Jacobian with the tangent as its last row.
+    determinant : float
+        Of the equations' Jacobian with the tangent as its last row, by its N-th root, with its
+        sign: that changes where another branch crosses.
     steps : int
         Newton steps that it took.
     factors : tuple
@@ -61,7 +63,7 @@ class Point:
 
     z: FloatArray
     tangent: FloatArray
-    orientation: float
+    determinant: float
     steps: int
     factors: tuple[Any, Any]
 
@@ -113,8 +115,10 @@ def _with_tangent(curve: Curve, z: FloatArray, along: FloatArray, steps: int) ->
     tangent /= np.linalg.norm(tangent)
     lu, pivots = factors
     swaps = np.count_nonzero(pivots != np.arange(pivots.size))
-    orientation = (-1.0) ** swaps * np.prod(np.sign(np.diag(lu)))
-    return Point(z, tangent, float(orientation), steps, factors)
+    diagonal = np.diag(lu)
+    sign = (-1.0) ** swaps * np.prod(np.sign(diagonal))
+    size = np.exp(np.log(np.maximum(np.abs(diagonal), np.finfo(float).tiny)).mean())
+    return Point(z, tangent, float(sign * size), steps, factors)
 
 
 def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[Point, float]:
@@ -160,3 +164,28 @@ def located(
     share = optimize.brentq(at, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
     at(share)
     return found[share]
+
+
+def crossing(curve: Curve, start: Point, end: Point) -> tuple[FloatArray, FloatArray] | None:
+    """Return where another branch crosses between two points, and the way it goes there.
+
+    At a branch point the equations' Jacobian has two null vectors: the tangent, and one that leads
+    off. None if there is none in between: the determinant changes its sign through infinity too,
+    where a narrow excursion of the curve is stepped over.
+    """
+    try:
+        found = located(curve, start, end, lambda point: point.determinant)
+    except NoWayOnError:
+        return None
+    if found is None:
+        return None
+    _, sizes, vectors = np.linalg.svd(curve.jacobian(found.z))
+    if sizes[-1] > _SINGULAR * sizes[-2]:
+        return None
+    null = vectors[-2:]
+    tangent = start.tangent / np.linalg.norm(null @ start.tangent)
+    along = null.T @ (null @ tangent)
+    # Across the tangent, within the two.
+    others = null - np.outer(null @ along, along)
+    off = others[int(np.argmax(np.linalg.norm(others, axis=1)))]
+    return found.z, off / np.linalg.norm(off)

@@ -97,7 +97,7 @@ def _between(
 
     seek("fold", lambda point: float(point.tangent[-1]))
     seek("peak", climb)
-    if at.point.orientation * there.point.orientation < 0.0:
+    if at.point.determinant * there.point.determinant < 0.0:
         found.append((0.0, "branch point", there.point))
     # A fold between them may pass a parameter twice: each side for itself.
     turns = [point for _, mark, point in found if mark == "fold"]

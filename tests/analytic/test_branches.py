@@ -62,6 +62,12 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert tongue.max() > tongue[0]
     assert tongue[-1] < tongue.max() - 0.02
     assert "6:2 at 0.64" in str(branch)
+    # Narrow resonances that the tongue crosses are no branch points.
+    for i, place in enumerate(branch.branch_points):
+        amplitude, _ = branch.switched(i)
+        assert np.abs(amplitude - place.amplitude).min() < 0.05
+    with pytest.raises(IndexError, match="branch point 99 is none of"):
+        branch.switched(99)
     state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
     assert np.isfinite(state.v).all()
 
