@@ -100,7 +100,7 @@ def _print_verdicts(
     )
     if limits_found:
         _print_rows(
-            ["code", "meshes", "limit", "finest mesh", "order", "ω_n"],
+            ["code", "meshes", "limit", "finest mesh", "order", "reference", "ω_n"],
             limits_found,
             f"Limit of ω_n against the reference, at the worst speed; floor {FLOOR:g}, "
             f"reference ± {BOUND:g}",
@@ -119,7 +119,7 @@ def _limit_row(entry: Entry, finding: Finding) -> list[str]:
         limit, finest = f"{runs.limit:+.1e} ± {runs.bar:.0e}", f"{runs.errors[-1]:+.0e}"
         figures = [limit, finest, f"{order}{expected}"]
     meshes = ", ".join(map(str, entry.own_meshes))
-    return [entry.name, meshes, *figures, str(finding.outcome)]
+    return [entry.name, meshes, *figures, entry.theory.name, str(finding.outcome)]
 
 
 def _print_costs(

@@ -9,9 +9,11 @@ import xarray as xr
 from analytic import AnyBlade, SpinUp
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
+from ..fem.elements.section import shear_share
 from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import simulate
 from .peers import PEERS, Entry, installed, peer
+from .theory import BERNOULLI_EULER, Theory
 
 _ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: 2.0}
 
@@ -40,8 +42,17 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
         first_frequency=first,
         elements=elements,
         step=step,
+        theory=_theory(model),
         order=_declared_order(model),
     )
+
+
+def _theory(model: Formulation) -> Theory:
+    """Shear and rotary inertia, of the elements that have them."""
+    if not isinstance(model, Exact | Ancf3):
+        return BERNOULLI_EULER
+    share = shear_share(model.poisson_ratio, model.shear_correction)
+    return Theory(rotary_inertia=True, shear_share=share)
 
 
 def _declared_order(model: Formulation) -> float | None:

@@ -140,7 +140,7 @@ def verify(
     -------
     Verification
         linear frequency: of the first one, the limit on the entry's own meshes against
-        `linear_modes`, the worst over SPEEDS. amplitude: of the steady oscillation, against that of
+        its theory, the worst over SPEEDS. amplitude: of the steady oscillation, against that of
         `spin_up_response`. nonlinear frequency: against `periodic_orbits` at the run's own
         amplitude. history: largest error of q(t) over max|q|, against `spin_up_response`. Orders:
         of q(t) to a second after the ramp, at four steps on the entry's own meshes, and on its mesh

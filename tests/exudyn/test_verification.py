@@ -9,7 +9,7 @@ import xarray as xr
 from analytic import AmplitudeNotReachedError, Beam, linear_modes, spin_up_response
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.cli import main
-from rotbeam_exu.fem.elements import Ancf3, Exact, Linear
+from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import measures
 from rotbeam_exu.verification.cost import cost_at_error
 from rotbeam_exu.verification.entries import formulation_entry
@@ -17,6 +17,7 @@ from rotbeam_exu.verification.linear_frequency import linear_frequency
 from rotbeam_exu.verification.measures import THRESHOLDS, verify
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.peers import Entry, peer
+from rotbeam_exu.verification.theory import BERNOULLI_EULER
 
 
 def truth(beam, spin_up, duration):
@@ -203,8 +204,23 @@ def test_the_locking_law_converges_to_another_limit():
     """Its bending stiffness is E/(1 - ν²): frequencies higher by (1 - ν²)^(-1/2) at rest."""
     found = finding(formulation_entry(Ancf3(law="coupled")), (0.0, 2.0))
     assert found.outcome is Outcome.ANOTHER_LIMIT
-    # Shear and rotary inertia take some 45 μ of it.
-    assert found.model_difference == pytest.approx((1.0 - 0.3**2) ** -0.5 - 1.0, abs=5e-5)
+    assert found.model_difference == pytest.approx((1.0 - 0.3**2) ** -0.5 - 1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3])
+def test_a_beam_that_shears_has_its_own_truth(poisson_ratio):
+    """Against Bernoulli and Euler's beam it is off by 8e-5 of shear and rotary inertia."""
+    entry = formulation_entry(Exact(nodes=3, poisson_ratio=poisson_ratio), elements=16)
+    found = finding(entry, (0.0, 8.0))
+    assert abs(found.model_difference) < 5e-7
+    thin = finding(replace(entry, theory=BERNOULLI_EULER), (8.0,))
+    assert -1e-4 < thin.model_difference < -5e-5
+
+
+def test_each_element_that_converges_is_told_so():
+    for model in (Cable(), Exact(), Ancf3(poisson_ratio=0.0)):
+        found = finding(formulation_entry(model), (0.0, 8.0))
+        assert found.outcome is Outcome.REFERENCE, str(found)
 
 
 def test_the_linear_frame_does_not_converge():

@@ -26,6 +26,8 @@ import xarray as xr
 from analytic import AnyBlade, SpinUp
 from analytic.input_checks import whole_number
 
+from ..theory import BERNOULLI_EULER, Theory
+
 FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""
 
@@ -56,6 +58,8 @@ class Entry:
     meshes : tuple of int, optional
         Meshes on which convergence is judged, three or more to have an order; half, the same and
         twice as many elements unless given.
+    theory : Theory
+        The beam theory whose linear frequencies the code should have; Bernoulli-Euler's by default.
     order, order_in_step : float, optional
         Orders that the author declares, in the mesh and in the step; the observed ones are judged
         against them.
@@ -67,6 +71,7 @@ class Entry:
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()
+    theory: Theory = BERNOULLI_EULER
     order: float | None = None
     order_in_step: float | None = 2.0
 
