@@ -152,12 +152,12 @@ def test_an_estimator_that_fails_on_the_exact_answer_is_not_charged_either():
     assert found.measures["history"].passed
 
 
-def of_frequency(difference, power, size=0.05, **options):
-    """Return a code with no more than a frequency, off by the difference and C/nᵖ."""
+def of_frequency(difference, power, size=0.05, higher=0.0, **options):
+    """Return a code with no more than a frequency, off by the difference and C/nᵖ (1 + c/n)."""
 
     def first(beam, omega, elements):
         exact = linear_modes(beam, omega, 1).frequencies[0]
-        return exact * (1.0 + difference + size / elements**power)
+        return exact * (1.0 + difference + size / elements**power * (1.0 + higher / elements))
 
     return Entry(name="mine", simulate=second_order(), first_frequency=first, **options)
 
@@ -185,10 +185,10 @@ def test_another_limit_is_named():
 def test_a_verdict_never_gets_worse_by_refining():
     rank = list(Outcome)
     for difference in (0.0, 1.5e-4, 1.99e-4):
-        seen = [
-            rank.index(finding(of_frequency(difference, 2.0, 3.0, elements=2**k)).outcome)
-            for k in range(1, 9)
-        ]
+        seen = []
+        for elements in 2 ** np.arange(1, 10):
+            entry = of_frequency(difference, 2.0, 3.0, -5.0, elements=int(elements))
+            seen.append(rank.index(finding(replace(entry, order=2.0)).outcome))
         assert seen == sorted(seen, reverse=True)
         assert seen[0] == rank.index(Outcome.NO_VERDICT)
         assert seen[-1] == rank.index(Outcome.REFERENCE)
