@@ -81,8 +81,9 @@ def convergence(
     """Extrapolate the values of several runs to size zero.
 
     By the observed order where it can be measured, with a bar of twice what the declared order
-    would change; else by the declared one, or the first, with a bar of twice the correction. Where the last change is no larger than the noise, the finest run
-    is the limit. Where changes alternate or grow, it is the limit with a bar of three changes.
+    would change; else by the declared one, or the first, with a bar of twice the correction. Where
+    the last change is no larger than the noise, the finest run is the limit. Where changes
+    alternate or grow, it is the limit with a bar of three changes.
 
     Parameters
     ----------
@@ -166,7 +167,7 @@ def _limit(
     if not why:
         correction = last / (ratio**order - 1.0)
         expected = 0.0 if declared is None else last / (ratio**declared - 1.0)
-        # Off the declared order coarse runs are not yet on their way: twice of what it would change.
+        # Off the declared order runs are too coarse for either: twice what it would change.
         off = (_ASSUMED - 1.0) * abs(correction - expected)
         doubt = max(_CONFIRMED * abs(correction), off)
         return finest + correction, doubt + _noise_of_correction(h, changes, slack) + bars[-1], True
