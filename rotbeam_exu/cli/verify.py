@@ -84,9 +84,9 @@ def _print_verdicts(
         rows.append([found.name, f"{found.elements}", *cells, verdict])
         finding = found.measures["linear frequency"].finding
         limits_found += [_limit_row(entry, finding)] if finding else []
-        sentences = dict.fromkeys(
-            m.note for m in found.measures.values() if m.passed is False or m.undecided
-        )
+        measures = found.measures.values()
+        sentences = dict.fromkeys(m.note for m in measures if m.passed is False)
+        sentences |= dict.fromkeys(f"{m.name} {m.note}" for m in measures if m.undecided)
         notes += [f"{found.name}: {note}" for note in (*sentences, found.remark) if note]
     limits = (
         f"{THRESHOLDS[n]:g}{' p' if n.startswith('order') else ''}" if n in THRESHOLDS else ""
