@@ -100,7 +100,7 @@ def _print_verdicts(
     )
     if limits_found:
         _print_rows(
-            ["code", "meshes", "limit", "finest mesh", "order", "reference", "ω_n"],
+            ["code", "meshes", "limit", "finest mesh", "order", "reference", "outcome"],
             limits_found,
             f"Limit of ω_n against the reference, at the worst speed; floor {FLOOR:g}, "
             f"reference ± {BOUND:g}",
