@@ -18,8 +18,10 @@ from ..fem.elements import ALIASES, FORMULATIONS, formulation
 from ..files.beam_file import load_beam
 from ..verification.cost import LADDER, cost_at_error
 from ..verification.entries import entries_at_hand, formulation_entry
+from ..verification.linear_frequency import BOUND, FLOOR
 from ..verification.measures import THRESHOLDS, Measure
 from ..verification.measures import verify as verification_of
+from ..verification.outcomes import Finding
 from ..verification.peers import PEERS, Entry, peer
 from .motion import Motion, chosen_motion, slower_than_paper
 from .output import new_console, print_columns
@@ -74,23 +76,50 @@ def _print_verdicts(
         "history": "q(t)", "order in step": "order h", "order in mesh": "order l",
         "cost": "time [s]",
     }  # fmt: skip
-    rows, notes = [], []
+    rows, notes, limits_found = [], [], []
     for entry in _tracked(console, entries):
         found = verification_of(entry, beam=beam, spin_up=motion.spin_up, duration=motion.duration)
         cells = (_cell(found.measures[name]) for name in headers)
         verdict = "passed" if found.passed else "falls short"
         rows.append([found.name, f"{found.elements}", *cells, verdict])
-        sentences = dict.fromkeys(m.note for m in found.measures.values() if m.passed is False)
+        finding = found.measures["linear frequency"].finding
+        limits_found += [_limit_row(entry, finding)] if finding else []
+        measures = found.measures.values()
+        sentences = dict.fromkeys(m.note for m in measures if m.passed is False)
+        sentences |= dict.fromkeys(f"{m.name} {m.note}" for m in measures if m.undecided)
         notes += [f"{found.name}: {note}" for note in (*sentences, found.remark) if note]
-    limits = (f"{THRESHOLDS[n]:g}" if n in THRESHOLDS else "" for n in headers)
+    limits = (
+        f"{THRESHOLDS[n]:g}{' p' if n.startswith('order') else ''}" if n in THRESHOLDS else ""
+        for n in headers
+    )
     rows.append(["threshold", "", *limits, ""])
     _print_rows(
         ["code", "mesh", *headers.values(), "verdict"],
         rows,
         f"Errors against the exact beam, {_named(motion)}",
     )
+    if limits_found:
+        _print_rows(
+            ["code", "meshes", "limit", "finest mesh", "order", "reference", "outcome"],
+            limits_found,
+            f"Limit of ω_n against the reference, at the worst speed; floor {FLOOR:g}, "
+            f"reference ± {BOUND:g}",
+        )
     for note in notes:
         console.print(note)
+
+
+def _limit_row(entry: Entry, finding: Finding) -> list[str]:
+    """Return model difference and its bar, discretization error, order and outcome of ω_n."""
+    runs = finding.runs
+    figures = ["-", "-", "-"]
+    if runs is not None:
+        order = f"{runs.order:.1f}" if math.isfinite(runs.order) else "-"
+        expected = "" if entry.order is None else f" of {entry.order:g}"
+        limit, finest = f"{runs.limit:+.1e} ± {runs.bar:.0e}", f"{runs.errors[-1]:+.0e}"
+        figures = [limit, finest, f"{order}{expected}"]
+    meshes = ", ".join(map(str, entry.own_meshes))
+    return [entry.name, meshes, *figures, entry.theory.name, str(finding.outcome)]
 
 
 def _print_costs(

@@ -9,9 +9,13 @@ import xarray as xr
 from analytic import AnyBlade, SpinUp
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
-from ..fem.linearization import natural_frequencies
+from ..fem.elements.section import shear_share
+from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import simulate
 from .peers import PEERS, Entry, installed, peer
+from .theory import BERNOULLI_EULER, Theory
+
+_ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: 2.0}
 
 
 def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3) -> Entry:
@@ -30,7 +34,7 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
         )
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(natural_frequencies(beam, omega, element=model, elements=elements, count=1)[0])
+        return float(mesh_frequencies(beam, omega, model, elements, 1)[0])
 
     return Entry(
         name=" ".join([model.name, *options]),
@@ -38,7 +42,24 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
         first_frequency=first,
         elements=elements,
         step=step,
+        theory=_theory(model),
+        order=_declared_order(model),
     )
+
+
+def _theory(model: Formulation) -> Theory:
+    """Shear and rotary inertia, of the elements that have them."""
+    if not isinstance(model, Exact | Ancf3):
+        return BERNOULLI_EULER
+    share = shear_share(model.poisson_ratio, model.shear_correction)
+    return Theory(rotary_inertia=True, shear_share=share)
+
+
+def _declared_order(model: Formulation) -> float | None:
+    """Order in the mesh: of quadratic functions and two points twice that of linear and one."""
+    if isinstance(model, Exact):
+        return 2.0 * (model.nodes - 1)
+    return _ORDERS.get(type(model))
 
 
 def entries_at_hand() -> tuple[Entry, ...]:

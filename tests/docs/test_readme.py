@@ -19,6 +19,9 @@ from analytic import (
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Substructures
 from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.verification.entries import formulation_entry
+from rotbeam_exu.verification.linear_frequency import FLOOR, linear_frequency
+from rotbeam_exu.verification.measures import SPEEDS, THRESHOLDS
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -137,9 +140,12 @@ def test_mesh_and_step_stand_apart_in_the_table_of_formulations(beam, row, eleme
         natural_frequencies(beam, omega, element=element, elements=16, count=1)[0]
         / linear_modes(beam, omega, 1).frequencies[0]
         - 1.0
-        for omega in (0.0, 2.0, 4.0, 6.0, 8.0)
+        for omega in SPEEDS
     ]
     assert np.abs(linear).max() == pytest.approx(omega_n[0], rel=0.05)
+    entry, limit = formulation_entry(element), omega_n[1]
+    judged = linear_frequency(entry, beam, SPEEDS, THRESHOLDS["linear frequency"])
+    assert judged.model_difference == pytest.approx(limit, rel=0.05, abs=FLOOR)
 
 
 @pytest.mark.slow

@@ -24,6 +24,9 @@ from typing import Protocol
 import xarray as xr
 
 from analytic import AnyBlade, SpinUp
+from analytic.input_checks import whole_number
+
+from ..theory import BERNOULLI_EULER, Theory
 
 FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""
@@ -52,6 +55,14 @@ class Entry:
         (beam, omega, elements) -> first natural frequency [rad/s], where the code has it.
     elements, step
         Mesh and step [s] of the judged run.
+    meshes : tuple of int, optional
+        Meshes on which convergence is judged, three or more to have an order; half, the same and
+        twice as many elements unless given.
+    theory : Theory
+        The beam theory whose linear frequencies the code should have; Bernoulli-Euler's by default.
+    order, order_in_step : float, optional
+        Orders that the author declares, in the mesh and in the step; the observed ones are judged
+        against them.
     """
 
     name: str
@@ -59,6 +70,20 @@ class Entry:
     first_frequency: FrequenciesOf | None = None
     elements: int = 16
     step: float = 1e-3
+    meshes: tuple[int, ...] = ()
+    theory: Theory = BERNOULLI_EULER
+    order: float | None = None
+    order_in_step: float | None = 2.0
+
+    def __post_init__(self) -> None:
+        for elements in (self.elements, *self.meshes):
+            whole_number("meshes", elements)
+
+    @property
+    def own_meshes(self) -> tuple[int, ...]:
+        """Meshes on which convergence is judged, coarse to fine."""
+        around = (max(self.elements // 2, 1), self.elements, 2 * self.elements)
+        return tuple(sorted(set(self.meshes or around)))
 
 
 PEERS = ("kratos",)
@@ -88,7 +113,7 @@ def peer(name: str) -> Entry:
         )
     from . import kratos  # noqa: PLC0415  (not installed everywhere)
 
-    return Entry(name=name, simulate=kratos.simulate, elements=32, step=5e-4)
+    return Entry(name=name, simulate=kratos.simulate, elements=32, step=5e-4, order=2.0)
 
 
 def installed(name: str) -> bool:

@@ -1,0 +1,75 @@
+"""The beam with shear in steady rotation: its limits, and the classical one at rest."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+from analytic import Beam, linear_modes, timoshenko_frequencies
+
+SHARE = (5.0 / 6.0) / 2.6
+STUBBY = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0
+)
+"""EI = m = L = 1 and μ = 1e-3: shear takes percents off its second and third frequency."""
+
+
+def at_rest(beam, share, low, high):
+    """Return the frequency between two of Timoshenko's cantilever, by its transfer matrix.
+
+    Of (v, φ, M, Q): v' = φ + Q/(k_s GA), φ' = M/EI, M' = -Q - ρI Ω² φ, Q' = -ρA Ω² v.
+    """
+    rigidity = share * beam.axial_stiffness
+    density, EI = beam.mass_per_length, beam.bending_stiffness
+
+    def at_the_tip(frequency):
+        change = np.zeros((4, 4))
+        change[0, 1], change[0, 3], change[1, 2] = 1.0, 1.0 / rigidity, 1.0 / EI
+        change[2, 1], change[2, 3] = -beam.density * beam.second_moment * frequency**2, -1.0
+        change[3, 0] = -density * frequency**2
+        return np.linalg.det(expm(beam.length * change)[2:, 2:])
+
+    return brentq(at_the_tip, low, high, xtol=1e-12)
+
+
+def test_at_rest_it_is_timoshenkos_cantilever():
+    found = timoshenko_frequencies(STUBBY, 0.0, 2, shear_share=SHARE)
+    assert found[0] < 0.995 * linear_modes(STUBBY, 0.0, 1).frequencies[0]
+    assert found[0] == pytest.approx(at_rest(STUBBY, SHARE, 3.0, 3.6), rel=1e-9)
+    assert found[1] == pytest.approx(at_rest(STUBBY, SHARE, 18.0, 22.1), rel=1e-9)
+
+
+@pytest.mark.parametrize("rotary_inertia", [False, True])
+@pytest.mark.parametrize("w_bar", [0.0, 3.0, 10.0])
+def test_stiff_in_shear_it_is_the_exact_beam(w_bar, rotary_inertia):
+    """What is left of shear at a share of 1e10 is 1e-13."""
+    found = timoshenko_frequencies(STUBBY, w_bar, shear_share=1e10, rotary_inertia=rotary_inertia)
+    exact = linear_modes(STUBBY, w_bar, rotary_inertia=rotary_inertia).frequencies
+    assert found == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize("w_bar", [0.0, 5.0])
+def test_shear_lowers_frequencies_in_proportion_to_its_compliance(w_bar):
+    rigid = linear_modes(STUBBY, w_bar, 1).frequencies[0]
+    drops = [
+        rigid - timoshenko_frequencies(STUBBY, w_bar, 1, shear_share=s, rotary_inertia=False)[0]
+        for s in (1e3, 1e4)
+    ]
+    assert drops[0] / drops[1] == pytest.approx(10.0, rel=1e-3)
+    assert drops[1] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"omega": -1.0}, "omega"),
+        ({"omega": 1e4}, "leaves no steady state"),
+        ({"shear_share": 0.0}, "shear_share must be positive"),
+        ({"count": 33}, "count must be at most 32"),
+        ({"beam": STUBBY.with_hub_radius(0.1)}, "takes the uniform Beam, not a Blade"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_bad_input(changes, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        timoshenko_frequencies(**({"beam": STUBBY, "omega": 1.0, "shear_share": SHARE} | changes))
