@@ -180,7 +180,7 @@ def test_sliders_move_the_curves(open_page, url, at):
     assert float(page.locator("#softening line.now").get_attribute("x1")) < float(marker)
     moved = page.locator("#beam path.beam").get_attribute("d")
     assert moved != beam
-    at(page, 3.0, 0.5)
+    at(page, 3.0, 0.4)
     assert curve(page, "backbone") == after[0]
     assert curve(page, "orbit") != after[1]
     assert page.locator("#beam path.beam").get_attribute("d") != moved
