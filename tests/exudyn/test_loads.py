@@ -259,7 +259,7 @@ def test_energy_that_no_load_supplied_fails(beam):
 @pytest.mark.parametrize(
     ("loads", "error", "sentence"),
     [
-        ((TipForce(amplitude=1.0),), ValueError, "needs the frequency of a tip force of 1 N: give freq"),
+        ((TipForce(amplitude=1.0),), ValueError, "the frequency of a tip force of 1 N: give"),
         ((SpeedRipple(amplitude=1.0),), ValueError, "needs the frequency of a ripple"),
         ((SpeedRipple(amplitude=1.0, frequency=0.0),), ValueError, "add the amplitude to omega"),
         ((3.0,), TypeError, "must be a SpeedRipple, TipForce, DistributedForce or Gravity, got 3"),
