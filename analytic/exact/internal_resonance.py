@@ -22,6 +22,7 @@ from .steady import BeamOrbit
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
 _PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
 _FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no round-off
+_LOOKS = 6
 _NOTICEABLE = 1e-3  # size of a harmonic, relative to the first, that can drive another mode
 
 
@@ -151,21 +152,27 @@ def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int)
     )
 
 
+def _outstanding(orbit: BeamOrbit, others: FloatArray) -> list[int]:
+    """Return the harmonics larger than the one before that may be near one of the modes."""
+    sizes = np.linalg.norm(orbit.sines, axis=1)
+    return [
+        k + 1
+        for k in range(2, sizes.size)
+        if sizes[k] > max(sizes[k - 1], _NOTICEABLE * sizes[0])
+        and np.any(np.abs(others / orbit.frequency / (k + 1) - 1.0) < _PERHAPS)
+    ]
+
+
 def warn_of_resonances(
     orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
 ) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
+    others = [j for j in range(min(5, modes.size)) if j != mode - 1]
+    suspects = [(orbit, ks) for orbit in orbits if (ks := _outstanding(orbit, modes[others]))]
+    # Multipliers cost more than an orbit does: of very many a few are looked at.
+    looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
     warned: set[tuple[int, int]] = set()
-    for orbit in orbits:
-        sizes = np.linalg.norm(orbit.sines, axis=1)
-        outstanding = [
-            k + 1
-            for k in range(2, sizes.size)
-            if sizes[k] > max(sizes[k - 1], _NOTICEABLE * sizes[0])
-        ]
-        if not outstanding:
-            continue
-        others = [j for j in range(min(5, modes.size)) if j != mode - 1]
+    for orbit, outstanding in [suspects[i] for i in looked.tolist()] if suspects else []:
         turns = _turns(orbit, len(others))
         for k in outstanding:
             # Of the modes whose linear frequency is not far, that whose multiplier is nearest 1.
