@@ -197,7 +197,7 @@ def _between(
     if above.system is not below.system:
         below = below.on(above.system)
     one, other = (
-        orbit.with_harmonics(max(below.harmonics, above.harmonics)).scaled(amplitude)
+        orbit.with_harmonics(below.harmonics).scaled(amplitude)
         for orbit in (below, above)
     )
     span = above.amplitude**2 - below.amplitude**2
