@@ -50,8 +50,10 @@ class BackboneBranch:
     omega : float
         Rotation speed ω [rad/s].
     mode : int
-    amplitude, frequency : ndarray (points,)
-        Peak |q|/L and frequency [rad/s], in order along each piece.
+    amplitude : ndarray (points,)
+        Peak |q|/L, in order along each piece.
+    frequency : ndarray (points,)
+        [rad/s].
     piece : ndarray (points,)
         0 for the main path, then a number for each tongue that was followed off it.
     resonances : tuple of Resonance
