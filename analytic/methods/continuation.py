@@ -197,8 +197,7 @@ def _between(
     if above.system is not below.system:
         below = below.on(above.system)
     one, other = (
-        orbit.with_harmonics(below.harmonics).scaled(amplitude)
-        for orbit in (below, above)
+        orbit.with_harmonics(below.harmonics).scaled(amplitude) for orbit in (below, above)
     )
     span = above.amplitude**2 - below.amplitude**2
     weight = (amplitude**2 - below.amplitude**2) / span
