@@ -12,7 +12,7 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
-from .state import BeamState, beam_state
+from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 
 
@@ -105,9 +105,7 @@ class Backbone:
 
         Points beyond the beam, from 0 to L, are refused.
         """
-        orbit, phase = self._orbit(i), finite_number("phase", phase, "rad")
-        q, q_dot, _ = orbit.coordinates(np.array([phase]))
-        return beam_state(self.beam, orbit.system.model, q[0], q_dot[0], x)
+        return orbit_state(self.beam, self._orbit(i), x, phase)
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].

@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import finite_number, positive, rotation_speed, whole_number
+from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .internal_resonance import Resonance, resonances_along
 from .modes import resolved_model
 from .periodic import Branch, branch_of
-from .state import BeamState, beam_state
+from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue
 
@@ -96,9 +96,7 @@ class BackboneBranch:
 
     def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
         """Return the state of orbit `i` at the material points `x` [m], to start a code from."""
-        orbit, phase = self._orbits[i], finite_number("phase", phase, "rad")
-        q, q_dot, _ = orbit.coordinates(np.array([phase]))
-        return beam_state(self.beam, orbit.system.model, q[0], q_dot[0], x)
+        return orbit_state(self.beam, self._orbits[i], x, phase)
 
     def switched(self, i: int) -> tuple[FloatArray, FloatArray]:
         """Return amplitude and frequency [rad/s] along the branch that crosses at branch point `i`.

@@ -18,7 +18,7 @@ from ..methods.floquet import Multipliers, floquet_multipliers
 from .backbone import Backbone
 from .loading import DrivenBeam
 from .periodic import periodic_orbits
-from .state import BeamState, beam_state
+from .state import BeamState, orbit_state
 
 
 class ResponsePoint(NamedTuple):
@@ -149,9 +149,7 @@ class ForcedResponse:
 
         In the frame of the clamp, as `Backbone.state` gives it.
         """
-        orbit, phase = self._orbits[i], finite_number("phase", phase, "rad")
-        q, q_dot, _ = orbit.coordinates(np.array([phase]))
-        return beam_state(self.beam, orbit.system.model, q[0], q_dot[0], x)
+        return orbit_state(self.beam, self._orbits[i], x, phase)
 
     @cached_property
     def backbone(self) -> Backbone:

@@ -19,12 +19,7 @@ from ..methods.continuation import (
 from ..methods.harmonic_balance import NoOrbitError, solve
 from .backbone import AmplitudeNotReachedError, Backbone
 from .continuum import Continuum
-from .internal_resonance import (
-    Resonance,
-    nearest_resonance,
-    resonances_along,
-    warn_of_resonances,
-)
+from .internal_resonance import nearest_resonance, warn_of_resonances
 from .modes import resolved_model, solve_modes
 from .steady import BeamOrbit, SteadyBeam, steady_rotation
 
@@ -152,11 +147,6 @@ class Branch:
     def name(self) -> str:
         """What it is called in a sentence."""
         return f"mode {self.mode} at omega = {self.omega:g} rad/s"
-
-    def resonances(self) -> list[Resonance]:
-        """Return the internal resonances that the path has met so far."""
-        per_second = self.beam.frequency_scale
-        return resonances_along(self.path.nodes, self.modes, self.mode, per_second)
 
     def backbone(self, orbits: Sequence[BeamOrbit]) -> Backbone:
         """Return the orbits as a backbone; λ_ω is extrapolated from the two smallest."""

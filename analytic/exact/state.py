@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
-from ..input_checks import points_of_beam
-from .kinematics import Kinematics
+from ..input_checks import finite_number, points_of_beam
+from ..methods.driven import DrivenOrbit
+from .loading import DrivenBeam
+from .steady import BeamOrbit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,10 +39,16 @@ class BeamState:
     v_slope_dot: FloatArray
 
 
-def beam_state(
-    beam: AnyBlade, model: Kinematics, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+def orbit_state(
+    beam: AnyBlade,
+    orbit: BeamOrbit | DrivenOrbit[DrivenBeam],
+    x: ArrayLike,
+    phase: float,
 ) -> BeamState:
-    """Return the state at the points `x` [m] of nondimensional coordinates and rates (n,)."""
+    """Return the state of an orbit of `beam` at the points `x` [m] and the `phase` [rad]."""
+    phases = np.array([finite_number("phase", phase, "rad")])
+    (q,), (q_dot,), _ = orbit.coordinates(phases)
+    model = orbit.system.model
     at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)

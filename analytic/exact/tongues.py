@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..methods.arclength import NoWayOnError, advanced, corrected, crossing, located
+from ..methods.arclength import NoWayOnError, corrected, crossing, located
 from ..methods.free import FreeCurve
 from ..methods.orbit_curve import At
 from .internal_resonance import Resonance
@@ -84,10 +84,7 @@ def follow(
     with suppress(NoWayOnError):
         at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
         while len(piece.orbits) < _TONGUE_POINTS:
-            point, step = advanced(at.curve, at.point, step, _LONGEST)
-            there = At(at.curve, point).resolved()
-            if there.curve is not at.curve:
-                at = at.on(there.curve)
+            at, there, step = at.advanced(step, _LONGEST)
             if goes_on(there.orbit):
                 return None
             piece.orbits.append(there.orbit)
@@ -106,12 +103,11 @@ def leave(here: Crossing, sign: float) -> list[BeamOrbit]:
     found: list[BeamOrbit] = []
     with suppress(NoWayOnError):
         guess = here.z + sign * _STEP * here.off
-        at, step = At(here.curve, corrected(here.curve, guess, sign * here.off)), _STEP
+        there = At(here.curve, corrected(here.curve, guess, sign * here.off)).resolved()
+        found, step = [there.orbit], _STEP
         while len(found) < _TONGUE_POINTS:
-            at = at.resolved()
-            found.append(at.orbit)
-            point, step = advanced(at.curve, at.point, step, _LONGEST)
-            at = At(at.curve, point)
+            _, there, step = there.advanced(step, _LONGEST)
+            found.append(there.orbit)
     return found
 
 

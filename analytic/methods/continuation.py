@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any, Generic
 
@@ -24,8 +23,6 @@ MOST_FUNCTIONS = 128
 _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
-_LEAPS = 4  # half steps within which the path is sought again
-_SAME_PATH = 2e-3  # relative difference of its frequency from that expected
 
 
 def linear_orbit(
@@ -45,20 +42,6 @@ def meets_the_equations(orbit: PeriodicOrbit[Any]) -> bool:
     return bool(orbit.residual <= RESIDUAL_BOUND)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Gap:
-    """Amplitudes at which the path has no orbit: it goes off to another mode, and comes back.
-
-    Attributes
-    ----------
-    before, after : PeriodicOrbit
-        The last orbit found below the gap, and the first above.
-    """
-
-    before: PeriodicOrbit[Any]
-    after: PeriodicOrbit[Any]
-
-
 @dataclass(kw_only=True)
 class Path(Generic[S]):
     """The orbits that grow out of a linear mode, by their amplitude.
@@ -74,14 +57,12 @@ class Path(Generic[S]):
         Longest step of the amplitude.
     nodes : list of PeriodicOrbit
         Those found so far, ascending.
-    gaps : list of Gap
     """
 
     seed: PeriodicOrbit[S]
     double: PeriodicOrbit[S]
     longest: float
     nodes: list[PeriodicOrbit[S]] = field(init=False)
-    gaps: list[Gap] = field(init=False, default_factory=list)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
 
@@ -98,13 +79,6 @@ class Path(Generic[S]):
         """
         while self.nodes[-1].amplitude < amplitude:
             self._extend()
-        for gap in self.gaps:
-            if gap.before.amplitude < amplitude < gap.after.amplitude:
-                raise NoOrbitError(
-                    f"the orbits grow to {gap.before.amplitude:.4g} and go on at "
-                    f"{gap.after.amplitude:.4g} only",
-                    gap.before,
-                )
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
         below = self.nodes[max(place - 1, 0)]
         if below.amplitude == amplitude:
@@ -113,7 +87,7 @@ class Path(Generic[S]):
         above = self.nodes[place] if place < len(self.nodes) else None
         guesses = [_predicted(below, before, amplitude)]
         if above is not None and amplitude > below.amplitude:
-            guesses = [_between(below, above, amplitude), *guesses, above.scaled(amplitude)]
+            guesses = [_on_line(below, above, amplitude), *guesses, above.scaled(amplitude)]
         reasons = []
         for guess in guesses:
             try:
@@ -123,7 +97,7 @@ class Path(Generic[S]):
         raise NoOrbitError(reasons[0], below)
 
     def _extend(self) -> None:
-        """Add the next node, beyond a gap if it must be."""
+        """Add the next node."""
         if self._end:
             raise NoOrbitError(self._end, self.nodes[-1])
         last, reason = self.nodes[-1], ""
@@ -137,40 +111,11 @@ class Path(Generic[S]):
             self.nodes.append(found)
             self._step = step
             return
-        self._leap(reason)
-
-    def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
-        return _resolved(_predicted(self.nodes[-1], self.nodes[-2], amplitude), amplitude)
-
-    def _leap(self, reason: str) -> None:
-        """Find the path again beyond where it goes off, from where it was still smooth."""
-        last = self.nodes[-1]
-        smooth = [o for o in self.nodes if o.amplitude < last.amplitude - 0.4 * self.longest]
-        for steps in range(1, _LEAPS + 1) if len(smooth) > 1 else ():
-            target = last.amplitude + steps * 0.5 * self.longest
-            guess = _predicted(smooth[-1], smooth[-2], target)
-            try:
-                found = _resolved(guess, target)
-            except NoOrbitError:
-                continue
-            if abs(found.frequency / guess.frequency - 1.0) < _SAME_PATH:
-                self._begin_again(last, found)
-                return
         self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"
         raise NoOrbitError(self._end, last)
 
-    def _begin_again(self, last: PeriodicOrbit[S], found: PeriodicOrbit[S]) -> None:
-        """Add the nodes beyond a gap, from its edge on."""
-        lower, step = [found], 0.5 * (found.amplitude - last.amplitude)
-        for _ in range(_HALVINGS):
-            target = lower[-1].amplitude - step
-            if target > last.amplitude:
-                with suppress(NoOrbitError):
-                    lower.append(_resolved(lower[-1].scaled(target), target))
-            step *= 0.5
-        self.gaps.append(Gap(before=last, after=lower[-1]))
-        self._step = self.longest
-        self.nodes += lower[::-1]
+    def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
+        return _resolved(_predicted(self.nodes[-1], self.nodes[-2], amplitude), amplitude)
 
 
 def _predicted(
@@ -181,30 +126,20 @@ def _predicted(
     # Far below, the high harmonics of `before` are round-off.
     if before is None or not 0.0 < amplitude - last.amplitude < before.amplitude:
         return guess
-    other = before.scaled(amplitude).with_harmonics(last.harmonics).on(last.system)
-    weight = (amplitude**2 - last.amplitude**2) / (last.amplitude**2 - before.amplitude**2)
-    return replace(
-        guess,
-        coefficients=guess.coefficients + weight * (guess.coefficients - other.coefficients),
-        frequency=guess.frequency + weight * (guess.frequency - other.frequency),
-    )
+    return _on_line(last, before, amplitude)
 
 
-def _between(
-    below: PeriodicOrbit[S], above: PeriodicOrbit[S], amplitude: float
-) -> PeriodicOrbit[S]:
-    """Return the guess between two orbits: harmonic k as a^k, times a linear function of a²."""
-    if above.system is not below.system:
-        below = below.on(above.system)
-    one, other = (
-        orbit.with_harmonics(below.harmonics).scaled(amplitude) for orbit in (below, above)
+def _on_line(one: PeriodicOrbit[S], other: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+    """Return the guess from two orbits: harmonic k as a^k, times a linear function of a²."""
+    finer = max(one.system, other.system, key=lambda system: system.functions)
+    here, there = (
+        orbit.scaled(amplitude).with_harmonics(one.harmonics).on(finer) for orbit in (one, other)
     )
-    span = above.amplitude**2 - below.amplitude**2
-    weight = (amplitude**2 - below.amplitude**2) / span
+    weight = (amplitude**2 - one.amplitude**2) / (other.amplitude**2 - one.amplitude**2)
     return replace(
-        one,
-        coefficients=one.coefficients + weight * (other.coefficients - one.coefficients),
-        frequency=one.frequency + weight * (other.frequency - one.frequency),
+        here,
+        coefficients=here.coefficients + weight * (there.coefficients - here.coefficients),
+        frequency=here.frequency + weight * (there.frequency - here.frequency),
     )
 
 

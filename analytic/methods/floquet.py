@@ -51,12 +51,9 @@ class Multipliers(NamedTuple):
     ----------
     values : ndarray (2 modes,)
         Of a free orbit the first two are 1: along the orbit, and along the branch.
-    shapes : ndarray (2 modes, n)
-        Displacement of the motion that each multiplies, at φ = 0; zero for those two.
     """
 
     values: ComplexArray
-    shapes: ComplexArray
 
     @property
     def modes(self) -> int:
@@ -106,10 +103,7 @@ def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
     place = np.minimum(np.arange(frequencies.size), covered) @ energy
     order = np.argsort(place)[:kept]
     trivial = np.ones(0 if constants is None else 2)
-    return Multipliers(
-        values=np.concatenate((trivial, values[order])).astype(np.complex128),
-        shapes=np.concatenate((np.zeros((trivial.size, n)), vectors[:n, order].T)),
-    )
+    return Multipliers(np.concatenate((trivial, values[order])).astype(np.complex128))
 
 
 def monodromy(orbit: Orbit, steps: int) -> FloatArray:

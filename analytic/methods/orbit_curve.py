@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 from ..arrays import FloatArray
-from .arclength import Curve, Point, corrected
+from .arclength import Curve, Point, advanced, corrected
 
 
 class OrbitCurve(Curve, Protocol):
@@ -60,3 +60,16 @@ class At(Generic[C]):
         while (curve := at.curve.finer(at.orbit)) is not None:
             at = at.on(curve)
         return at
+
+    def advanced(self, step: float, longest: float) -> tuple[At[C], At[C], float]:
+        """Return this point and the next, on the curve that resolves both, and the step after it.
+
+        Raises
+        ------
+        NoWayOnError
+            If no step, however short, finds one, or it needs more than is taken.
+        """
+        point, following = advanced(self.curve, self.point, step, longest)
+        there = At(self.curve, point).resolved()
+        here = self if there.curve is self.curve else self.on(there.curve)
+        return here, there, following

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
-from .arclength import NoWayOnError, Point, advanced, corrected, located
+from .arclength import NoWayOnError, Point, corrected, crossing, located
 from .driven import D, DrivenOrbit, Mark, ResponseCurve
 from .orbit_curve import At
 
@@ -49,10 +47,7 @@ def response_curve(
         orbits.append(replace(at.orbit, mark="asked"))
         step = _FIRST_STEP
         while len(orbits) < _MOST_POINTS:
-            point, step = advanced(at.curve, at.point, step, _LONGEST_STEP)
-            there = At(at.curve, point).resolved()
-            if there.curve is not at.curve:
-                at = at.on(there.curve)
+            at, there, step = at.advanced(step, _LONGEST_STEP)
             between, over = _between(at, there, parameters)
             orbits += between
             if over:
@@ -72,7 +67,7 @@ def _beginning(curve: ResponseCurve[D]) -> At[ResponseCurve[D]]:
     rest[0] = curve.system.rest(curve.origin)
     across = np.eye(1, rest.size + 1, rest.size)[0]
     resolved = At(curve, corrected(curve, np.append(rest.ravel(), 0.0), across)).resolved()
-    curve, z = resolved.curve, resolved.point.z
+    curve, z = resolved.curve, resolved.point.z.copy()
     z[-1] = 0.0  # refining goes across the curve, not along the parameter
     return At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))
 
@@ -88,32 +83,32 @@ def _between(
         along = point.tangent[:-1].reshape(-1, curve.system.size)
         return curve.orbit(point.z).amplitude_slope(along)
 
-    found: list[tuple[float, Mark, Point]] = []
+    found: list[tuple[float, Mark, FloatArray]] = []
 
-    def seek(mark: Mark, function: Callable[[Point], float]) -> None:
-        point = located(curve, at.point, there.point, function)
-        if point is not None:
-            found.append((float(at.point.tangent @ (point.z - at.point.z)), mark, point))
+    def note(mark: Mark, z: FloatArray) -> None:
+        found.append((float(at.point.tangent @ (z - at.point.z)), mark, z))
 
-    seek("fold", lambda point: float(point.tangent[-1]))
-    seek("peak", climb)
-    if at.point.determinant * there.point.determinant < 0.0:
-        found.append((0.0, "branch point", there.point))
+    fold = located(curve, at.point, there.point, lambda point: float(point.tangent[-1]))
+    peak = located(curve, at.point, there.point, climb)
+    if fold is not None:
+        note("fold", fold.z)
+    if peak is not None:
+        note("peak", peak.z)
+    if (crossed := crossing(curve, at.point, there.point)) is not None:
+        note("branch point", crossed[0])
     # A fold between them may pass a parameter twice: each side for itself.
-    turns = [point for _, mark, point in found if mark == "fold"]
-    stops = [at.point, *turns, there.point]
+    stops = [at.point, *([fold] if fold is not None else []), there.point]
     for one, other in pairwise(stops):
         for value in wanted:
             if (one.z[-1] - value) * (other.z[-1] - value) < 0.0 or other.z[-1] == value:
                 point = _at_parameter(curve, one, other, float(value))
                 if point is not None:
-                    place = float(at.point.tangent @ (point.z - at.point.z))
-                    found.append((place, "asked", point))
+                    note("asked", point.z)
     found.sort(key=lambda item: item[0])
     orbits, over = [], False
-    for _, mark, point in found:
-        orbits.append(replace(curve.orbit(point.z), mark=mark))
-        if mark == "asked" and (point.z[-1] > 1.0 - 1e-9 or point.z[-1] < 1e-9):
+    for _, mark, z in found:
+        orbits.append(replace(curve.orbit(z), mark=mark))
+        if mark == "asked" and not 1e-9 <= z[-1] <= 1.0 - 1e-9:
             over = True
             break
     return orbits, over
@@ -124,11 +119,6 @@ def _at_parameter(curve: ResponseCurve[D], one: Point, other: Point, value: floa
     share = (value - one.z[-1]) / (other.z[-1] - one.z[-1])
     guess = one.z + share * (other.z - one.z)
     try:
-        found = corrected(curve, guess, np.eye(1, guess.size, guess.size - 1)[0])
+        return corrected(curve, guess, np.eye(1, guess.size, guess.size - 1)[0])
     except NoWayOnError:  # next to a fold
-        return located(curve, one, other, partial(_beyond, value))
-    return found
-
-
-def _beyond(value: float, point: Point) -> float:
-    return float(point.z[-1] - value)
+        return located(curve, one, other, lambda point: float(point.z[-1] - value))
