@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from .input_checks import finite_number, not_negative, whole_number
 from .motion import Rippled, Rotation
@@ -66,19 +66,29 @@ class Damping:
 UNDAMPED = Damping()
 
 
-def _checked_harmonic(load: SpeedRipple | TipForce | DistributedForce, unit: str) -> None:
-    object.__setattr__(load, "amplitude", finite_number("amplitude", load.amplitude, unit))
-    if load.frequency is not None:
-        frequency = not_negative("frequency", load.frequency, "rad/s")
-        object.__setattr__(load, "frequency", frequency)
+@dataclass(frozen=True, kw_only=True)
+class _Harmonic:
+    """What acts at one frequency, as the cosine."""
 
+    amplitude: float
+    frequency: float | None = None
 
-def _at(frequency: float | None) -> str:
-    return "" if frequency is None else f" at {frequency:g} rad/s"
+    unit: ClassVar[str]
+    called: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
+        if self.frequency is not None:
+            frequency = not_negative("frequency", self.frequency, "rad/s")
+            object.__setattr__(self, "frequency", frequency)
+
+    def __str__(self) -> str:
+        at = "" if self.frequency is None else f" at {self.frequency:g} rad/s"
+        return f"{self.called} of {self.amplitude:g} {self.unit}{at}"
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpeedRipple:
+class SpeedRipple(_Harmonic):
     """A ripple of the speed: the clamp turns at ω + ε cos νt.
 
     Parameters
@@ -89,18 +99,12 @@ class SpeedRipple:
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
     """
 
-    amplitude: float
-    frequency: float | None = None
-
-    def __post_init__(self) -> None:
-        _checked_harmonic(self, "rad/s")
-
-    def __str__(self) -> str:
-        return f"a ripple of {self.amplitude:g} rad/s{_at(self.frequency)}"
+    unit: ClassVar[str] = "rad/s"
+    called: ClassVar[str] = "a ripple"
 
 
 @dataclass(frozen=True, kw_only=True)
-class TipForce:
+class TipForce(_Harmonic):
     """A force on the tip across the undeformed blade, F cos νt, turning with the clamp.
 
     Parameters
@@ -111,18 +115,12 @@ class TipForce:
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
     """
 
-    amplitude: float
-    frequency: float | None = None
-
-    def __post_init__(self) -> None:
-        _checked_harmonic(self, "N")
-
-    def __str__(self) -> str:
-        return f"a tip force of {self.amplitude:g} N{_at(self.frequency)}"
+    unit: ClassVar[str] = "N"
+    called: ClassVar[str] = "a tip force"
 
 
 @dataclass(frozen=True, kw_only=True)
-class DistributedForce:
+class DistributedForce(_Harmonic):
     """A force per undeformed length across the blade, p cos νt, turning with the clamp.
 
     Parameters
@@ -133,14 +131,8 @@ class DistributedForce:
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
     """
 
-    amplitude: float
-    frequency: float | None = None
-
-    def __post_init__(self) -> None:
-        _checked_harmonic(self, "N/m")
-
-    def __str__(self) -> str:
-        return f"a distributed force of {self.amplitude:g} N/m{_at(self.frequency)}"
+    unit: ClassVar[str] = "N/m"
+    called: ClassVar[str] = "a distributed force"
 
 
 @dataclass(frozen=True)
@@ -157,11 +149,13 @@ class Gravity:
 
     gravity: float = 9.81
 
+    unit: ClassVar[str] = "m/s²"
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
 
     def __str__(self) -> str:
-        return f"gravity of {self.gravity:g} m/s²"
+        return f"gravity of {self.gravity:g} {self.unit}"
 
 
 HarmonicLoad = SpeedRipple | TipForce | DistributedForce

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
+from ..methods.gyroscopic import inverse_eigenvalues
 from .modes import linear_modes
 from .steady import steady_rotation
 
@@ -35,14 +36,7 @@ def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     steady = steady_rotation(beam, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
-    n = steady.size
-    # Of 1/λ the lowest modes are the largest and come out most exactly.
-    companion = np.zeros((2 * n, 2 * n))
-    companion[:n] = -np.linalg.solve(
-        tangent.stiffness[0], np.hstack((tangent.damping[0], tangent.mass[0]))
-    )
-    companion[n:, :n] = np.eye(n)
-    inverse = np.linalg.eigvals(companion)
+    inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])
     inverse = inverse[inverse.imag < 0.0]
     size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / beam.frequency_scale)
     nearest = np.argmin(np.abs(size - 1.0), axis=1)

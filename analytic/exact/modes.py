@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
+from ..methods.gyroscopic import reciprocal_modes
 from .continuum import Continuum
 from .discretization import blade_continuum
 from .steady import SteadyBeam, section_inertia, steady_rotation
@@ -189,9 +189,7 @@ class Modes(NamedTuple):
 def solve_modes(steady: SteadyBeam) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
-    With θ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric. For
-    ν = 1/Ω and M = FFᵀ that is the symmetric eigenproblem
-    [[S, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y, in which the lowest modes come out most exactly.
+    With θ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
     model = steady.model
     at_rest = np.zeros((1, model.size))
@@ -200,17 +198,11 @@ def solve_modes(steady: SteadyBeam) -> Modes:
     gyroscopic = np.zeros((n, n))
     gyroscopic[:nb, nb:] = tangent.damping[0, :nb, nb:]
     gyroscopic += gyroscopic.T
-    squares, vectors = np.linalg.eigh(tangent.mass[0])
-    factor = vectors * np.sqrt(np.maximum(squares, 0.0))
-    inverse, vectors = linalg.eigh(
-        np.block([[gyroscopic, factor], [factor.T, np.zeros((n, n))]]),
-        linalg.block_diag(tangent.stiffness[0], np.eye(n)),
-        subset_by_index=(n, 2 * n - 1),
-    )
+    inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
     # The inextensible beam has no axial modes: they come out with ν = 0.
-    kept = inverse[::-1] > 1e-12
-    coordinates = vectors[:n, ::-1].T[kept]
+    kept = inverse > 1e-12
+    coordinates = shapes.T[kept]
     slopes = model.slope_rate(steady.equilibrium, coordinates)
     tips = slopes @ model.weights
     scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
-    return Modes(1.0 / inverse[::-1][kept], coordinates / scale[:, None], slopes / scale[:, None])
+    return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])

@@ -15,12 +15,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import block_diag
 
 from ..arrays import FloatArray
 from ..beam import Beam, require_steady_state, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
-from ..quadrature import axial_basis, gauss_points
+from ..methods.gyroscopic import reciprocal_modes
+from ..quadrature import axial_basis, gauss_points, integrals_from_clamp
 
 _FEWEST, _MOST = 16, 128
 _SETTLED = 1e-9
@@ -93,14 +94,14 @@ def _frequencies(
 
     Polynomials of φ' and of the shear strain γ are orthonormal, v' = (1 + e)φ + γ: then neither
     shear nor its absence locks. With v and φ in the sine, u in the cosine of Ωτ, K - ΩC - Ω²M is
-    real and symmetric: the eigenproblem of `unstretched_frequencies`.
+    real and symmetric.
     """
     x, dx = gauss_points(2 * count + 8)
     k, root = math.sqrt(slenderness) * w_bar, math.sqrt(slenderness)
     stretch = np.cos(k * x) / math.cos(k)  # 1 + e
     tension = (stretch - 1.0) / slenderness
     basis = axial_basis(count, x)
-    integral = axial_basis(x.size, x).value @ (axial_basis(x.size, x).slope * dx[:, None]).T
+    integral = integrals_from_clamp(x.size, x)
     none, gamma = np.zeros_like(basis.value), math.sqrt(slenderness / share) * basis.slope
     turning = np.hstack([none, basis.value])
     slope = np.hstack([gamma, stretch[:, None] * basis.value])
@@ -119,19 +120,10 @@ def _frequencies(
         - w_bar**2 * product(across, across),
         np.eye(count) - w_bar**2 * product(along, along),
     )
-    squares, vectors = np.linalg.eigh(
-        block_diag(
-            product(across, across) + rotary * product(turning, turning), product(along, along)
-        )
+    M = block_diag(
+        product(across, across) + rotary * product(turning, turning), product(along, along)
     )
-    F = vectors * np.sqrt(np.maximum(squares, 0.0))
     C = np.zeros_like(K)
     C[: 2 * count, 2 * count :] = 2.0 * w_bar * product(across, along)
     C += C.T
-    inverse = eigh(
-        np.block([[C, F], [F.T, np.zeros_like(K)]]),
-        block_diag(K, np.eye(3 * count)),
-        eigvals_only=True,
-        subset_by_index=(3 * count, 6 * count - 1),
-    )
-    return np.asarray(1.0 / inverse[::-1])
+    return 1.0 / reciprocal_modes(K, C, M)[0]

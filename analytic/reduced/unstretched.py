@@ -16,11 +16,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import block_diag
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state, warn_if_rpm
 from ..input_checks import rotation_speed, whole_number
+from ..methods.gyroscopic import reciprocal_modes
 from ..profiles import evaluated
 from ..quadrature import axial_basis, gauss_points_on, integrals_from_clamp, transverse_basis
 from ..unit_blade import UnitBlade
@@ -76,8 +77,7 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
 def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int) -> FloatArray:
     """Return all frequencies on `count` functions for v and for s/√μ.
 
-    With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric, and with
-    M = FFᵀ, ν = 1/Ω that is [[C, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y.
+    With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric.
     """
     a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
     count = a_panel * blade.panel_count
@@ -109,17 +109,8 @@ def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int)
         product(pulled, dx * evaluated(blade.axial, x), pulled)
         - slenderness * w_bar**2 * inertia_along,
     )
-    squares, vectors = np.linalg.eigh(
-        block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
-    )
-    F = vectors * np.sqrt(np.maximum(squares, 0.0))
+    M = block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
     C = np.zeros_like(K)
     C[:count, count:] = 2.0 * setting * w_bar * root * product(across, dm, along)
     C += C.T
-    inverse = eigh(
-        np.block([[C, F], [F.T, np.zeros_like(K)]]),
-        block_diag(K, np.eye(2 * count)),
-        eigvals_only=True,
-        subset_by_index=(2 * count, 4 * count - 1),
-    )
-    return np.asarray(1.0 / inverse[::-1])
+    return 1.0 / reciprocal_modes(K, C, M)[0]

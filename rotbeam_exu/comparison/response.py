@@ -15,8 +15,6 @@ from analytic.loads import UNDAMPED, HarmonicLoad
 from ..fem.simulation import versions
 from ..verdict import beam_attributes
 
-_UNITS = {"SpeedRipple": "rad/s", "TipForce": "N", "DistributedForce": "N/m", "Gravity": "m/s²"}
-
 
 def forced_response(response: ForcedResponse) -> xr.Dataset:
     """Return a response curve, its stability, and the backbone that it leans on.
@@ -81,15 +79,14 @@ def response_inputs(
     beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
 ) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
-    kind = type(load).__name__
     size = load.gravity if isinstance(load, Gravity) else load.amplitude
     damping: Damping = getattr(beam, "damping", UNDAMPED)
     return {
         **beam_attributes(beam),
         **{f"damping_{name}": value for name, value in asdict(damping).items()},
-        "load": kind,
+        "load": type(load).__name__,
         "load_size": size,
-        "load_unit": _UNITS[kind],
+        "load_unit": load.unit,
         **({} if omega is None else {"omega": omega}),
     }
 

@@ -173,17 +173,22 @@ def add_inertial_forces(
         container.SetWithSparseMatrix(np.vstack([stiffness, coupling]), *mass.shape)
         return container
 
-    empty = exudyn.MatrixContainer()
-    empty.SetWithSparseMatrix(sparse.csr_matrix(mass.shape))
+    add_force(mbs, chain, mass.shape[0], force, jacobian)
+    add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
+
+
+def add_force(mbs: exudyn.MainSystem, chain: Chain, size: int, force: Any, jacobian: Any) -> None:
+    """Add a force on all coordinates of the chain, by Exudyn's two user functions."""
+    no_mass = exudyn.MatrixContainer()
+    no_mass.SetWithSparseMatrix(sparse.csr_matrix((size, size)))
     mbs.AddObject(
         ObjectGenericODE2(
             nodeNumbers=list(chain.nodes),
-            massMatrix=empty,
+            massMatrix=no_mass,
             forceUserFunction=force,
             jacobianUserFunction=jacobian,
         )
     )
-    add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
 
 
 def triplets(matrix: sparse.csr_array) -> FloatArray:

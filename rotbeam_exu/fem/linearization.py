@@ -7,12 +7,13 @@ from typing import Any
 
 import exudyn
 import numpy as np
-from scipy import linalg, sparse
+from scipy import sparse
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
+from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..resolution import require_feasible, require_stretch, warn_if_coarse
 from ..verdict import SimulationError
@@ -42,17 +43,8 @@ class Linearization:
     stretch: float
 
     def inverse_eigenvalues(self) -> ComplexArray:
-        """Return 1/λ of λ² M + λ G + K = 0.
-
-        The lowest modes become the largest eigenvalues, which the axial modes, 10⁸ times stiffer,
-        then do not round off.
-        """
-        size = self.mass.shape[0]
-        companion = np.zeros((2 * size, 2 * size))
-        companion[:size, :] = -linalg.solve(self.stiffness, np.hstack([self.gyroscopic, self.mass]))
-        companion[size:, :size] = np.eye(size)
-        inverse = linalg.eigvals(companion, overwrite_a=True, check_finite=False)
-        return np.asarray(inverse, dtype=np.complex128)
+        """Return 1/λ of λ² M + λ G + K = 0."""
+        return inverse_eigenvalues(self.mass, self.gyroscopic, self.stiffness)
 
 
 def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:

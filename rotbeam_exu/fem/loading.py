@@ -18,7 +18,6 @@ from typing import Any
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import ObjectGenericODE2
 from scipy import sparse
 
 from analytic import AnyBlade, Beam, DistributedForce, Gravity, SpeedRipple, TipForce
@@ -26,7 +25,7 @@ from analytic.arrays import ComplexArray, FloatArray
 from analytic.loads import Load
 from analytic.motion import Rotation
 
-from .drive import triplets
+from .drive import add_force, triplets
 from .elements import Chain, Formulation
 from .elements.formulation import turned_velocities
 from .linearization import mass_matrix
@@ -135,16 +134,7 @@ class Loading:
             container.SetWithSparseMatrix(np.vstack([damping, coupling]), n, n)
             return container
 
-        empty = exudyn.MatrixContainer()
-        empty.SetWithSparseMatrix(sparse.csr_matrix((n, n)))
-        mbs.AddObject(
-            ObjectGenericODE2(
-                nodeNumbers=list(chain.nodes),
-                massMatrix=empty,
-                forceUserFunction=force,
-                jacobianUserFunction=jacobian,
-            )
-        )
+        add_force(mbs, chain, n, force, jacobian)
 
 
 def _of_unit_density(beam: AnyBlade) -> AnyBlade:

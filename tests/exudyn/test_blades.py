@@ -2,7 +2,6 @@
 
 import warnings
 
-import exudyn
 import numpy as np
 import pytest
 
@@ -137,7 +136,7 @@ def test_what_is_not_modeled_is_refused(beam, make, element, sentence):
         simulate(make(beam), SpinUp(omega=1.0, ramp_time=3.0), element=element)
 
 
-def test_the_model_in_a_system_of_ones_own_is_that_of_simulate(beam):
+def test_the_model_in_a_system_of_ones_own_is_that_of_simulate(beam, solve_as_a_user):
     """The user's own mbs, in SI units and with the user's own settings of the solver."""
     blade, spin_up = beam.with_hub_radius(0.5).with_tip_mass(0.1), SpinUp(omega=3.0, ramp_time=3.0)
     run = simulate(blade, spin_up, elements=8, duration=5.0, step=2e-3)
@@ -145,17 +144,7 @@ def test_the_model_in_a_system_of_ones_own_is_that_of_simulate(beam):
         numbers = add_rotating_beam(mbs, blade, spin_up, elements=8)
         assert len(numbers.nodes) == 9
         mbs.Assemble()
-        settings = exudyn.SimulationSettings()
-        settings.timeIntegration.endTime = 5.0
-        settings.timeIntegration.numberOfSteps = 2500
-        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
-        settings.timeIntegration.newton.relativeTolerance = 1e-8
-        settings.timeIntegration.newton.absoluteTolerance = 1e-6
-        settings.timeIntegration.adaptiveStep = False
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = 0.01
-        mbs.SolveDynamic(settings)
-        stored = np.array(mbs.GetSensorStoredData(numbers.tip_sensor))
+        stored = solve_as_a_user(mbs, numbers.tip_sensor, end=5.0, steps=2500, period=0.01)
     here = run[["tip_x", "tip_y"]].interp(time=stored[:, 0], method="cubic")
     for k, name in ((1, "tip_x"), (2, "tip_y")):
         assert stored[:, k] == pytest.approx(here[name].to_numpy(), abs=1e-5)

@@ -4,7 +4,6 @@ import json
 import math
 from dataclasses import replace
 
-import exudyn
 import numpy as np
 import pytest
 
@@ -157,7 +156,7 @@ def test_a_run_tells_its_loads(beam, tmp_path):
     assert loads_of(simulate(beam, **options, duration=5.0).attrs) == ()
 
 
-def test_a_system_of_ones_own_takes_loads(beam):
+def test_a_system_of_ones_own_takes_loads(beam, solve_as_a_user):
     """In SI units, with the user's own settings of the solver."""
     blade, rotation = by_mass(beam, 0.1), SteadyRotation(omega=2.0)
     run = simulate(blade, rotation, elements=4, duration=3.0, step=4e-3, loads=ALL)
@@ -168,17 +167,7 @@ def test_a_system_of_ones_own_takes_loads(beam):
             rate = 2.0 + ALL[1].amplitude
             mbs.SetNodeParameter(node, "initialVelocities", [0.0, rate * x, 0.0, rate])
         mbs.Assemble()
-        settings = exudyn.SimulationSettings()
-        settings.timeIntegration.endTime = 3.0
-        settings.timeIntegration.numberOfSteps = 750
-        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
-        settings.timeIntegration.newton.relativeTolerance = 1e-8
-        settings.timeIntegration.newton.absoluteTolerance = 1e-6
-        settings.timeIntegration.adaptiveStep = False
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = 3.0
-        mbs.SolveDynamic(settings)
-        stored = np.array(mbs.GetSensorStoredData(numbers.tip_sensor))
+        stored = solve_as_a_user(mbs, numbers.tip_sensor, end=3.0, steps=750, period=3.0)
     end = run.isel(time=-1)
     assert stored[-1, 1:3] == pytest.approx([end["tip_x"].item(), end["tip_y"].item()], abs=1e-5)
 

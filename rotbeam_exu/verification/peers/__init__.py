@@ -7,7 +7,7 @@ function with the signature of `Code`, wrap it in an `Entry`, and read the verdi
         ...                                   # spin the beam up; sample q [m] and q_dot [m/s]
         return xarray.Dataset({"q": ("time", q), "q_dot": ("time", q_dot)}, {"time": time})
 
-    print(verify(Entry(name="mine", simulate=mine)))
+    verify(Entry(name="mine", simulate=mine))
 
 `time` runs from 0 to `duration` [s] in even samples, at least 100 a period of the oscillation;
 q and q_dot are Eq. 16: the tip across the line that turns with the clamp, and its rate there.
