@@ -1,0 +1,113 @@
+"""What a code hands in: who it is, its frequencies, its histories; from files or from a call."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from analytic.arrays import FloatArray
+
+from .theory import BERNOULLI_EULER, Theory
+
+
+@dataclass(frozen=True, kw_only=True)
+class Declaration:
+    """What the author says of a code; the file entry.toml.
+
+    Attributes
+    ----------
+    code, version, url, licence, element, machine, remarks : str
+    authors : tuple of str
+    theory : Theory
+        The beam that the elements tend to: from the tags shear (k_s and ν) and rotary-inertia.
+    inextensible : bool
+        Whether the elements cannot stretch.
+    order, order_in_step : float, optional
+        Orders declared in mesh and step.
+    benchmark : str
+        Version of the benchmark.
+    """
+
+    code: str
+    version: str = ""
+    url: str = ""
+    licence: str = ""
+    element: str = ""
+    machine: str = ""
+    remarks: str = ""
+    authors: tuple[str, ...] = ()
+    theory: Theory = BERNOULLI_EULER
+    inextensible: bool = False
+    order: float | None = None
+    order_in_step: float | None = None
+    benchmark: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Frequency:
+    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s]."""
+
+    elements: int
+    speed: float
+    frequency: float = math.nan
+    failure: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BackbonePoint:
+    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L."""
+
+    elements: int
+    speed: float
+    amplitude: float
+    frequency: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Run:
+    """A history of the tip.
+
+    Attributes
+    ----------
+    case : str
+        Name of the case.
+    elements : int
+    step : float
+        Of the integration [s].
+    time, q : ndarray (samples,)
+        [s], and q [m] of Eq. 16; empty of a run that failed.
+    q_dot : ndarray (samples,), optional
+        Its rate in the turning frame [m/s].
+    failure : str
+        The code's own sentence, if it failed.
+    file : str
+        Where it was read from, or how it was made.
+    dof : int, optional
+    wall, cpu : float
+        Time spent [s]; NaN if not told.
+    remark : str
+        What the code itself says against the run.
+    """
+
+    case: str
+    elements: int
+    step: float
+    time: FloatArray = field(repr=False)
+    q: FloatArray = field(repr=False)
+    q_dot: FloatArray | None = field(default=None, repr=False)
+    failure: str = ""
+    file: str = ""
+    dof: int | None = None
+    wall: float = math.nan
+    cpu: float = math.nan
+    remark: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Submission:
+    """All that is judged of a code; what is empty was not submitted."""
+
+    declaration: Declaration
+    frequencies: tuple[Frequency, ...] = ()
+    backbone: tuple[BackbonePoint, ...] = ()
+    runs: tuple[Run, ...] = ()
