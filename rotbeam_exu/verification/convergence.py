@@ -39,6 +39,8 @@ class Convergence:
     ----------
     sizes, values, noise : ndarray (runs,)
         Mesh size or step, the number found, and the bar of what measured it; the finest last.
+    errors : ndarray (runs,)
+        Of discretization: value less limit, of functions the largest distance from the limit.
     limit : float
         The number at size zero; NaN of a single run.
     bar : float
@@ -54,16 +56,12 @@ class Convergence:
     sizes: FloatArray = field(repr=False)
     values: FloatArray
     noise: FloatArray = field(repr=False)
+    errors: FloatArray = field(repr=False)
     limit: float
     bar: float
     order: float
     why: str = ""
     settles: bool = True
-
-    @property
-    def errors(self) -> FloatArray:
-        """Discretization error of each run, its value less the limit, (runs,)."""
-        return self.values - self.limit
 
     @property
     def error_bars(self) -> FloatArray:
@@ -117,8 +115,52 @@ def convergence(
         limit, bar, settles = _limit(h, f, bars, declared)
     order, why = observed_order(h, np.diff(f), bars[:-1] + bars[1:])
     return Convergence(
-        sizes=h, values=f, noise=bars, limit=limit, bar=bar, order=order, why=why, settles=settles
-    )
+        sizes=h, values=f, noise=bars, errors=f - limit,
+        limit=limit, bar=bar, order=order, why=why, settles=settles,
+    )  # fmt: skip
+
+
+def convergence_of_functions(
+    sizes: Sequence[float],
+    functions: FloatArray,
+    *,
+    noise: float = 0.0,
+    declared: float | None = None,
+) -> tuple[Convergence, FloatArray]:
+    """Extrapolate functions, such as histories, to size zero.
+
+    The way from the coarsest to the limit, its length measured by the largest change from run to
+    run, is a sequence of numbers, whose `convergence` tells how far the limit is. It lies ahead in
+    the direction of the last change.
+
+    Parameters
+    ----------
+    sizes : sequence (runs,)
+        Mesh sizes or steps, in any order; no two the same.
+    functions : ndarray (runs, samples)
+        At the same samples.
+    noise : float
+        Largest error of the functions themselves, such as that of Newton's method.
+    declared : float, optional
+        Order that the author expects.
+
+    Returns
+    -------
+    runs : Convergence
+        Its values and limit are lengths of way.
+    limit : ndarray (samples,)
+    """
+    finest_last = np.argsort(-np.asarray(sizes, dtype=np.float64))
+    f = functions[finest_last]
+    changes = np.abs(np.diff(f, axis=0)).max(axis=1)
+    way = np.concatenate(([0.0], np.cumsum(changes)))
+    runs = convergence(
+        np.asarray(sizes, dtype=np.float64)[finest_last].tolist(),
+        way.tolist(), noise=noise, declared=declared,
+    )  # fmt: skip
+    if f.shape[0] == 1 or not changes[-1]:
+        return runs, f[-1]
+    return runs, f[-1] + (runs.limit - way[-1]) / changes[-1] * (f[-1] - f[-2])
 
 
 def observed_order(

@@ -8,6 +8,9 @@ from enum import StrEnum
 
 from .convergence import Convergence
 
+LEAST_SHARE = 0.7
+"""Of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
+
 
 class Outcome(StrEnum):
     """What is found of one quantity, the best first."""
@@ -39,12 +42,18 @@ class Finding:
         Relative error of the reference itself.
     note : str
         Why there is no verdict, or where the code failed.
+    tolerance : float
+        Largest difference of the limit that passes.
+    difference : float
+        Of the finest run from the reference: its discretization included.
     """
 
     outcome: Outcome
     runs: Convergence | None = None
     bound: float = math.nan
     note: str = ""
+    tolerance: float = math.nan
+    difference: float = math.nan
 
     @property
     def model_difference(self) -> float:
@@ -62,6 +71,36 @@ class Finding:
             f"reference ± {self.bound:.0e}"
         )
         return f"{text}; {self.note}" if self.note else text
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """The order of q(t) that the author's own meshes or steps show, beside the declared one.
+
+    It is told and decides nothing: where a code converges to is what its limit says.
+
+    Attributes
+    ----------
+    value : float
+        NaN where it cannot be measured.
+    declared : float or None
+    why : str
+        Why it is not measured.
+    """
+
+    value: float
+    declared: float | None
+    why: str = ""
+
+    @property
+    def low(self) -> bool:
+        """Whether it is less than LEAST_SHARE of the declared one."""
+        return self.declared is not None and self.value < LEAST_SHARE * self.declared
+
+    def __str__(self) -> str:
+        if math.isnan(self.value):
+            return f"not measured: {self.why}"
+        return f"{self.value:.1f}" + (f" of {self.declared:g}" if self.declared else "")
 
 
 def found_of(runs: Convergence, *, tolerance: float, bound: float, where: str) -> Finding:
@@ -87,7 +126,10 @@ def found_of(runs: Convergence, *, tolerance: float, bound: float, where: str) -
     else:
         outcome = Outcome.NO_VERDICT
         note = f"the limit is known to {doubt:.0e} only {where}: refine"
-    return Finding(outcome=outcome, runs=runs, bound=bound, note=note)
+    return Finding(
+        outcome=outcome, runs=runs, bound=bound, note=note, tolerance=tolerance,
+        difference=float(runs.values[-1]),
+    )  # fmt: skip
 
 
 def worst_of(findings: list[Finding]) -> Finding:

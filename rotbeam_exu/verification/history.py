@@ -1,0 +1,155 @@
+"""What a history of the tip shows: itself, its amplitude, its nonlinear frequency, its orders."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import CubicSpline
+
+from analytic.arrays import FloatArray
+
+from ..oscillation import SteadyOscillation, steady_oscillation
+from ..verdict import beam_attributes
+from .cases import Case
+from .convergence import Convergence
+from .outcomes import Finding, Order, Outcome, found_of
+from .references import Reference
+from .refinement import Refinement, limit_of_histories, limit_of_numbers, refinement
+from .submission import Declaration, Run
+
+HISTORY_FLOOR = 1e-6
+"""Changes of q(t), over max|q|, in which no order is looked for: a ten-thousandth of what passes,
+and what Newton's tolerances may leave."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Histories:
+    """The runs of one case that a code handed in, beside the reference.
+
+    Attributes
+    ----------
+    case : Case
+    runs : tuple of Run
+        Those that did not fail.
+    reference : Reference
+    declaration : Declaration
+    """
+
+    case: Case
+    runs: tuple[Run, ...]
+    reference: Reference
+    declaration: Declaration
+
+    @cached_property
+    def rows(self) -> Refinement:
+        """The runs in the order of meshes and of steps."""
+        return refinement(self.runs)
+
+    @cached_property
+    def scale(self) -> float:
+        """The largest deflection of the reference, max|q| [m]."""
+        return float(np.abs(self.reference.history(self.rows.finest.time)).max())
+
+    @cached_property
+    def differences(self) -> dict[Run, FloatArray]:
+        """Of each run from the reference over max|q|, at the run's own times."""
+        return {run: (run.q - self.reference.history(run.time)) / self.scale for run in self.runs}
+
+    def deflection(self, tolerance: float) -> tuple[Finding, dict[str, Order]]:
+        """Return the finding of q(t) itself, over max|q|, and the orders in mesh and step."""
+        time = self.rows.finest.time
+        time = time[time <= min(float(run.time[-1]) for run in self.runs)]
+        differences = {
+            run: d if run is self.rows.finest else CubicSpline(run.time, d)(time)
+            for run, d in self.differences.items()
+        }
+        differences[self.rows.finest] = self.differences[self.rows.finest][: time.size]
+        runs, steps, _ = limit_of_histories(self.rows, differences, HISTORY_FLOOR, self.declaration)
+        declared = self.declaration.order, self.declaration.order_in_step
+        orders = {"mesh": Order(value=runs.order, declared=declared[0], why=runs.why)}
+        if steps is not None:
+            orders["step"] = Order(value=steps.order, declared=declared[1], why=steps.why)
+        return self._found(runs, tolerance, self.reference.bound), orders
+
+    @cached_property
+    def oscillations(self) -> dict[Run, SteadyOscillation | str]:
+        """The steady oscillation of each run, or why it has none."""
+        return {run: self._oscillation(run.time, run.q) for run in self.runs}
+
+    def amplitude(self, tolerance: float) -> Finding:
+        """Return the finding of the amplitude of the steady oscillation."""
+        time = self.rows.finest.time
+        true = self._oscillation(time, self.reference.history(time))
+        if isinstance(true, str):
+            return Finding(outcome=Outcome.NO_VERDICT, note=f"not measured: {true}")
+        measured = {
+            run: (one.amplitude / true.amplitude - 1.0, one.amplitude_error / true.amplitude)
+            for run, one in self.oscillations.items()
+            if not isinstance(one, str)
+        }
+        bound = self.reference.bound + true.amplitude_error / true.amplitude
+        return self._of_numbers(measured, tolerance, bound, 1.0)
+
+    def shift(self, tolerance: float, linear: Convergence | None) -> Finding:
+        """Return the finding of ω_NL/ω_n - 1, the run's own amplitude taken.
+
+        `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
+        """
+        assert self.case.motion is not None
+        speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
+        measured: dict[Run, tuple[float, float]] = {}
+        shift = math.nan
+        try:
+            for run in sorted(self.oscillations, key=lambda run: (run.elements, -run.step)):
+                one = self.oscillations[run]
+                if isinstance(one, str):
+                    continue
+                true = self.reference.frequency_at(one.amplitude)
+                measured[run] = (one.frequency / true - 1.0 - off, one.frequency_error / true)
+                shift = true / self.reference.first_frequency(speed) - 1.0
+        except (RuntimeError, ValueError) as error:
+            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        bound = self.reference.bound + (0.0 if linear is None else linear.bar)
+        return self._of_numbers(measured, tolerance, bound, shift)
+
+    def _of_numbers(
+        self,
+        measured: Mapping[Run, tuple[float, float]],
+        tolerance: float,
+        bound: float,
+        scale: float,
+    ) -> Finding:
+        """Return the finding of what the runs showed, over `scale`."""
+        finest = self.oscillations[self.rows.finest]
+        if isinstance(finest, str):
+            return Finding(outcome=Outcome.NO_LIMIT, note=finest)
+        scaled = {run: (value / scale, bar / abs(scale)) for run, (value, bar) in measured.items()}
+        runs = limit_of_numbers(refinement(list(measured)), scaled, self.declaration)
+        return self._found(runs, tolerance, bound / abs(scale), scaled[self.rows.finest][0])
+
+    def _found(
+        self, runs: Convergence, tolerance: float, bound: float, difference: float | None = None
+    ) -> Finding:
+        found = found_of(runs, tolerance=tolerance, bound=bound, where=f"in {self.case.name}")
+        if difference is None:
+            difference = float(np.abs(self.differences[self.rows.finest]).max())
+        if found.outcome is Outcome.ANOTHER_LIMIT and not self.rows.steps_are_refined:
+            note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
+            return replace(found, outcome=Outcome.NO_VERDICT, note=note, difference=difference)
+        return replace(found, difference=difference)
+
+    def _oscillation(self, time: FloatArray, q: FloatArray) -> SteadyOscillation | str:
+        motion = self.case.motion
+        assert motion is not None
+        attrs = beam_attributes(self.case.blade) | {"ramp_time": 0.0} | dataclasses.asdict(motion)
+        run = xr.Dataset({"q": ("time", q)}, {"time": time}, attrs)
+        try:
+            return steady_oscillation(run)
+        except ValueError as error:
+            return str(error)

@@ -1,0 +1,219 @@
+"""Codes of known errors are judged by what they tend to: it is named where it is not the truth."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.interpolate import CubicSpline
+
+from analytic import AmplitudeNotReachedError, SpinUp, SteadyRotation
+from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.judgement import THRESHOLDS, judged
+from rotbeam_exu.verification.measures import handed_in, verify
+from rotbeam_exu.verification.outcomes import Outcome
+from rotbeam_exu.verification.peers import Entry
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import BackbonePoint, Declaration, Run, Submission
+
+S1 = SpinUp(omega=6.0, ramp_time=3.0)
+
+
+def judge(entry, **options):
+    return verify(entry, spin_up=S1, **options)
+
+
+def test_a_right_code_converges_to_the_reference(made_of_the_exact_answer):
+    found = judge(made_of_the_exact_answer(elements=32))
+    assert found.passed
+    assert found.outcome == "converges to the reference (S)"
+    of = found.findings["S"]
+    assert found.orders["S"]["step"].value == pytest.approx(2.0, abs=1e-2)
+    assert found.orders["S"]["mesh"].value == pytest.approx(2.0, abs=1e-2)
+    # What was put in: 4e-6 of the step of 2 ms, and the mesh's share.
+    put_in = 4e-6 + 1e-2 / 64**2
+    assert of["amplitude"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
+    assert of["history"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
+    for quantity in ("amplitude", "history"):
+        assert abs(of[quantity].model_difference) < 1e-6
+    # The exact answer lies on the exact backbone, a second mode in it notwithstanding.
+    assert abs(of["nonlinear shift"].model_difference) < 1e-3
+    assert found.sources["S"]
+    assert "nonlinear shift" in str(found)
+
+
+def test_a_drifting_code_tends_to_another_limit(made_of_the_exact_answer):
+    found = judge(made_of_the_exact_answer(lambda time, q, n: q + 0.02 * time))
+    assert not found.passed
+    assert found.findings["S"]["history"].outcome is Outcome.ANOTHER_LIMIT
+
+
+def test_a_clock_that_is_slow_by_a_thousandth_is_seen_in_the_shift(made_of_the_exact_answer):
+    """A thousandth of ω_NL is 6 % of the shift at 6 rad/s, 1.4e-2."""
+    entry = made_of_the_exact_answer(lambda time, q, n: CubicSpline(time, q)(time * 0.999))
+    found = judge(entry).findings["S"]["nonlinear shift"]
+    exact = reference(CASES["S1"])
+    a = judge(made_of_the_exact_answer()).histories["S"]
+    amplitude = next(iter(a.oscillations.values())).amplitude
+    shift = exact.frequency_at(amplitude) / exact.first_frequency(6.0) - 1.0
+    assert found.model_difference == pytest.approx(-1e-3 / shift, rel=0.02)
+    assert found.outcome is Outcome.ANOTHER_LIMIT
+
+
+def test_a_linear_oscillator_is_told_from_the_truth_at_two_radians():
+    """Its ω_NL is ω_n: off by a thousandth, which is the whole of the shift."""
+    case = replace(CASES["O"], motion=SteadyRotation(omega=2.0), duration=40.0, amplitudes=(0.3,))
+    truth, time = reference(case), np.linspace(0.0, 39.0, 1951)
+    shift = truth.frequency_at(0.3) / truth.first_frequency(2.0) - 1.0
+    assert abs(shift) < 2e-3
+    for rate, expected in ((1.0, 0.0), (1.0 / (1.0 + shift), -1.0)):
+        q = truth.history(time * rate)
+        runs = tuple(
+            Run(case="O", elements=n, step=h, time=time, q=q * (1.0 + 0.1 / n**2 + h))
+            for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (8, 5e-4), (8, 2e-3))
+        )
+        submission = Submission(declaration=Declaration(code="mine"), runs=runs)
+        found = judged(submission, cases={"O": case}).findings["O"]["nonlinear shift"]
+        assert found.model_difference == pytest.approx(expected, abs=1e-2)
+        assert found.outcome is (Outcome.ANOTHER_LIMIT if expected else Outcome.REFERENCE)
+
+
+def test_a_code_of_another_frequency_is_told_so():
+    def slow(beam, spin_up, *, elements, duration, step):
+        time = np.arange(0.0, duration, 0.02)
+        return xr.Dataset(
+            {"q": ("time", 0.1 * np.sin(1.5 * time)), "q_dot": ("time", 0.0 * time)}, {"time": time}
+        )
+
+    found = judge(Entry(name="slow", simulate=slow))
+    assert not found.passed
+    assert "times the beam's natural frequency" in found.findings["S"]["nonlinear shift"].note
+
+
+def test_a_code_that_fails_says_why():
+    def broken(beam, spin_up, *, elements, duration, step):
+        raise RuntimeError("no license")
+
+    found = judge(Entry(name="broken", simulate=broken))
+    assert not found.passed
+    assert {one.note for one in found.findings["S"].values()} == {"no license"}
+    assert found.outcome_of("S") is Outcome.NO_LIMIT
+
+
+def test_a_mesh_on_which_the_code_fails_is_left_out(made_of_the_exact_answer):
+    def change(time, q, elements):
+        if elements < 16:
+            raise RuntimeError("too coarse")
+        return q
+
+    found = judge(made_of_the_exact_answer(change, elements=32, meshes=(8, 16, 32, 64)))
+    assert found.passed
+    assert {run.elements for run in found.histories["S"].runs} == {16, 32, 64}
+
+
+def test_a_reference_that_fails_is_not_charged_to_the_code(made_of_the_exact_answer):
+    submission = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+
+    def no_history(case, theory):
+        raise AmplitudeNotReachedError("no orbit")
+
+    found = judged(submission, reference_of=no_history)
+    assert {one.outcome for one in found.findings["S1"].values()} == {Outcome.NO_VERDICT}
+    assert found.findings["S1"]["history"].note == "no reference: no orbit"
+    assert not found.passed
+
+
+def test_an_estimator_that_fails_on_the_exact_answer_is_not_charged_either(
+    made_of_the_exact_answer,
+):
+    """Four seconds after the ramp hold too few cycles to measure, of anybody's run."""
+    found = judge(made_of_the_exact_answer(), duration=4.0)
+    assert found.passed
+    assert found.findings["S"]["amplitude"].outcome is Outcome.NO_VERDICT
+    assert found.findings["S"]["amplitude"].note.startswith("not measured: ")
+    assert found.outcome == "no verdict (S)"
+
+
+def histories_of(entry, chosen):
+    """What a code hands in, less what is not chosen."""
+    whole = handed_in(entry, [CASES["S1"]])
+    return replace(whole, runs=tuple(run for run in whole.runs if chosen(run)))
+
+
+def test_one_step_alone_convicts_nobody(made_of_the_exact_answer):
+    """Its error may be all that is seen; what agrees all the same does."""
+    for off, outcome in ((0.0, Outcome.REFERENCE), (0.05, Outcome.NO_VERDICT)):
+        entry = made_of_the_exact_answer(lambda time, q, n, off=off: q * (1.0 + off))
+        found = judged(histories_of(entry, lambda run: run.step == 2e-3)).findings["S1"]
+        assert found["history"].outcome is outcome
+        assert ("refine it" in found["history"].note) == bool(off)
+
+
+def test_one_mesh_alone_has_no_limit(made_of_the_exact_answer):
+    found = judged(histories_of(made_of_the_exact_answer(), lambda run: run.elements == 16))
+    assert found.findings["S1"]["history"].outcome is Outcome.NO_VERDICT
+    assert "one run has no limit" in found.findings["S1"]["history"].note
+
+
+def test_meshes_and_steps_may_be_refined_together(made_of_the_exact_answer):
+    entry = made_of_the_exact_answer()
+    runs = [
+        replace(run, elements=n, step=16e-3 / n)
+        for n in (8, 16, 32)
+        for run in handed_in(replace(entry, elements=n), [CASES["S1"]]).runs
+        if run.elements == n
+    ][::3]
+    submission = Submission(declaration=Declaration(code="mine"), runs=tuple(runs))
+    found = judged(submission)
+    assert found.findings["S1"]["history"].outcome is Outcome.REFERENCE
+    assert found.orders["S1"]["mesh"].value == pytest.approx(2.0, abs=0.1)
+    assert "step" not in found.orders["S1"]
+
+
+@pytest.mark.parametrize("off", [0.0, 0.008])
+def test_a_verdict_never_gets_worse_by_refining(made_of_the_exact_answer, off):
+    """Of coarse meshes nothing can be said; of fine ones what is true."""
+    rank, seen = list(Outcome), []
+    entry = made_of_the_exact_answer(lambda time, q, n: q * (1.0 + off), size=20.0)
+    for elements in (4, 8, 16, 32, 64, 128):
+        found = judge(replace(entry, elements=elements))
+        seen.append(rank.index(found.findings["S"]["history"].outcome))
+    assert seen == sorted(seen, reverse=True)
+    assert (seen[0], seen[-1]) == (rank.index(Outcome.NO_VERDICT), rank.index(Outcome.REFERENCE))
+
+
+def test_an_order_below_the_declared_one_is_told_and_decides_nothing(made_of_the_exact_answer):
+    found = judge(made_of_the_exact_answer(order=4.0))
+    assert found.orders["S"]["mesh"].low
+    assert not found.orders["S"]["step"].low
+    assert str(found.orders["S"]["mesh"]) == "2.0 of 4"
+    assert found.passed
+
+
+def test_points_of_a_backbone_are_judged_by_their_shift():
+    truth = reference(CASES["B"])
+    for off, outcome in ((0.0, Outcome.REFERENCE), (0.1, Outcome.ANOTHER_LIMIT)):
+        points = []
+        for speed in (2.0, 8.0):
+            linear = truth.first_frequency(speed)
+            shift = truth.frequency_at(0.3, speed) / linear - 1.0
+            points += [
+                BackbonePoint(
+                    elements=n, speed=speed, amplitude=0.3,
+                    frequency=linear * (1.0 + shift * (1.0 + off + 0.3 / n**2)),
+                )
+                for n in (8, 16, 32)
+            ]  # fmt: skip
+        submission = Submission(declaration=Declaration(code="mine"), backbone=tuple(points))
+        found = judged(submission).findings["B"]["backbone"]
+        assert found.outcome is outcome
+        assert found.model_difference == pytest.approx(off, abs=2e-3)
+
+
+def test_thresholds_are_asked_of_every_quantity(made_of_the_exact_answer):
+    quantities = {
+        quantity
+        for case in judge(made_of_the_exact_answer()).findings.values()
+        for quantity in case
+    }
+    assert quantities < set(THRESHOLDS)
