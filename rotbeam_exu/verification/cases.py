@@ -131,7 +131,7 @@ def _cases() -> tuple[Case, ...]:
         spun_up("S3", Level.MODERATE, 4.0, 2.0, 15.0),
         history(
             "O", Level.MODERATE, "start on an exact orbit, no ramp", beam,
-            motion=SteadyRotation(omega=6.0), duration=15.0, amplitudes=(0.3,), oscillates=True,
+            motion=SteadyRotation(omega=2.0), duration=20.0, amplitudes=(0.4,), oscillates=True,
         ),
         spun_up("S4", Level.HARD, 8.0, 2.0, 15.0),
         Case(
