@@ -27,6 +27,10 @@ HISTORY_FLOOR = 1e-6
 """Changes of q(t), over max|q|, in which no order is looked for: a ten-thousandth of what passes,
 and what Newton's tolerances may leave."""
 
+LEAST_SHIFT = 5e-4
+"""Of |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
+tells of its frequency."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Histories:
@@ -115,6 +119,9 @@ class Histories:
                 shift = true / self.reference.first_frequency(speed) - 1.0
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        if abs(shift) < LEAST_SHIFT:
+            note = f"a shift of {shift:+.0e} is too small to be judged from a history"
+            return Finding(outcome=Outcome.NO_VERDICT, note=note)
         bound = self.reference.bound + (0.0 if linear is None else linear.bar)
         return self._of_numbers(measured, tolerance, bound, shift)
 

@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
-from analytic import periodic_orbits, spin_up_response, linear_modes
+
+from analytic import periodic_orbits, spin_up_response
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,5 +37,8 @@ class Reference:
 
 
 @lru_cache
-def reference(case, theory):
+def reference(case, theory=None):
+    from .theory import BERNOULLI_EULER
+
+    theory = theory or BERNOULLI_EULER
     return Reference(case=case, theory=theory)
