@@ -100,10 +100,11 @@ class Histories:
         bound = self.reference.bound + true.amplitude_error / true.amplitude
         return self._of_numbers(measured, tolerance, bound, 1.0)
 
-    def shift(self, tolerance: float, linear: Convergence | None) -> Finding:
+    def shift(self, tolerance: float, linear: Convergence | None) -> Finding | None:
         """Return the finding of ω_NL/ω_n - 1, the run's own amplitude taken.
 
         `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
+        None of a shift that is less than LEAST_SHIFT.
         """
         assert self.case.motion is not None
         speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
@@ -120,8 +121,7 @@ class Histories:
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
         if abs(shift) < LEAST_SHIFT:
-            note = f"a shift of {shift:+.0e} is too small to be judged from a history"
-            return Finding(outcome=Outcome.NO_VERDICT, note=note)
+            return None
         bound = self.reference.bound + (0.0 if linear is None else linear.bar)
         return self._of_numbers(measured, tolerance, bound, shift)
 

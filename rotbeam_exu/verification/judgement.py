@@ -204,5 +204,6 @@ def _of_history(
     if case.oscillates and case.motion is not None:
         own = linear.get(case.motion.omega)
         findings["amplitude"] = histories.amplitude(THRESHOLDS["amplitude"])
-        findings["nonlinear shift"] = histories.shift(THRESHOLDS["nonlinear shift"], own)
+        shift = histories.shift(THRESHOLDS["nonlinear shift"], own)
+        findings |= {} if shift is None else {"nonlinear shift": shift}
     return _Judged(findings=findings, orders=orders, histories=histories)

@@ -23,6 +23,10 @@ class Reference:
         return CubicHermiteSpline(t, r.q, r.q_dot)
 
     def history(self, times):
+        if self.case.amplitudes:
+            from .cases import starting_orbit
+            o = starting_orbit(self.case)
+            return self.case.blade.length * o.response(times, 0)
         return self._spline(times)
 
     def first_frequency(self, speed):
