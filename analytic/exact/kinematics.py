@@ -111,6 +111,15 @@ class Kinematics:
         turning = 1j * (1.0 + strains @ psi.T) * (theta_dot @ phi.T)
         return turn * (turning + strain_rates @ psi.T)
 
+    def shear_angle(
+        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the angle at `x` from the section's normal to the tangent, and its rate."""
+        _, psi = self._bases(x)
+        (_, strains), (_, strain_rates) = self.split(q), self.split(q_dot)
+        stretch = 1.0 + strains @ psi.T
+        return np.angle(stretch), np.asarray((strain_rates @ psi.T / stretch).imag)
+
     def _at(self, x: FloatArray | None) -> tuple[FloatArray, FloatArray | ComplexArray]:
         return (self._phi, self._psi) if x is None else self._bases(x)
 
