@@ -123,7 +123,7 @@ class Continuum(Kinematics):
         turning_rate = self.blade.setting * np.asarray(rate_dot)
         spin = self._angle(q_dot) + turning[..., None]
         spin_rate = self._angle(q_ddot) + turning_rate[..., None]
-        p: ComplexArray = (self._strain(q_ddot) - stretch * spin**2) + 1j * (
+        p = (self._strain(q_ddot) - stretch * spin**2) + 1j * (
             stretch * spin_rate + 2.0 * stretch_rate * spin
         )
         acceleration = (turn * p) @ self._green
@@ -141,7 +141,7 @@ class Continuum(Kinematics):
         if push is not None:
             acceleration = acceleration - push
         force = turn.conj() * acceleration
-        return _Fields(turn, stretch, stretch_rate, spin, spin_rate, p, force)
+        return _Fields(turn, stretch, stretch_rate, spin, spin_rate, np.asarray(p), force)
 
     def _residual(
         self,
