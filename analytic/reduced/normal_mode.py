@@ -9,10 +9,9 @@ and is solved order by order in the amplitude ε, the periodic motion being odd 
 
     θ = ε φ' sin φ + ε² θ₂ + ε³ θ₃ + ...,      Ω² = ω_n² + ε² (Ω²)₂ + ε⁴ (Ω²)₄ + ...
 
-Harmonic m of order k is (K - m²ω_n²M) θ = -(what the lower orders leave): one linear solve takes all
-modes at once. In the first harmonic that has a solution for one (Ω²)_{k-1} only. Harmonics above
-the third never come back to (Ω²)₄. Nothing is fitted, and λ_ω and FrM's are the same number by two
-derivations.
+Harmonic m of order k is (K - m²ω_n²M) θ = -(what the lower orders leave): one linear solve takes
+all modes at once. In the first harmonic that has a solution for one (Ω²)_{k-1} only. Harmonics
+above the third never come back to (Ω²)₄. Nothing is fitted; λ comes out as FrM's, derived anew.
 """
 
 from __future__ import annotations
@@ -160,7 +159,7 @@ def _of_series(w_n: float, rate: FloatArray, tip: FloatArray) -> NormalMode:
     """Return the normal mode from the orders of Ω/ω_n and of the tip's harmonics (3, orders)."""
     more, h2, h3 = float(tip[0, 3]), float(tip[1, 2]), float(tip[2, 3])
     lambda_omega, quartic = -float(rate[2]), -float(rate[4])
-    # First harmonic ε + more ε³, and the peak where cos φ = 2 h2 ε: from ε² to the square of either.
+    # The first harmonic is ε + more ε³, and the peak where cos φ = 2 h2 ε is ε + peak ε³.
     peak = more - h3 + 2.0 * h2**2
     return NormalMode(
         w_n=w_n,
