@@ -1,0 +1,155 @@
+"""entry.toml: what the author says of a code, as `Declaration`, and back."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+import tomllib
+from collections.abc import Iterable
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from analytic.input_checks import finite_number, positive
+
+from ..cases import VERSION
+from ..submission import Declaration
+from ..theory import BERNOULLI_EULER, Theory
+from .faults import Fault
+from .tables import shown, text_of
+
+FILE = "entry.toml"
+TAGS = ("shear", "rotary-inertia", "inextensible")
+_TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
+_ORDERS = ("order", "order_in_step")
+_KEYS = (*_TEXTS, "authors", *_ORDERS, "tags", "shear")
+_SHEAR = ("k_s", "nu", "share")
+_SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
+
+
+def declaration_of(folder: Path, faults: list[Fault]) -> Declaration | None:
+    """Return what entry.toml declares; None if something is wrong with it."""
+    text = text_of(folder, FILE, faults)
+    if text is None:
+        return None
+    try:
+        document = tomllib.loads(text)
+    except RecursionError:
+        faults.append(Fault(file=FILE, said="is nested too deeply: keep to the keys of the kit"))
+        return None
+    except ValueError as error:  # of TOML, or of an integer with too many digits
+        place = re.search(r"at line (\d+)", str(error))
+        line = int(place[1]) if place else None
+        faults.append(Fault(file=FILE, line=line, said=f"is not valid TOML: {error}"))
+        return None
+    said = list(_wrong_with(document))
+    faults += [Fault(file=FILE, line=_line_of(key, text), said=why) for key, why in said]
+    if said:
+        return None
+    tags = document.get("tags", [])
+    stated: dict[str, Any] = {key: document[key].strip() for key in _TEXTS if key in document}
+    stated |= {key: float(document[key]) for key in _ORDERS if key in document}
+    return Declaration(
+        **stated,
+        authors=tuple(document.get("authors", ())),
+        theory=_theory(tags, document.get("shear")),
+        inextensible="inextensible" in tags,
+    )
+
+
+def entry_text(declaration: Declaration) -> str:
+    """Return the text of entry.toml, from which the same declaration is read."""
+    stated = {field.name: getattr(declaration, field.name) for field in fields(Declaration)}
+    lines = [f"benchmark = {_quoted(VERSION)}"]
+    lines += [f"{key} = {_quoted(stated[key])}" for key in _TEXTS[1:] if stated[key]]
+    if declaration.authors:
+        lines.append(f"authors = [{', '.join(map(_quoted, declaration.authors))}]")
+    lines += [f"{key} = {float(stated[key])!r}" for key in _ORDERS if stated[key] is not None]
+    theory = declaration.theory
+    held = (theory.shear_share is not None, theory.rotary_inertia, declaration.inextensible)
+    tags = [_quoted(tag) for tag, there in zip(TAGS, held, strict=True) if there]
+    lines.append(f"tags = [{', '.join(tags)}]")
+    if theory.shear_share is not None:
+        lines += ["", "[shear]", f"share = {float(theory.shear_share)!r}"]
+    return "\n".join([*lines, ""])
+
+
+def _quoted(text: str) -> str:
+    # JSON's strings are TOML's but for DEL, which TOML wants escaped.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _theory(tags: Iterable[str], shear: dict[str, float] | None) -> Theory:
+    share = None
+    if shear is not None:
+        share = shear["share"] if "share" in shear else 0.5 * shear["k_s"] / (1.0 + shear["nu"])
+    rotary = "rotary-inertia" in tags
+    return Theory(rotary_inertia=rotary, shear_share=share) if rotary or share else BERNOULLI_EULER
+
+
+def _wrong_with(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
+    """Yield the key and the sentence of each fault."""
+    for key in document:
+        if key not in _KEYS:
+            close = difflib.get_close_matches(key, _KEYS, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(_KEYS)}"
+            yield key, f"unknown key {shown(key)}; {hint}"
+    for key in _TEXTS:
+        if not isinstance(document.get(key, ""), str):
+            yield key, f"{key} must be text in quotes, got {shown(str(document[key]))}"
+    for key in ("benchmark", "code"):
+        if key not in document or document[key] in ("", " "):
+            example = VERSION if key == "benchmark" else "name of your code"
+            yield key, f'there is no {key}: write {key} = "{example}"'
+    version = document.get("benchmark", VERSION)
+    if isinstance(version, str) and version not in ("", VERSION):
+        yield "benchmark", f"benchmark is {shown(version)}, this judge knows {VERSION}: see the kit"
+    for key in ("authors", "tags"):
+        listed = document.get(key, [])
+        if not isinstance(listed, list) or not all(isinstance(one, str) for one in listed):
+            yield key, f'{key} must be a list of texts, as {key} = ["...", "..."]'
+    for key in _ORDERS:
+        if key in document:
+            yield from _wrong_number(key, document[key], positive)
+    yield from _wrong_shear(document)
+
+
+def _wrong_shear(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
+    """Yield what is wrong with the tags and the table that one of them needs."""
+    tags, shear = document.get("tags", []), document.get("shear")
+    tags = [tag for tag in tags if isinstance(tag, str)] if isinstance(tags, list) else []
+    for tag in tags:
+        if tag not in TAGS:
+            yield "tags", f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}"
+    if shear is None:
+        if "shear" in tags:
+            yield "tags", f"the tag shear needs a table: {_SHEAR_REMEDY}"
+        return
+    if not isinstance(shear, dict) or sorted(shear) not in (["k_s", "nu"], ["share"]):
+        yield "shear", _SHEAR_REMEDY
+        return
+    wrong = [
+        fault
+        for key, value in shear.items()
+        for fault in _wrong_number(key, value, finite_number if key == "nu" else positive)
+    ]
+    yield from wrong
+    if not wrong and not -1.0 < shear.get("nu", 0.0) <= 0.5:
+        yield "nu", f"nu must be above -1 and at most 0.5, got {shear['nu']:g}"
+
+
+def _wrong_number(key: str, value: object, check: Any) -> Iterable[tuple[str, str]]:
+    try:
+        if not isinstance(value, int | float):
+            raise TypeError(f"{key} must be a number, got {shown(str(value))}")
+        check(key, value)
+    except (TypeError, ValueError) as error:
+        yield key, str(error)
+
+
+def _line_of(key: str, text: str) -> int | None:
+    """Return the line on which a key or a table stands."""
+    name = re.escape(key)
+    found = re.search(rf"^[ \t]*(\[+\s*)?[\"']?{name}[\"']?\s*[=.\]]", text, re.MULTILINE)
+    return text.count("\n", 0, found.start()) + 1 if found else None
