@@ -50,6 +50,11 @@ class Kinematics:
         """Matrix from values at the Gauss points to the integral from the clamp to `x`."""
         return integrals_from_clamp(self._points_a_panel, x, self._panels)
 
+    @property
+    def integrals_at_points(self) -> FloatArray:
+        """Matrix from values at the Gauss points to the integrals from the clamp up to each."""
+        return self._integral(self.points)
+
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coordinates of θ and those of e, along the last axis."""
         return q[..., : self.bending], q[..., self.bending :]
@@ -67,6 +72,17 @@ class Kinematics:
 
     def _elongation(self, q: FloatArray) -> FloatArray:
         return self._epsilon * (q[..., self.bending :] @ self._psi.T)
+
+    def bent(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the curvature ϑ', e and e' at the Gauss points, each (samples, points)."""
+        bending, axial = self._a_panel
+        theta, epsilon = self.split(q)
+        turned = axial_basis(bending, self.points, self._panels).slope
+        stretched = axial_basis(axial, self.points, self._panels).curvature
+        if self._own is not None:
+            turned, stretched = turned @ self._own[0], stretched @ self._own[1]
+        change = self._epsilon * (epsilon @ stretched.T)
+        return theta @ turned.T, self._elongation(q), change
 
     def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
         """Return z' = (1 + e) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""
