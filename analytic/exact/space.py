@@ -117,7 +117,9 @@ class Space:
         """∫ gEI φ'φ' of the twist, (functions, functions)."""
         x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
         turned = axial_basis(self._a_panel, x, self.unit.panels).slope
-        return np.asarray(turned.T @ ((dx * self.g * evaluated(self.unit.bending, x))[:, None] * turned))
+        return np.asarray(
+            turned.T @ ((dx * self.g * evaluated(self.unit.bending, x))[:, None] * turned)
+        )
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""

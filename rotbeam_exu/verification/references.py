@@ -25,6 +25,7 @@ class Reference:
     def history(self, times):
         if self.case.amplitudes:
             from .cases import starting_orbit
+
             o = starting_orbit(self.case)
             return self.case.blade.length * o.response(times, 0)
         return self._spline(times)
