@@ -1,24 +1,27 @@
-"""The exact beam: geometrically exact, extensible, Bernoulli-Euler, in the rotating frame.
+"""The exact beam: geometrically exact, extensible, with shear or without, in the rotating frame.
 
 Unit length, EI = 1, ρA = 1 and time τ = t √(EI/mL³), so that the slenderness μ = I/(AL²) is the
-only parameter. Written as a complex number the slope of the beam's axis is
+only parameter without shear. Written as a complex number the slope of the beam's axis is
 
-    z' = r_x' + i r_y' = (1 + e) exp(iθ),      z(0) = 0,
+    z' = r_x' + i r_y' = s exp(iθ),      s = 1 + e + iγ,      z(0) = 0.
 
-with the elongation e = |r'| - 1 and the angle θ of the tangent, and θ' = (r' × r'')/|r'|² is the
-curvature: the elastic energy V = ½∫ (e²/μ + θ'²) dx is quadratic. Discretizing (θ, e) rather than
-displacements makes the stiffness the identity and leaves nothing to lock: the inextensible beam
-is simply e = 0, and μ = 0 is an ordinary value. In a frame that turns at the rate w(τ) the
-acceleration of the slope is p exp(iθ),
+Without shear, γ = 0: the beam is Bernoulli and Euler's, with the elongation e = |r'| - 1, the angle
+θ of the tangent and the curvature θ' = (r' × r'')/|r'|². With it the beam is Reissner's, θ is the
+angle of the section, and e and γ are the strains along and across its normal. The elastic energy
+V = ½∫ (e²/μ + σγ²/μ + θ'²) dx is quadratic, σ being the shear over the axial stiffness.
+Discretizing (θ, e, γ) rather than displacements makes the stiffness the identity and leaves
+nothing to lock: the inextensible beam is simply e = 0, and μ = 0 is an ordinary value. In a frame
+that turns at the rate w(τ) the acceleration of the slope is p exp(iθ),
 
-    p = ë - (1 + e)(θ̇ + w)² + i [(1 + e)(θ̈ + ẇ) + 2ė(θ̇ + w)],
+    p = s̈ - s(θ̇ + w)² + i [s(θ̈ + ẇ) + 2ṡ(θ̇ + w)],
 
 and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 - max(x, y), reads
 
-    ∫ δe (e/μ + Re f) dx = 0,      ∫ (δθ' θ' + (1 + e) δθ Im f) dx = 0:
+    ∫ [δe (e/μ + Re f) + δγ (σγ/μ + Im f)] dx = 0,      ∫ [δθ' θ' + δθ Im(s* f)] dx = 0:
 
--f is the internal force of the beam in its own axes. Drag of the air and loads are added to the
-acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is a diagonal.
+-f is the internal force of the beam in the section's axes. Drag of the air and loads are added to
+the acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is a diagonal;
+shear has none.
 """
 
 from __future__ import annotations
@@ -38,8 +41,8 @@ class _Fields(NamedTuple):
     """Fields at the Gauss points, each (samples, points)."""
 
     turn: ComplexArray  # exp(iθ)
-    stretch: FloatArray  # 1 + e
-    stretch_rate: FloatArray  # ė
+    stretch: FloatArray | ComplexArray  # s = 1 + e + iγ, real without shear
+    stretch_rate: FloatArray | ComplexArray  # ṡ
     spin: FloatArray  # θ̇ + w
     spin_rate: FloatArray  # θ̈ + ẇ
     acceleration: ComplexArray  # p
@@ -47,22 +50,24 @@ class _Fields(NamedTuple):
 
 
 class Continuum(Kinematics):
-    """Galerkin discretization of the exact beam in Legendre polynomials of θ and e.
+    """Galerkin discretization of the exact beam in Legendre polynomials of θ, e and γ.
 
     The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal and
-    φ_k(0) = 0, and e = √μ Σ d_k P_k with P_k orthonormal. Samples in time come first in every
-    array.
+    φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
+    first in every array.
 
     Parameters
     ----------
     slenderness : float
         μ = I/(AL²); zero for the inextensible beam.
     bending, axial : int
-        Number of functions for θ and for e.
+        Number of functions for θ and for e; with shear, as many for γ as for e.
     rotary_inertia : float
         Inertia of the cross-sections against rotation per length: μ, or 0 to leave it out.
     blade : UnitBlade
         What is not the uniform beam: section, point masses, hub radius, setting angle.
+    shear_share : float or None
+        σ = k_s GA/(EA); None to leave shear out.
 
     Attributes
     ----------
@@ -81,8 +86,9 @@ class Continuum(Kinematics):
         *,
         rotary_inertia: float = 0.0,
         blade: UnitBlade = UNIFORM,
+        shear_share: float | None = None,
     ) -> None:
-        super().__init__(slenderness, bending, axial, blade)
+        super().__init__(slenderness, bending, axial, blade, shear_share)
         self.rotary = rotary_inertia
         # One point more integrates the square of the integrated interpolant exactly.
         at, dm = blade.inertia(self._points_a_panel + 1 + (blade.degree + 1) // 2)
@@ -94,7 +100,7 @@ class Continuum(Kinematics):
         self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
         self._turns = bool(dj.any())
         bend, stretch, air = blade.damping
-        self._viscosity = np.repeat([bend, stretch], [bending, axial])
+        self._viscosity = np.repeat([bend, stretch, 0.0], [bending, axial, self.shear])
         along, dx = blade.quadrature(self._points_a_panel + 1)
         integral = self._integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
@@ -110,14 +116,14 @@ class Continuum(Kinematics):
         push: ComplexArray | None,
     ) -> _Fields:
         turn = np.exp(1j * self._angle(q))
-        stretch = 1.0 + self._elongation(q)
-        stretch_rate = self._elongation(q_dot)
+        stretch = 1.0 + self._strain(q)
+        stretch_rate = self._strain(q_dot)
         # Coriolis and Euler forces know only what of the rotation is normal to the plane, c w.
         turning = self.blade.setting * np.asarray(rate)
         turning_rate = self.blade.setting * np.asarray(rate_dot)
         spin = self._angle(q_dot) + turning[..., None]
         spin_rate = self._angle(q_ddot) + turning_rate[..., None]
-        p = (self._elongation(q_ddot) - stretch * spin**2) + 1j * (
+        p = (self._strain(q_ddot) - stretch * spin**2) + 1j * (
             stretch * spin_rate + 2.0 * stretch_rate * spin
         )
         acceleration = (turn * p) @ self._green
@@ -127,7 +133,7 @@ class Continuum(Kinematics):
             acceleration = acceleration + np.asarray(clamp)[..., None] * self.outboard["mass"]
         if beyond:
             # Along the blade the centrifugal force is w², not the c²w² that p has.
-            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None] * (stretch * turn.real)
+            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None] * (stretch * turn).real
             acceleration = acceleration - along @ self._green
         if self._drag is not None:
             velocity = turn * (stretch_rate + 1j * stretch * self._angle(q_dot))
@@ -135,7 +141,7 @@ class Continuum(Kinematics):
         if push is not None:
             acceleration = acceleration - push
         force = turn.conj() * acceleration
-        return _Fields(turn, stretch, stretch_rate, spin, spin_rate, p, force)
+        return _Fields(turn, stretch, stretch_rate, spin, spin_rate, np.asarray(p), force)
 
     def _residual(
         self,
@@ -145,13 +151,13 @@ class Continuum(Kinematics):
         rate_dot: float | FloatArray,
         at: _Fields,
     ) -> FloatArray:
-        theta = (at.stretch * at.force.imag) @ self._phi
+        theta = (at.stretch.conj() * at.force).imag @ self._phi
         if self._turns:
             theta = theta + q_ddot[..., : self.bending] @ self._rotary_mass
             euler = self.blade.setting * np.asarray(rate_dot)
             theta = theta + euler[..., None] * self._rotary_force
-        epsilon = self._epsilon * (at.force.real @ self._psi)
-        return q + self._viscosity * q_dot + np.concatenate((theta, epsilon), axis=-1)
+        strains = (at.force @ self._psi.conj()).real
+        return q + self._viscosity * q_dot + np.concatenate((theta, strains), axis=-1)
 
     def residual(
         self,
@@ -183,16 +189,16 @@ class Continuum(Kinematics):
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
         at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
         nb, n = self.bending, self.size
-        # Re(-i f) = Im f: both equations are real parts of one complex product.
+        # Re(-i f) = Im f: all equations are real parts of one complex product.
+        psi = self._psi.conj()
         left = np.concatenate(
             (
-                (-1j * at.stretch * at.turn.conj())[..., None] * self._phi,
-                (self._epsilon * at.turn.conj())[..., None] * self._psi,
+                (-1j * at.stretch.conj() * at.turn.conj())[..., None] * self._phi,
+                at.turn.conj()[..., None] * psi,
             ),
             axis=-1,
         )
         left = np.swapaxes(left, -1, -2)
-        psi = self._epsilon * self._psi
         one = np.ones_like(at.turn)
         right = self._derivatives(
             at.turn,
@@ -203,8 +209,8 @@ class Continuum(Kinematics):
         beyond = 1.0 - self.blade.setting**2
         if beyond:
             along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None]
-            right[..., :nb] += (along * at.stretch * at.turn.imag)[..., None] * self._phi
-            right[..., nb:n] -= (along * at.turn.real)[..., None] * psi
+            right[..., :nb] += (along * (at.stretch * at.turn).imag)[..., None] * self._phi
+            right[..., nb:n] -= along[..., None] * (at.turn[..., None] * self._psi).real
         onto = left @ self._green
         if self._drag is not None:
             turning = self._angle(q_dot)
@@ -221,25 +227,34 @@ class Continuum(Kinematics):
         stiffness, damping, mass = (work[..., k * n : (k + 1) * n] for k in range(3))
         stiffness[..., range(n), range(n)] += 1.0
         damping[..., range(n), range(n)] += self._viscosity
-        normal, axial = at.force.imag, at.force.real
-        stiffness[..., :nb, :nb] -= self._phi.T @ ((at.stretch * axial)[..., None] * self._phi)
-        stiffness[..., nb:, :nb] += psi.T @ (normal[..., None] * self._phi)
-        stiffness[..., :nb, nb:] += self._phi.T @ (normal[..., None] * psi)
+        axial = (at.stretch.conj() * at.force).real
+        stiffness[..., :nb, :nb] -= self._phi.T @ (axial[..., None] * self._phi)
+        mixed = self._phi.T @ (at.force[..., None] * psi).imag
+        stiffness[..., nb:, :nb] += np.swapaxes(mixed, -1, -2)
+        stiffness[..., :nb, nb:] += mixed
         mass[..., :nb, :nb] += self._rotary_mass
         return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
+
+    def tension(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
+    ) -> FloatArray:
+        """Return the axial force N at the Gauss points, (samples, points), of the motion.
+
+        By d'Alembert, from all that moves outboard, so that it is there without extension too.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
+        return -at.force.real / self.weights
 
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.
 
-        To q, q̇ and q̈, of what has these derivatives to θ and e, to their rates, and so on.
+        To q, q̇ and q̈, of what has these derivatives to θ and s, to their rates, and so on.
         """
         n, nb = self.size, self.bending
         right = np.zeros((*turn.shape, 3 * n), dtype=np.complex128)
-        for start, (theta, epsilon) in zip(range(0, 3 * n, n), blocks, strict=False):
+        for start, (theta, strain) in zip(range(0, 3 * n, n), blocks, strict=False):
             right[..., start : start + nb] = (turn * theta)[..., None] * self._phi
-            right[..., start + nb : start + n] = (self._epsilon * turn * epsilon)[
-                ..., None
-            ] * self._psi
+            right[..., start + nb : start + n] = (turn * strain)[..., None] * self._psi
         return right
 
     def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
@@ -275,7 +290,7 @@ class Continuum(Kinematics):
         at_rest = np.zeros((1, self.size))
         tangent = self.tangent(at_rest, at_rest, at_rest, rate)
         q = np.zeros(self.size)
-        # Without bending the equations are linear in e.
+        # Without bending the equations are linear in e, and nothing shears.
         q[self.bending :] = -np.linalg.solve(
             tangent.stiffness[0, self.bending :, self.bending :],
             tangent.residual[0, self.bending :],

@@ -16,9 +16,17 @@ def continuum(
     axial: int,
     rotary_inertia: float = 0.0,
     blade: UnitBlade = UNIFORM,
+    shear_share: float | None = None,
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, rotary_inertia=rotary_inertia, blade=blade)
+    return Continuum(
+        slenderness,
+        bending,
+        axial,
+        rotary_inertia=rotary_inertia,
+        blade=blade,
+        shear_share=shear_share,
+    )
 
 
 def finer_model(model: Continuum) -> Continuum:
@@ -31,14 +39,24 @@ def finer_model(model: Continuum) -> Continuum:
         return panels * (a_panel + max(a_panel // 2, int(model.slenderness > 0.0)))
 
     return continuum(
-        model.slenderness, more(model.bending), more(model.axial), model.rotary, model.blade
+        model.slenderness,
+        more(model.bending),
+        more(model.axial),
+        model.rotary,
+        model.blade,
+        model.shear_share,
     )
 
 
 def blade_continuum(
-    blade: UnitBlade, slenderness: float, bending: int, axial: int, rotary_inertia: float
+    blade: UnitBlade,
+    slenderness: float,
+    bending: int,
+    axial: int,
+    rotary_inertia: float,
+    shear_share: float | None = None,
 ) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
     panels = blade.panel_count
     bending, axial = (panels * math.ceil(count / panels) for count in (bending, axial))
-    return continuum(slenderness, bending, axial, rotary_inertia, blade)
+    return continuum(slenderness, bending, axial, rotary_inertia, blade, shear_share)

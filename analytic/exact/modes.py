@@ -14,7 +14,7 @@ from ..input_checks import points_of_beam, rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from .continuum import Continuum
 from .discretization import blade_continuum
-from .steady import SteadyBeam, section_inertia, steady_rotation
+from .steady import SteadyBeam, checked_share, section_inertia, steady_rotation
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""
@@ -69,6 +69,7 @@ def linear_modes(
     *,
     inextensible: bool = False,
     rotary_inertia: bool = False,
+    shear_share: float | None = None,
     functions: int = 20,
 ) -> LinearModes:
     """Return the in-plane modes of the beam in steady rotation at `omega`.
@@ -88,6 +89,9 @@ def linear_modes(
         Leave the axial motion out, the limit of the slenderness μ → 0.
     rotary_inertia : bool
         Give the cross-sections their inertia against rotation.
+    shear_share : float, optional
+        Let them shear, as in Reissner's beam: shear stiffness over axial stiffness,
+        k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the blade.
     functions : int
         Least number of functions for the tangent's angle, at most 256; half as many modes are
         resolved. They grow by half until half as many again change no frequency by 1e-9.
@@ -103,7 +107,8 @@ def linear_modes(
     omega = rotation_speed(omega)
     count = whole_number("count", count)
     warn_if_rpm(beam, omega)
-    model, modes = _settled_modes(beam, omega, count, inextensible, rotary_inertia, functions)
+    model = resolved_model(beam, count, inextensible, rotary_inertia, functions, shear_share)
+    model, modes = _settled_modes(beam, omega, count, model)
     return _in_units(beam, omega, count, model, modes)
 
 
@@ -127,18 +132,12 @@ def _in_units(
 
 
 def _settled_modes(
-    beam: AnyBlade,
-    omega: float,
-    count: int,
-    inextensible: bool,
-    rotary_inertia: bool,
-    functions: int,
+    beam: AnyBlade, omega: float, count: int, model: Continuum
 ) -> tuple[Continuum, Modes]:
     """Return the discretization that a finer one confirms, and its modes.
 
     Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     """
-    model = resolved_model(beam, count, inextensible, rotary_inertia, functions)
     steady = steady_rotation(beam, omega, model)
     modes = solve_modes(steady)
     while True:
@@ -157,7 +156,12 @@ def _settled_modes(
 
 
 def resolved_model(
-    beam: AnyBlade, mode: int, inextensible: bool, rotary_inertia: bool, functions: int
+    beam: AnyBlade,
+    mode: int,
+    inextensible: bool,
+    rotary_inertia: bool,
+    functions: int,
+    shear_share: float | None = None,
 ) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
     functions = whole_number("functions", functions, least=4)
@@ -171,10 +175,20 @@ def resolved_model(
             f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
             f"ask for functions={2 * mode} or more"
         )
+    if inextensible and shear_share is not None:
+        raise ValueError(
+            "inextensible=True is the limit of the slender beam, which does not shear either: "
+            "leave shear_share out, or inextensible"
+        )
     slenderness = 0.0 if inextensible else beam.slenderness
     axial = 1 if inextensible else max(4, 5 * functions // 8)
     return blade_continuum(
-        beam.unit, slenderness, functions, axial, section_inertia(beam, rotary_inertia)
+        beam.unit,
+        slenderness,
+        functions,
+        axial,
+        section_inertia(beam, rotary_inertia),
+        checked_share(shear_share),
     )
 
 
@@ -189,14 +203,12 @@ class Modes(NamedTuple):
 def solve_modes(steady: SteadyBeam) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
-    With θ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
+    With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
     model = steady.model
     at_rest = np.zeros((1, model.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
-    n, nb = model.size, model.bending
-    gyroscopic = np.zeros((n, n))
-    gyroscopic[:nb, nb:] = tangent.damping[0, :nb, nb:]
+    gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
     gyroscopic += gyroscopic.T
     inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
     # The inextensible beam has no axial modes: they come out with ν = 0.

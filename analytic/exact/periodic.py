@@ -34,14 +34,15 @@ def periodic_orbits(
     *,
     inextensible: bool = False,
     rotary_inertia: bool = False,
+    shear_share: float | None = None,
     functions: int = 16,
 ) -> Backbone:
     """Return the periodic orbits of the exact beam that grow out of one mode.
 
-    Geometrically exact, extensible, undamped Bernoulli-Euler beam in steady rotation; harmonic
-    balance in time on Legendre polynomials in space, continued in amplitude. The number of
-    harmonics grows until the Jacobi integral is constant to 2e-11, that of functions until the
-    residual is at most 1e-4.
+    Geometrically exact, extensible, undamped beam in steady rotation, which shears if it has a
+    `shear_share`; harmonic balance in time on Legendre polynomials in space, continued in
+    amplitude. The number of harmonics grows until the Jacobi integral is constant to 2e-11, that of
+    functions until the residual is at most 1e-4.
 
     Parameters
     ----------
@@ -52,7 +53,7 @@ def periodic_orbits(
         Peak tip deflections |q|/L, above 0 and below 1, in any order.
     mode : int
         In-plane mode from which the orbits grow, from 1.
-    inextensible, rotary_inertia
+    inextensible, rotary_inertia, shear_share
         As for `linear_modes`.
     functions : int
         Least number of functions for the tangent's angle; they grow where an orbit needs more.
@@ -80,7 +81,7 @@ def periodic_orbits(
         )
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
-    model = resolved_model(beam, mode, inextensible, rotary_inertia, functions)
+    model = resolved_model(beam, mode, inextensible, rotary_inertia, functions, shear_share)
     branch = branch_of(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(branch, ascending)

@@ -16,7 +16,7 @@ from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
 from ..motion import SpinUp
 from .discretization import blade_continuum
-from .steady import section_inertia, steady_rate
+from .steady import checked_share, section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
 
 _FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
@@ -73,6 +73,7 @@ def spin_up_response(
     *,
     tolerance: float = 1e-8,
     rotary_inertia: bool = False,
+    shear_share: float | None = None,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
 ) -> SpinUpResponse:
@@ -91,6 +92,8 @@ def spin_up_response(
         Largest error of the tip's position over the largest |q|.
     rotary_inertia : bool
         Give the cross-sections their inertia against rotation.
+    shear_share : float, optional
+        Let them shear; as for `linear_modes`.
     points : array_like
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
@@ -113,13 +116,15 @@ def spin_up_response(
     warn_if_rpm(beam, spin_up.omega)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
-    rotary = section_inertia(beam, rotary_inertia)
+    rotary, share = section_inertia(beam, rotary_inertia), checked_share(shear_share)
     along = points_of_beam("points", points, beam.length)
     _require_feasible(beam, spin_up, time, along)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
         functions = _FUNCTIONS + max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
-        model = blade_continuum(beam.unit, beam.slenderness, functions, functions // 2, rotary)
+        model = blade_continuum(
+            beam.unit, beam.slenderness, functions, functions // 2, rotary, share
+        )
         steady_rate(beam, spin_up.omega, model)
         corners, counts = _steps(beam, spin_up, float(time[-1]), level)
         if sum(counts) > _MOST_STEPS:

@@ -27,6 +27,8 @@ class BeamState:
         Their derivatives to x, u' and v' [-].
     u_dot, v_dot, u_slope_dot, v_slope_dot : ndarray (points,)
         The rates of all four as seen in the rotating frame [m/s, 1/s].
+    shear_angle, shear_angle_dot : ndarray (points,) or float
+        How far the sections lag behind the tangent [rad], and its rate [rad/s]; 0 without shear.
     """
 
     u: FloatArray
@@ -37,6 +39,8 @@ class BeamState:
     v_dot: FloatArray
     u_slope_dot: FloatArray
     v_slope_dot: FloatArray
+    shear_angle: FloatArray | float = 0.0
+    shear_angle_dot: FloatArray | float = 0.0
 
 
 def orbit_state(
@@ -53,6 +57,7 @@ def orbit_state(
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)
     z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
+    shear, shear_rate = model.shear_angle(q, q_dot, at)
     return BeamState(
         u=z.real - length * at,
         v=z.imag,
@@ -62,4 +67,6 @@ def orbit_state(
         v_dot=z_dot.imag,
         u_slope_dot=slope_rate.real,
         v_slope_dot=slope_rate.imag,
+        shear_angle=shear,
+        shear_angle_dot=per_second * shear_rate,
     )

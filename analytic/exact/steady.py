@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state
 from ..blade import Blade
+from ..input_checks import positive
 from ..methods.harmonic_balance import PeriodicOrbit
 from ..methods.system import Tangent
 from .continuum import Continuum
@@ -31,7 +32,7 @@ class BeamCoordinates:
 
     @property
     def size(self) -> int:
-        """Number of coordinates, those of θ and those of e."""
+        """Number of coordinates, those of θ and those of the strains."""
         return self.model.size
 
     @property
@@ -64,8 +65,8 @@ class BeamCoordinates:
 class SteadyBeam(BeamCoordinates):
     """The beam in a frame that turns at a constant rate; a `methods.System`.
 
-    The motion (θ, e)(t) → (-θ, e)(-t) maps orbits onto orbits: θ is odd. The invariant is the
-    Jacobi integral.
+    The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t) maps orbits onto orbits: θ and γ are odd. The
+    invariant is the Jacobi integral.
 
     Attributes
     ----------
@@ -77,8 +78,8 @@ class SteadyBeam(BeamCoordinates):
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
-        """Which coordinates are those of θ, (n,)."""
-        return np.arange(self.size) < self.model.bending
+        """Which coordinates are those of θ and γ, (n,)."""
+        return self.model.odd
 
     @cached_property
     def equilibrium(self) -> FloatArray:
@@ -123,6 +124,11 @@ def section_inertia(beam: AnyBlade, wanted: bool) -> float:
             "own: give Section(rotary_inertia=...) in kg m"
         )
     return beam.slenderness
+
+
+def checked_share(shear_share: float | None) -> float | None:
+    """Return the shear over the axial stiffness, positive, or None for a beam without shear."""
+    return None if shear_share is None else positive("shear_share", shear_share)
 
 
 def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import overload
 
 import numpy as np
@@ -14,7 +13,6 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import (
-    RotbeamWarning,
     finite_array,
     finite_number,
     not_negative,
@@ -23,14 +21,14 @@ from ..input_checks import (
 )
 from ..unit_blade import UNIFORM
 from .any_blade import blade_oscillator
-from .coriolis import coriolis_coupling
-from .lagrangian import energy_coefficients
-from .model_range import better_model, warn_beyond_range
+from .model_range import amplitudes_within, warn_beyond_range
+from .normal_mode import NormalMode, normal_mode
 from .oscillator import Oscillator
-from .rotating_mode import RotatingMode
+from .perturbation import Perturbation
+from .uniform_beam import uniform_oscillator
 from .variants import Variant, variant_named
 
-_PAPER_AMPLITUDE = 0.2
+_NO_ORBIT = "Eq. 41 has no periodic orbit"
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -49,7 +47,7 @@ class ReducedModel:
         Eq. 41 with its coefficients, nondimensional.
     tip_coupling : float
         Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
-        second order. Their own third harmonics are not, so λ_x is the first mode's, not the tip's.
+        second order.
     """
 
     beam: AnyBlade
@@ -90,22 +88,54 @@ class ReducedModel:
 
     @property
     def lambda_x(self) -> float:
-        """λ_x of Eq. 65 [-]."""
-        return self.oscillator.lambda_x
+        """λ_x of Eq. 65 [-], the tip's third harmonic; of FrM with that of the other modes."""
+        return self.perturbation.h3
+
+    @property
+    def kappa(self) -> float:
+        """κ of ω_NL = ω_n (1 - λ_ω a² - κ a⁴) [-], a the first harmonic; zero but in FrM5."""
+        return self.perturbation.kappa
+
+    @property
+    def kappa_of_peak(self) -> float:
+        """κ where a is the peak of q/L; zero but in FrM5."""
+        return self._normal_mode.kappa_of_peak if self.variant.order == 5 else 0.0
+
+    @cached_property
+    def _normal_mode(self) -> NormalMode:
+        return normal_mode(self.beam.unit, self.omega / self.beam.frequency_scale)
+
+    @cached_property
+    def perturbation(self) -> Perturbation:
+        """Frequency and tip as series in the first harmonic.
+
+        Those of Eq. 41 in one-mode models; of FrM with the other modes' share in h2 and h3.
+        """
+        lambda_omega = self.lambda_omega
+        if not self.variant.has_all_modes:
+            h2 = 0.5 * self.w_n * self.tip_coupling
+            return Perturbation(lambda_omega=lambda_omega, h2=h2, h3=self.oscillator.lambda_x)
+        mode = self._normal_mode
+        kappa = mode.kappa if self.variant.order == 5 else 0.0
+        return Perturbation(lambda_omega=lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
 
     @property
     def largest_amplitude(self) -> float:
         """Largest amplitude a/L for which both Eq. 63 and Eq. 41 have a periodic orbit, up to 1."""
-        return min(
-            1.0, self.oscillator.largest_perturbed_amplitude, self.oscillator.largest_amplitude
-        )
+        return min(1.0, self._largest_perturbed, self.oscillator.largest_amplitude)
+
+    @property
+    def _largest_perturbed(self) -> float:
+        if self.variant.order == 5:
+            return self.perturbation.largest_amplitude
+        return self.oscillator.largest_perturbed_amplitude
 
     @overload
     def frequency(self, a: float) -> float: ...
     @overload
     def frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
     def frequency(self, a: ArrayLike) -> float | FloatArray:
-        """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63.
+        """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63, and of FrM5 with its -κ a⁴.
 
         Parameters
         ----------
@@ -120,13 +150,24 @@ class ReducedModel:
         TypeError
             If `a` does not hold numbers.
         """
-        largest = self.oscillator.largest_perturbed_amplitude
-        amplitude = self._amplitudes(a, largest, "Eq. 63 has no frequency")
+        amplitude = self._within(a, self._largest_perturbed, "Eq. 63 has no frequency")
         # In place, so that millions of amplitudes cost what the bare formula does.
         result = amplitude * amplitude
-        result *= -self.lambda_omega * self.omega_n
+        if self.variant.order == 5:
+            result *= self.lambda_omega + self.kappa * result
+            result *= -self.omega_n
+        else:
+            result *= -self.lambda_omega * self.omega_n
         result += self.omega_n
         return result if result.ndim else float(result)
+
+    def peak(self, a: ArrayLike) -> FloatArray:
+        """Return the peak of q/L of the first harmonic `a`, of its shape; see `response`."""
+        return self.perturbation.peak(finite_array("amplitude", a))
+
+    def first_harmonic(self, peak: ArrayLike) -> FloatArray:
+        """Return the first harmonic of q/L that has the `peak`, of its shape: `peak` inverted."""
+        return self.perturbation.first_harmonic(finite_array("peak", peak))
 
     @overload
     def exact_frequency(self, a: float) -> float: ...
@@ -138,14 +179,15 @@ class ReducedModel:
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
         errors are those of `frequency`, but `a` is the peak of x.
         """
-        amplitude = self._periodic(a)
+        amplitude = self._within(a, self.oscillator.largest_amplitude, _NO_ORBIT)
         result = self.beam.frequency_scale * self.oscillator.exact_frequency(amplitude)
         return result if result.ndim else float(result)
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
-        """Return x(t) = q/L of Eq. 65, of the shape of `t`.
+        """Return x(t) = q/L of Eq. 65, of the shape of `t`; of FrM with its second harmonic.
 
-        Corrected: it starts from a0 (1 - λ_x a0²) at phase zero, not from a0 (Eq. 53).
+        Corrected: it starts from a0 (1 - λ_x a0²) at phase zero, not from a0 (Eq. 53). FrM's tip
+        has -h2 a0² sin 2ψ as well, and h2 and λ_x hold the share of the other modes.
 
         Parameters
         ----------
@@ -158,7 +200,7 @@ class ReducedModel:
         """
         a0 = not_negative("a0", a0)
         psi = self.frequency(a0) * finite_array("t", t, "s") + finite_number("phase", phase, "rad")
-        return np.asarray(a0 * np.cos(psi) - self.lambda_x * a0**3 * np.cos(3.0 * psi))
+        return self.perturbation.deflection(psi, a0)
 
     def orbit(self, a0: float, n: int = 200) -> tuple[FloatArray, FloatArray]:
         """Return x and dx/dτ of Eq. 41, each (n,), once around the orbit with peak `a0`.
@@ -167,45 +209,21 @@ class ReducedModel:
         x = a0 cos ψ, and the last point is the first.
         """
         a0 = not_negative("a0", a0)
-        self._periodic(a0)
+        self._within(a0, self.oscillator.largest_amplitude, _NO_ORBIT)
         return self.oscillator.orbit(a0, whole_number("n", n, least=2))
 
     def __repr__(self) -> str:
         kind = "softens" if self.lambda_omega > 0.0 else "hardens"
+        fifth = f", κ = {self.kappa:.7f}" if self.variant.order == 5 else ""
         return (
             f"{self.variant.name} at ω = {self.omega:g} rad/s (Ω = {self.speed_ratio:.4g}): "
             f"ω_n = {self.omega_n:.6f} rad/s, g1 = {self.g1:.6g}, g2 = {self.g2:.6g}, "
-            f"λ_ω = {self.lambda_omega:.7f} ({kind}), λ_x = {self.lambda_x:.7f}"
+            f"λ_ω = {self.lambda_omega:.7f} ({kind}), λ_x = {self.lambda_x:.7f}{fifth}"
         )
 
-    def _periodic(self, a: ArrayLike) -> FloatArray:
-        largest = self.oscillator.largest_amplitude
-        return self._amplitudes(a, largest, "Eq. 41 has no periodic orbit", stacklevel=4)
-
-    def _amplitudes(
-        self, a: ArrayLike, largest: float, beyond: str, stacklevel: int = 3
-    ) -> FloatArray:
-        """Return `a` as floats; refuse negative ones, those above 1, and from `largest` on."""
-        amplitude = finite_array("amplitude", a)
-        if amplitude.size == 0:
-            return amplitude
-        low, high = float(amplitude.min()), float(amplitude.max())
-        not_negative("amplitude", low, remedy="the phase, not the sign, turns the start around")
-        if high > 1.0:
-            raise ValueError(f"amplitude is the tip's over L and at most 1, got {high}: meters?")
-        if high >= largest:
-            raise ValueError(
-                f"{beyond} at amplitude {high:g} in {self.variant.name} at omega = "
-                f"{self.omega:g} rad/s: keep it below {largest:.6g}"
-            )
-        if high > _PAPER_AMPLITUDE:
-            warnings.warn(
-                f"amplitude {high:g} is above {_PAPER_AMPLITUDE:g}, the paper's own bound for the "
-                f"reduced models; periodic_orbits goes on for as long as it finds an orbit",
-                RotbeamWarning,
-                stacklevel=stacklevel,
-            )
-        return amplitude
+    def _within(self, a: ArrayLike, largest: float, beyond: str) -> FloatArray:
+        where = f"{beyond} at amplitude {{}} in {self.variant.name} at omega = {self.omega:g} rad/s"
+        return amplitudes_within(a, largest, where, self.variant.order)
 
 
 def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
@@ -217,8 +235,8 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
         omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
-        "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC" or "FrM" of ours, or any
-        other setting of the switches. A blade that is not the paper's kind of beam takes ours.
+        "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC", "FrM" or "FrM5" of ours, or
+        any other setting of the switches. A blade that is not the paper's kind of beam takes ours.
 
     Raises
     ------
@@ -256,30 +274,11 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
 
 def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
-    w_bar = omega / beam.frequency_scale
     if beam.unit != UNIFORM:
         return _of_blade(beam, omega, variant)
-    shape = variant.shape_at(w_bar)
-    coefficients = energy_coefficients(shape, variant.axial)
-    square = coefficients.omega_n_squared(w_bar, beam.slenderness)
-    if square <= 0.0:
-        raise ValueError(
-            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
-            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
-        )
-    coupling = (
-        coriolis_coupling(shape) if variant.coriolis and isinstance(shape, RotatingMode) else None
-    )
+    oscillator, tip = uniform_oscillator(beam, omega, variant)
     return ReducedModel(
-        beam=beam,
-        omega=omega,
-        variant=variant,
-        oscillator=Oscillator(
-            w_n=math.sqrt(square),
-            g1=coefficients.g1(w_bar),
-            g2=coefficients.g2 + (coupling.g2 if coupling else 0.0),
-        ),
-        tip_coupling=coupling.tip if coupling else 0.0,
+        beam=beam, omega=omega, variant=variant, oscillator=oscillator, tip_coupling=tip
     )
 
 

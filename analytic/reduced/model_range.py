@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
-from ..input_checks import RotbeamWarning
+from ..input_checks import RotbeamWarning, finite_array, not_negative
 from .coriolis import rotating_frequencies
 from .rotating_mode import MAX_W_BAR
 from .variants import Variant
@@ -23,6 +23,36 @@ _NOTICEABLE_STRETCH = 2e-3
 """Relative change of ω_n by the extension."""
 _FASTEST_ORBITS = 500.0
 """w̄ up to which `periodic_orbits` has enough functions for slender beams."""
+
+
+_MEANT = {3: 0.2, 5: 0.4}
+"""Amplitudes up to which a model is meant, by its order: the paper's own bound, and FrM5's."""
+
+
+def amplitudes_within(a: ArrayLike, largest: float, beyond: str, order: int) -> FloatArray:
+    """Return amplitudes as floats; refuse negative ones, those above 1, and from `largest` on.
+
+    `beyond` says what is wrong with one that is too large, with a place for it. Above what a model
+    of that `order` is meant for, there is a warning to the caller of who called.
+    """
+    amplitude = finite_array("amplitude", a)
+    if amplitude.size == 0:
+        return amplitude
+    low, high = float(amplitude.min()), float(amplitude.max())
+    not_negative("amplitude", low, remedy="the phase, not the sign, turns the start around")
+    if high > 1.0:
+        raise ValueError(f"amplitude is the tip's over L and at most 1, got {high}: meters?")
+    if high >= largest:
+        raise ValueError(f"{beyond.format(f'{high:g}')}: keep it below {largest:.6g}")
+    if high > _MEANT[order]:
+        bound = {3: "the paper's own bound for the reduced models", 5: "beyond which a⁶ counts"}
+        warnings.warn(
+            f"amplitude {high:g} is above {_MEANT[order]:g}, {bound[order]}; backbone_curve and "
+            f"periodic_orbits go on for as long as there is an orbit",
+            RotbeamWarning,
+            stacklevel=4,
+        )
+    return amplitude
 
 
 def better_model(w_bar: float) -> str:

@@ -8,11 +8,12 @@
     P3-P5   static deflections          inextensible, as printed (Tables 1-3)
     FrC     rotating mode               consistent foreshortening; not in the paper
     FrM     rotating mode               FrC with the Coriolis coupling to all other bending modes
+    FrM5    rotating mode               FrM with the fifth order, κ a⁴ of the frequency
 
-Only FrM has the right λ_ω to leading order, for the inextensible beam and up to w̄ = 30, where the
-power series of the rotating mode ends: -v'⁴/8 and the other modes both enter at that order. So
-does the extension: the extensible beam's λ_ω is higher by 3.9 μ at rest and 5.4 μ at w̄ = 12, 1e-5
-for the paper's beam, and its ω_n is lower by about μw̄² of it.
+Only FrM and FrM5 have the right λ_ω to leading order, for the inextensible beam and up to w̄ = 30,
+where the power series of the rotating mode ends: -v'⁴/8 and the other modes both enter at that
+order. So does the extension: the extensible beam's λ_ω is higher by 3.9 μ at rest and 5.4 μ at
+w̄ = 12, 1e-5 for the paper's beam, and its ω_n is lower by about μw̄² of it.
 """
 
 from __future__ import annotations
@@ -39,12 +40,16 @@ class Variant:
         One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
         Whether the other bending modes are eliminated to cubic order; rotating mode only.
+    order : int
+        3, or 5 with the next term of the frequency, -κ a⁴; with consistent foreshortening and the
+        other modes only, for without them it would be of no use.
     """
 
     name: str
     shape: Literal["cantilever", "rotating", "3", "4", "5"]
     axial: Axial
     coriolis: bool = False
+    order: Literal[3, 5] = 3
 
     def __post_init__(self) -> None:
         axial_model(self.axial)
@@ -55,6 +60,18 @@ class Variant:
                 f"the Coriolis coupling is eliminated about the rotating mode, got shape "
                 f'{self.shape!r}: take shape "rotating"'
             )
+        if self.order not in {3, 5}:
+            raise ValueError(f"order must be 3 or 5, got {self.order!r}")
+        if self.order == 5 and not self.has_all_modes:
+            raise ValueError(
+                f"the fifth order needs consistent foreshortening and the other modes, got axial "
+                f"{self.axial!r} and coriolis={self.coriolis}: take FrM5, or order 3"
+            )
+
+    @property
+    def has_all_modes(self) -> bool:
+        """Whether it is right to its order, for the inextensible beam: FrM's setting."""
+        return self.axial == "consistent" and self.coriolis
 
     def shape_at(self, w_bar: float) -> Shape:
         """Return φ_v; only the rotating mode depends on the normalized speed `w_bar`."""
@@ -77,6 +94,7 @@ VARIANTS: dict[str, Variant] = {
         Variant(name="P5", shape="5", axial="inextensible"),
         Variant(name="FrC", shape="rotating", axial="consistent"),
         Variant(name="FrM", shape="rotating", axial="consistent", coriolis=True),
+        Variant(name="FrM5", shape="rotating", axial="consistent", coriolis=True, order=5),
     )
 }
 

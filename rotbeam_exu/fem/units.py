@@ -121,7 +121,7 @@ class Units:
         return _Rescaled(rotation, self.time)
 
     def state(self, state: BeamState) -> BeamState:
-        """Return the state in these units; slopes have none."""
+        """Return the state in these units; slopes and angles have none."""
         return BeamState(
             u=state.u / self.length,
             v=state.v / self.length,
@@ -131,6 +131,8 @@ class Units:
             v_dot=state.v_dot / self.velocity,
             u_slope_dot=state.u_slope_dot * self.time,
             v_slope_dot=state.v_slope_dot * self.time,
+            shear_angle=state.shear_angle,
+            shear_angle_dot=state.shear_angle_dot * self.time,
         )
 
 

@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 
-from analytic import AnyBlade, Beam, Damping, Gravity, SpinUp, SteadyRotation
+from analytic import (
+    AnyBlade,
+    Backbone,
+    Beam,
+    Damping,
+    Gravity,
+    SpinUp,
+    SteadyRotation,
+    periodic_orbits,
+)
 from analytic.loads import Load
 
 VERSION = "1.0"
@@ -93,6 +103,14 @@ def frequency_case(beam: AnyBlade, speeds: tuple[float, ...]) -> Case:
         blade=beam,
         speeds=speeds,
     )
+
+
+@lru_cache(maxsize=8)
+def starting_orbit(case: Case) -> Backbone:
+    """Return the exact orbit that a case starts on, at phase 0; ValueError if it starts at rest."""
+    if not isinstance(case.motion, SteadyRotation) or not case.amplitudes:
+        raise ValueError(f"case {case.name} starts at rest, on no orbit")
+    return periodic_orbits(case.blade, case.motion.omega, case.amplitudes)
 
 
 SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)

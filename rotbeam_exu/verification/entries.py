@@ -6,20 +6,27 @@ import dataclasses
 
 import xarray as xr
 
-from analytic import AnyBlade, SpinUp
+from analytic import AnyBlade, SpinUp, SteadyRotation
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
 from ..fem.elements.section import shear_share
 from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import simulate
-from .peers import PEERS, Entry, installed, peer
+from .peers import PEERS, Entry, StateOf, installed, peer
 from .theory import BERNOULLI_EULER, Theory
 
-_ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: 2.0}
+_SECOND = 2.0
+_ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: _SECOND}
 
 
-def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3) -> Entry:
-    """Return the entry of one of our formulations, named with the options that are not default."""
+def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
+    """Return the entry of one of our formulations, named with the options that are not default.
+
+    Of second order it has twice as many elements as of fourth, unless told.
+    """
+    order = _declared_order(model)
+    if elements is None:
+        elements = 32 if order == _SECOND else 16
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
@@ -33,6 +40,20 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
             beam, spin_up, element=model, elements=elements, duration=duration, step=step
         )
 
+    def release(
+        beam: AnyBlade,
+        rotation: SteadyRotation,
+        state: StateOf,
+        *,
+        elements: int,
+        duration: float,
+        step: float,
+    ) -> xr.Dataset:
+        return simulate(
+            beam, rotation, element=model, elements=elements, duration=duration, step=step,
+            initial_state=state,
+        )  # fmt: skip
+
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
         return float(mesh_frequencies(beam, omega, model, elements, 1)[0])
 
@@ -40,10 +61,11 @@ def formulation_entry(model: Formulation, elements: int = 16, step: float = 1e-3
         name=" ".join([model.name, *options]),
         simulate=spin,
         first_frequency=first,
+        release=release,
         elements=elements,
         step=step,
         theory=_theory(model),
-        order=_declared_order(model),
+        order=order,
     )
 
 

@@ -27,6 +27,10 @@ HISTORY_FLOOR = 1e-6
 """Changes of q(t), over max|q|, in which no order is looked for: a ten-thousandth of what passes,
 and what Newton's tolerances may leave."""
 
+LEAST_SHIFT = 5e-4
+"""Of |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
+tells of its frequency."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Histories:
@@ -96,10 +100,11 @@ class Histories:
         bound = self.reference.bound + true.amplitude_error / true.amplitude
         return self._of_numbers(measured, tolerance, bound, 1.0)
 
-    def shift(self, tolerance: float, linear: Convergence | None) -> Finding:
+    def shift(self, tolerance: float, linear: Convergence | None) -> Finding | None:
         """Return the finding of ω_NL/ω_n - 1, the run's own amplitude taken.
 
         `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
+        None of a shift that is less than LEAST_SHIFT.
         """
         assert self.case.motion is not None
         speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
@@ -115,6 +120,8 @@ class Histories:
                 shift = true / self.reference.first_frequency(speed) - 1.0
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        if abs(shift) < LEAST_SHIFT:
+            return None
         bound = self.reference.bound + (0.0 if linear is None else linear.bar)
         return self._of_numbers(measured, tolerance, bound, shift)
 

@@ -59,6 +59,15 @@ class Judgement:
     histories: dict[str, Histories]
     sources: dict[str, str]
 
+    @property
+    def by_quantity(self) -> dict[tuple[str, str], Finding]:
+        """Findings by case and quantity."""
+        return {
+            (case, quantity): finding
+            for case, quantities in self.findings.items()
+            for quantity, finding in quantities.items()
+        }
+
     def outcome_of(self, case: str) -> Outcome:
         """Return the worst outcome of a case."""
         found = list(self.findings.get(case, {}).values())
@@ -67,12 +76,8 @@ class Judgement:
     @property
     def passed(self) -> bool:
         """Whether something was submitted, and all that can be decided is the reference."""
-        decided = [
-            found.outcome.passed
-            for case in self.findings.values()
-            for found in case.values()
-            if found.outcome.passed is not None
-        ]
+        outcomes = [found.outcome.passed for found in self.by_quantity.values()]
+        decided = [passed for passed in outcomes if passed is not None]
         return bool(decided) and all(decided)
 
     @property
@@ -87,12 +92,11 @@ class Judgement:
 
     def __str__(self) -> str:
         lines = [f"{self.declaration.code}: {self.outcome}"]
-        for case, quantities in self.findings.items():
-            for quantity, found in quantities.items():
-                allowed = f" (at most {THRESHOLDS[quantity]:g})"
-                lines.append(f"  {case:<5}{quantity:<18}{found}{allowed}")
-            for name, order in self.orders.get(case, {}).items():
-                lines.append(f"  {case:<5}order in {name:<9}{order}")
+        for (case, quantity), found in self.by_quantity.items():
+            allowed = f" (at most {THRESHOLDS[quantity]:g})"
+            lines.append(f"  {case:<5}{quantity:<18}{found}{allowed}")
+        for case, orders in self.orders.items():
+            lines += [f"  {case:<5}order in {name:<9}{order}" for name, order in orders.items()]
         return "\n".join(lines)
 
 
@@ -200,5 +204,6 @@ def _of_history(
     if case.oscillates and case.motion is not None:
         own = linear.get(case.motion.omega)
         findings["amplitude"] = histories.amplitude(THRESHOLDS["amplitude"])
-        findings["nonlinear shift"] = histories.shift(THRESHOLDS["nonlinear shift"], own)
+        shift = histories.shift(THRESHOLDS["nonlinear shift"], own)
+        findings |= {} if shift is None else {"nonlinear shift": shift}
     return _Judged(findings=findings, orders=orders, histories=histories)

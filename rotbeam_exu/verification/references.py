@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
-from analytic import periodic_orbits, spin_up_response, linear_modes
+
+from analytic import periodic_orbits, spin_up_response
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -21,6 +23,11 @@ class Reference:
         return CubicHermiteSpline(t, r.q, r.q_dot)
 
     def history(self, times):
+        if self.case.amplitudes:
+            from .cases import starting_orbit
+
+            o = starting_orbit(self.case)
+            return self.case.blade.length * o.response(times, 0)
         return self._spline(times)
 
     def first_frequency(self, speed):
@@ -35,5 +42,8 @@ class Reference:
 
 
 @lru_cache
-def reference(case, theory):
+def reference(case, theory=None):
+    from .theory import BERNOULLI_EULER
+
+    theory = theory or BERNOULLI_EULER
     return Reference(case=case, theory=theory)

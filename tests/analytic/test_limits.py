@@ -30,7 +30,7 @@ def test_at_rest(beam, variant):
     assert model.omega_n == pytest.approx(beam.omega_0, rel=1e-13)
     # By 30-digit quadrature of the same integrals.
     assert model.lambda_omega == pytest.approx(-0.01938354688117, abs=1e-13)
-    assert model.lambda_x == pytest.approx(0.04626775131107, abs=1e-13)
+    assert model.oscillator.lambda_x == pytest.approx(0.04626775131107, abs=1e-13)
 
 
 @pytest.mark.parametrize("variant", list(VARIANTS))

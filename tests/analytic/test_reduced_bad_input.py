@@ -13,7 +13,7 @@ from analytic.reduced.shapes import static_deflection
 
 
 def test_unknown_variant_lists_the_known_ones(beam):
-    with pytest.raises(ValueError, match="CI, CE, FrI, FrE, P3, P4, P5, FrC, FrM, got 'FRE'"):
+    with pytest.raises(ValueError, match="CI, CE, FrI, FrE, P3, P4, P5, FrC, FrM, FrM5, got 'FRE'"):
         reduced_model(beam, 4.0, "FRE")
 
 

@@ -111,7 +111,7 @@ def test_largest_amplitude(beam, method):
 
 def test_large_amplitudes(beam):
     model = reduced_model(beam, 6.0, "FrM")
-    assert "periodic_orbits goes on" in complaint(model.frequency, 0.3)
+    assert "periodic_orbits go on" in complaint(model.frequency, 0.3)
     assert complaint(periodic_orbits, beam, 6.0, [0.3]) == ""
 
 

@@ -6,8 +6,11 @@ import io
 import pytest
 
 from rotbeam_exu.cli import verify as verify_job
+from rotbeam_exu.verification.convergence import convergence
 from rotbeam_exu.verification.cost import LADDER
-from rotbeam_exu.verification.measures import THRESHOLDS, Measure, Verification
+from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
+from rotbeam_exu.verification.outcomes import found_of
+from rotbeam_exu.verification.submission import Declaration
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
@@ -48,19 +51,24 @@ def test_the_narrow_table_has_the_numbers_of_the_csv(call, monkeypatch):
 
 
 def test_the_verdict_tables(call, monkeypatch):
-    found = {name: Measure(name=name, value=1.23e-4, passed=True) for name in (*THRESHOLDS, "cost")}
+    runs = convergence([0.25, 0.125, 0.0625], [1.23e-4 + h**4 for h in (0.25, 0.125, 0.0625)])
+    found = found_of(runs, tolerance=2e-4, bound=1e-8, where="anywhere")
     monkeypatch.setattr(
         verify_job,
         "verification_of",
-        lambda entry, **_: Verification(name=entry.name, elements=16, step=1e-3, measures=found),
-    )
+        lambda entry, **_: Judgement(
+            declaration=Declaration(code=entry.name),
+            findings={"S1": dict.fromkeys(THRESHOLDS, found)},
+            orders={}, histories={}, sources={},
+        ),
+    )  # fmt: skip
     monkeypatch.setattr(
         verify_job, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER))
     )
     monkeypatch.setenv("COLUMNS", "40")
     code, out, _ = call("verify", "--element", "cable", "--element", "exact")
     assert code == 0
-    assert out.count("1.2e-04") == 2 * 4
+    assert out.count("+1e-04") == 2 * len(THRESHOLDS)
     assert "…" not in out
     code, out, _ = call("verify", "--element", "cable", "--cost")
     assert code == 0

@@ -16,7 +16,7 @@ FLOORS = {
     "analytic": [
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
-        {"profiles", "motion"},
+        {"profiles", "motion", "out_of_plane", "point_mass"},
         {"unit_blade", "section", "loads"},
         {"blade"},
         {"beam"},

@@ -47,7 +47,7 @@ class SectionSlopeNodes:
         return np.eye(4)[2:], np.array([-math.sin(angle), math.cos(angle)])
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and r_y = (-sin φ, cos φ) of sections normal to the axis, and their rates."""
+        """Positions and r_y = (-sin φ, cos φ), and their rates."""
         angle, rate = _section_angle(state)
         sine, cosine = np.sin(angle), np.cos(angle)
         values = (x + state.u, state.v, -sine, cosine)
@@ -67,14 +67,14 @@ class AngleNodes:
         return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and the angle of sections normal to the axis, and their rates."""
+        """Positions and the angle of the section, and their rates."""
         angle, rate = _section_angle(state)
         values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
 
 def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
-    """Return the angle [rad] of a section normal to the axis, (nodes,), and its rate [rad/s]."""
+    """Return the angle [rad] of the section, (nodes,), and its rate [rad/s]."""
     along, across = 1.0 + state.u_slope, state.v_slope
     rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
-    return np.arctan2(across, along), rate
+    return np.arctan2(across, along) - state.shear_angle, rate - state.shear_angle_dot

@@ -23,13 +23,33 @@ from typing import Protocol
 
 import xarray as xr
 
-from analytic import AnyBlade, SpinUp
+from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
+from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 
 from ..theory import BERNOULLI_EULER, Theory
 
 FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""
+
+StateOf = Callable[[FloatArray], BeamState]
+"""State at material points x [m]."""
+
+
+class Released(Protocol):
+    """A code that starts a beam which turns already in a given state."""
+
+    def __call__(
+        self,
+        beam: AnyBlade,
+        rotation: SteadyRotation,
+        state: StateOf,
+        *,
+        elements: int,
+        duration: float,
+        step: float,
+    ) -> xr.Dataset:
+        """Return what `Code` does; `state` gives the `BeamState` at material points x [m]."""
 
 
 class Code(Protocol):
@@ -53,6 +73,8 @@ class Entry:
         Spins the beam up.
     first_frequency : callable, optional
         (beam, omega, elements) -> first natural frequency [rad/s], where the code has it.
+    release : Released, optional
+        Starts the beam on an orbit, where the code can.
     elements, step
         Mesh and step [s] of the judged run.
     meshes : tuple of int, optional
@@ -68,6 +90,7 @@ class Entry:
     name: str
     simulate: Code
     first_frequency: FrequenciesOf | None = None
+    release: Released | None = None
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()

@@ -1,0 +1,128 @@
+"""The functions by which the reduced models of any straight blade are resolved, and its modes.
+
+Everywhere two measures, dm and EI dx, and the rotary inertia dj, point masses included.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import eigh
+
+from ..arrays import FloatArray
+from ..profiles import evaluated
+from ..quadrature import gauss_points_on, integrals_from_clamp, transverse_basis
+from ..unit_blade import UnitBlade
+
+
+class FirstMode(NamedTuple):
+    """The first mode, 1 at the tip, by its coefficients (n,), w̄_n, and the next two w̄_j."""
+
+    coefficients: FloatArray
+    w_n: float
+    others: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BladeFunctions:
+    """Functions φ_k of a blade's deflection, and what its integrals take; no dimensions.
+
+    Attributes
+    ----------
+    blade : UnitBlade
+    at, dm : ndarray (masses,)
+        The measure of the mass, and where it is.
+    dj : ndarray (turning,)
+        The measure of the rotary inertia.
+    bent : ndarray (points,)
+        The measure EI dx.
+    weights : ndarray (inner,)
+        Of the Gauss points from which slopes are integrated.
+    to_masses : ndarray (masses, inner)
+        From values at these points to their integrals from the clamp.
+    tension : ndarray (inner,)
+        ∫N f dx = w̄² tension @ f.
+    deflection : ndarray (masses, n)
+    slope, slope_turning, slope_bent : ndarray (inner, n), (turning, n), (points, n)
+    curvature : ndarray (points, n)
+    tip : ndarray (n,)
+    mass, bending, turning : ndarray (n, n)
+        M, the bending's part of K, and the rotary inertia's of M.
+    """
+
+    blade: UnitBlade
+    at: FloatArray
+    dm: FloatArray
+    dj: FloatArray
+    bent: FloatArray
+    weights: FloatArray
+    to_masses: FloatArray
+    tension: FloatArray
+    deflection: FloatArray
+    slope: FloatArray
+    slope_turning: FloatArray
+    slope_bent: FloatArray
+    curvature: FloatArray
+    tip: FloatArray
+    mass: FloatArray
+    bending: FloatArray
+    turning: FloatArray
+
+    def stiffness(self, w_bar: float) -> FloatArray:
+        """Return K (n, n) at w̄: bending, tension, and the softening of the plane of rotation."""
+        phi, slope = self.deflection, self.slope
+        softening = self.blade.setting**2 * w_bar**2 * (phi.T @ (self.dm[:, None] * phi))
+        stiffening = w_bar**2 * slope.T @ (self.tension[:, None] * slope)
+        return np.asarray(self.bending + stiffening - softening)
+
+    def first_mode(self, w_bar: float) -> FirstMode:
+        """Return the first mode at w̄."""
+        # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
+        reciprocal, vectors = eigh(self.mass, self.stiffness(w_bar))
+        first = vectors[:, -1] / (self.tip @ vectors[:, -1])
+        second, third = (1.0 / np.sqrt(reciprocal[-2:-4:-1])).tolist()
+        return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))
+
+
+@lru_cache(maxsize=16)
+def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
+    """Return at least `count` functions of the blade, as many on every panel."""
+    a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
+    points = 2 * (a_panel + 4 + blade.degree)
+    x, dx = blade.quadrature(points)
+    bent = dx * evaluated(blade.bending, x)
+    at, dm = blade.inertia(points)
+    turning_at = np.append(x, [position for position, _, _ in blade.masses])
+    lumped = [inertia for _, _, inertia in blade.masses]
+    dj = np.append(dx * evaluated(blade.rotary, x), lumped)
+    inner, weights = gauss_points_on(points, panels)
+    # Values at these points to integrals from the clamp to the masses: products of two slopes.
+    to_masses = integrals_from_clamp(points, at, panels)
+
+    phi = transverse_basis(a_panel, at, panels).value
+    slope_turning = transverse_basis(a_panel, turning_at, panels).slope
+    basis = transverse_basis(a_panel, x, panels)
+    turning = slope_turning.T @ (dj[:, None] * slope_turning)
+    return BladeFunctions(
+        blade=blade,
+        at=at,
+        dm=dm,
+        dj=dj,
+        bent=bent,
+        weights=weights,
+        to_masses=to_masses,
+        tension=((blade.hub + at) * dm) @ to_masses,
+        deflection=phi,
+        slope=transverse_basis(a_panel, inner, panels).slope,
+        slope_turning=slope_turning,
+        slope_bent=basis.slope,
+        curvature=basis.curvature,
+        tip=transverse_basis(a_panel, np.ones(1), panels).value[0],
+        mass=phi.T @ (dm[:, None] * phi) + turning,
+        bending=basis.curvature.T @ (bent[:, None] * basis.curvature),
+        turning=turning,
+    )

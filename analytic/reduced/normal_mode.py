@@ -1,0 +1,171 @@
+"""The first nonlinear normal mode of any straight blade, to fifth order in its amplitude.
+
+Inextensible, z' = exp(iθ), in the frame of the clamp, c = cos ψ of the setting angle. That the
+Lagrangian, averaged over a period, is stationary reads for every δθ, with δz' = iδθ exp(iθ),
+
+    ∫EI θ'δθ' dx + ∫θ̈ δθ dj + Re ∫ conj(δz) [z̈ + 2iw̄c ż - w̄²(δ + x + ic²y)] dm = 0,
+
+and is solved order by order in the amplitude ε, the periodic motion being odd in φ = Ωτ,
+
+    θ = ε φ' sin φ + ε² θ₂ + ε³ θ₃ + ...,      Ω² = ω_n² + ε² (Ω²)₂ + ε⁴ (Ω²)₄ + ...
+
+Harmonic m of order k is (K - m²ω_n²M) θ = -(what the lower orders leave): one linear solve takes
+all modes at once. In the first harmonic that has a solution for one (Ω²)_{k-1} only. Harmonics
+above the third never come back to (Ω²)₄. Nothing is fitted; λ comes out as FrM's, derived anew.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import solve
+
+from ..arrays import ComplexArray, FloatArray
+from ..methods.fourier import half_period
+from ..methods.power_series import product, turn
+from ..unit_blade import UnitBlade
+from .blade_functions import BladeFunctions, blade_functions
+
+_ORDER = 5
+_HARMONICS = 3
+_FUNCTIONS, _MORE, _MOST = 20, 12, 80
+_SETTLED = 1e-8
+"""Change of λ and κ from one basis to the next."""
+_KINKED = 1e-5  # change that is left where a section has kinks, with an algebraic tail
+
+
+class NormalMode(NamedTuple):
+    """Frequency and tip of the nonlinear normal mode; no dimensions.
+
+    The tip is at q/L = a sin φ + h2 a² sin 2φ + h3 a³ sin 3φ to leading order.
+
+    Attributes
+    ----------
+    w_n : float
+        w̄_n.
+    lambda_omega : float
+        λ of Ω = w̄_n (1 - λa² - κa⁴).
+    kappa, kappa_of_peak : float
+        κ where a is the first harmonic of q/L, and where it is its peak.
+    h2, h3 : float
+        Second and third harmonic of the tip, over a² and a³.
+    """
+
+    w_n: float
+    lambda_omega: float
+    kappa: float
+    kappa_of_peak: float
+    h2: float
+    h3: float
+
+
+@lru_cache(maxsize=64)
+def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
+    """Return the first nonlinear normal mode of the blade at w̄.
+
+    Raises
+    ------
+    ValueError
+        If 80 functions do not settle λ and κ, as where a section changes in steps.
+    """
+    count = _FUNCTIONS
+    found = _with_functions(blade, w_bar, count)
+    while True:
+        count += _MORE
+        finer = _with_functions(blade, w_bar, count)
+        change = max(
+            abs(finer.lambda_omega - found.lambda_omega),
+            abs(finer.kappa_of_peak - found.kappa_of_peak),
+        )
+        last = count + _MORE > _MOST
+        if change <= (_KINKED if last else _SETTLED):
+            return finer
+        if last:
+            raise ValueError(
+                f"the nonlinear normal mode has not settled with {count} functions: {_MORE} more "
+                f"change λ or κ by {change:.1e}; rotate slower, or smooth the section"
+            )
+        found = finer
+
+
+def _with_functions(blade: UnitBlade, w_bar: float, count: int) -> NormalMode:
+    of = blade_functions(blade, count)
+    first, w_n, _ = of.first_mode(w_bar)
+    K = of.stiffness(w_bar)
+    M_first = of.mass @ first
+    work = _VirtualWork(of, w_bar)
+    theta = np.zeros((_ORDER + 1, _HARMONICS, first.size))
+    theta[1, 0] = first
+    square, rate = np.zeros(_ORDER + 1), np.zeros(_ORDER + 1)  # of Ω² and of Ω
+    square[0], rate[0] = w_n**2, w_n
+    for k in range(2, _ORDER + 1):
+        left = work.harmonics(theta, rate, square, k)
+        if k % 2 == 0:
+            theta[k, 1] = -solve(K - 4.0 * w_n**2 * of.mass, left[1], assume_a="sym")
+            continue
+        square[k - 1] = (first @ left[0]) / (first @ M_first)
+        rate[k - 1] = (square[k - 1] - rate[1 : k - 1] @ rate[k - 2 : 0 : -1]) / (2.0 * w_n)
+        # The mode's own share stays ε: what is added is orthogonal to it.
+        bordered = np.block([[K - w_n**2 * of.mass, M_first[:, None]], [M_first, 0.0]])
+        right = np.append(square[k - 1] * M_first - left[0], 0.0)
+        theta[k, 0] = solve(bordered, right, assume_a="sym")[:-1]
+        theta[k, 2] = -solve(K - 9.0 * w_n**2 * of.mass, left[2], assume_a="sym")
+    return _of_series(w_n, rate / w_n, work.tip(theta))
+
+
+class _VirtualWork:
+    """The virtual work of a blade's motion as a series in its amplitude.
+
+    The motion θ is given by coefficients (orders, harmonics, n) of sin mφ.
+    """
+
+    def __init__(self, of: BladeFunctions, w_bar: float) -> None:
+        self._of, self._w_bar = of, w_bar
+        self._green = of.to_masses.T @ (of.dm[:, None] * of.to_masses)
+        self._hub = w_bar**2 * of.blade.hub * (of.dm @ of.to_masses)
+        self._half = half_period(_ORDER)
+        self._waves = self._half.waves.odd[:, :, :_HARMONICS]
+
+    def harmonics(
+        self, theta: FloatArray, rate: FloatArray, square: FloatArray, k: int
+    ) -> FloatArray:
+        """Return harmonics 1 to 3 of order k of the work (harmonics, n), without the bending's.
+
+        `rate` and `square` are the orders of Ω and of Ω².
+        """
+        of, c = self._of, self._of.blade.setting
+        rate, square = rate[:, None, None], square[:, None, None]
+        angle, first, second = (wave @ theta @ of.slope.T for wave in self._waves)
+        at = turn(angle)
+        # z̈' and 2iw̄c ż' over exp(iθ), and the centrifugal force of z' itself.
+        own = 1j * product(square, second) - product(square, product(first, first))
+        own -= 2.0 * self._w_bar * c * product(rate, first)
+        centrifugal = self._w_bar**2 * (at.real + 1j * c**2 * at.imag)
+        beyond = (product(at, own) - centrifugal) @ self._green
+        beyond[0] -= self._hub
+        work = product(at.conj(), beyond)[k].imag @ of.slope
+        work += product(square, self._waves[2] @ theta)[k] @ of.turning
+        return np.asarray(self._half.onto_odd[:_HARMONICS] @ work)
+
+    def tip(self, theta: FloatArray) -> FloatArray:
+        """Return the orders of harmonics 1 to 3 of the tip's deflection, (harmonics, orders)."""
+        at: ComplexArray = turn(self._waves[0] @ theta @ self._of.slope.T)
+        return np.asarray(self._half.onto_odd[:_HARMONICS] @ (at.imag @ self._of.weights).T)
+
+
+def _of_series(w_n: float, rate: FloatArray, tip: FloatArray) -> NormalMode:
+    """Return the normal mode from the orders of Ω/ω_n and of the tip's harmonics (3, orders)."""
+    more, h2, h3 = float(tip[0, 3]), float(tip[1, 2]), float(tip[2, 3])
+    lambda_omega, quartic = -float(rate[2]), -float(rate[4])
+    # The first harmonic is ε + more ε³, and the peak where cos φ = 2 h2 ε is ε + peak ε³.
+    peak = more - h3 + 2.0 * h2**2
+    return NormalMode(
+        w_n=w_n,
+        lambda_omega=lambda_omega,
+        kappa=quartic - 2.0 * more * lambda_omega,
+        kappa_of_peak=quartic - 2.0 * peak * lambda_omega,
+        h2=h2,
+        h3=h3,
+    )
