@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state
 from ..blade import Blade
-from ..methods.harmonic_balance import PeriodicOrbit
+from ..methods.periodic_orbit import PeriodicOrbit
 from ..methods.system import Tangent
 from .continuum import Continuum
 from .discretization import finer_model
