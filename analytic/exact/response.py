@@ -19,8 +19,10 @@ from .discretization import blade_continuum
 from .steady import section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
 
-_FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
-_STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
+_DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
+_A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
+_SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _MOST_STEPS = 100_000  # of one solution; some minutes
@@ -115,13 +117,15 @@ def spin_up_response(
     rotation = rippled(spin_up, loads)
     rotary = section_inertia(beam, rotary_inertia)
     along = points_of_beam("points", points, beam.length)
-    _require_feasible(beam, spin_up, time, along)
+    digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
+    _require_feasible(beam, spin_up, time, along, digits)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
-        functions = _FUNCTIONS + max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        functions = math.ceil(_A_DIGIT * digits)
+        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
         model = blade_continuum(beam.unit, beam.slenderness, functions, functions // 2, rotary)
         steady_rate(beam, spin_up.omega, model)
-        corners, counts = _steps(beam, spin_up, float(time[-1]), level)
+        corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
@@ -185,14 +189,16 @@ def _what_to_try(error: float, size: float, end: float) -> str:
         )
     return (
         f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
-        f"tolerance={2.0 * error:.0e} or a longer ramp"
+        f"tolerance={10.0 * error:.0e} or a longer ramp"
     )
 
 
-def _require_feasible(beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: FloatArray) -> None:
+def _require_feasible(
+    beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: FloatArray, digits: float
+) -> None:
     """Refuse what would take more time or memory than there is, before it starts."""
     end = float(time[-1])
-    steps = sum(_steps(beam, spin_up, end, level=1)[1])  # two solutions are the least
+    steps = sum(_steps(beam, spin_up, end, digits, level=1)[1])  # two solutions are the least
     if steps > _MOST_STEPS:
         raise ValueError(
             f"times up to {end:g} s take {steps:.3g} steps, more than the {_MOST_STEPS:.3g} "
@@ -206,14 +212,15 @@ def _require_feasible(beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: 
 
 
 def _steps(
-    beam: AnyBlade, spin_up: SpinUp, end: float, level: int
+    beam: AnyBlade, spin_up: SpinUp, end: float, digits: float, level: int
 ) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
     A corner is the end of the ramp, where Eq. 1 has a kink.
     """
     rate = spin_up.omega / beam.frequency_scale
-    longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level / beam.frequency_scale
+    first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
+    longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]
     if end > spin_up.ramp_time:
         corners.append(end)

@@ -18,6 +18,7 @@ from .continuum import Continuum
 from .loading import pushes, unit_loads
 
 _STAGES = 8
+_MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
 def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
@@ -65,7 +66,10 @@ def integrated(
     time: FloatArray,
     points: FloatArray,
 ) -> Motion | None:
-    """Return the motion on the grid of steps, None where Newton's method fails."""
+    """Return the motion on the grid of steps, None where Newton's method fails.
+
+    A step on which it does is halved first, as often as it takes.
+    """
     method, per_second = radau(_STAGES), beam.frequency_scale
     drive = _drive(beam, rotation, loads, model)
     q, q_dot = np.zeros(model.size), np.zeros(model.size)
@@ -74,7 +78,9 @@ def integrated(
     z_dot = np.zeros(time.size, dtype=np.complex128)
     axis = np.broadcast_to(points, (time.size, points.size)).astype(np.complex128)
     previous = 0.0
-    for start, end in pairwise(grid):
+    ahead = list(pairwise(grid))[::-1]
+    while ahead:
+        start, end = ahead.pop()
         h = (end - start) * per_second
         stages = start + (end - start) * method.nodes
         guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
@@ -88,7 +94,11 @@ def integrated(
             if found is not None:
                 break
         if found is None:
-            return None
+            if end - start < (grid[-1] - grid[0]) / _MOST_PIECES:
+                return None
+            middle = 0.5 * (start + end)
+            ahead += [(middle, end), (start, middle)]
+            continue
         acceleration, previous = found, h
         inside = slice(*np.searchsorted(time, (start, end), side="right"))
         at = (time[inside] - start) / (end - start)
