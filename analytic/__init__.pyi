@@ -29,6 +29,8 @@ from .loads import SpeedRipple as SpeedRipple
 from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
+from .ramps import SmoothRamp as SmoothRamp
+from .ramps import Table as Table
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed

@@ -1,4 +1,4 @@
-"""Spin-up of the exact beam from rest, integrated until its own refinement agrees."""
+"""Spin-up of the exact beam, or another change of its speed, refined until two solutions agree."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
-from ..motion import SpinUp
+from ..ramps import AnyRamp, fastest
 from .discretization import blade_continuum
 from .steady import section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
@@ -37,7 +37,7 @@ class SpinUpResponse:
     Attributes
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp
+    spin_up : SpinUp, SmoothRamp or Table
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -57,7 +57,7 @@ class SpinUpResponse:
     """
 
     beam: AnyBlade
-    spin_up: SpinUp
+    spin_up: AnyRamp
     time: FloatArray
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
@@ -70,7 +70,7 @@ class SpinUpResponse:
 
 def spin_up_response(
     beam: AnyBlade,
-    spin_up: SpinUp,
+    spin_up: AnyRamp,
     times: float | ArrayLike,
     *,
     tolerance: float = 1e-8,
@@ -78,7 +78,7 @@ def spin_up_response(
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
 ) -> SpinUpResponse:
-    """Return the exact response of the beam, damped or not, at rest and straight before t = 0.
+    """Return the exact response of the beam, damped or not, that does not swing before t = 0.
 
     Radau collocation of order 15 in the rotating frame, with the centrifugal, Coriolis and Euler
     forces of the spin-up; step and functions are refined together until two solutions agree.
@@ -86,7 +86,8 @@ def spin_up_response(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp
+    spin_up : SpinUp, SmoothRamp or Table
+        Before it the beam is straight, and stretched as the speed at t = 0 has it.
     times : array_like
         Times of the response [s], ascending, not before 0.
     tolerance : float
@@ -107,12 +108,13 @@ def spin_up_response(
         If the tolerance is not reached.
     """
     time, tolerance = _checked(times, tolerance)
-    if not isinstance(spin_up, SpinUp):
+    if not isinstance(spin_up, AnyRamp):
         raise TypeError(
-            f"spin_up must be a SpinUp, from rest, got {spin_up!r}; for a beam that turns already "
-            f"take periodic_orbits"
+            f"spin_up must be a SpinUp, a SmoothRamp or a Table, got {spin_up!r}; for a beam that "
+            f"turns steadily take periodic_orbits"
         )
-    warn_if_rpm(beam, spin_up.omega)
+    highest = fastest(spin_up)
+    warn_if_rpm(beam, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
     rotary = section_inertia(beam, rotary_inertia)
@@ -124,12 +126,12 @@ def spin_up_response(
         functions = math.ceil(_A_DIGIT * digits)
         functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
         model = blade_continuum(beam.unit, beam.slenderness, functions, functions // 2, rotary)
-        steady_rate(beam, spin_up.omega, model)
+        steady_rate(beam, highest, model)
         corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        finer = integrated(beam, rotation, loads, model, grid, time, along)
+        finer = integrated(beam, rotation, loads, model, grid, time, along, spin_up.start)
         if finer is None:
             coarser = None
             continue
@@ -194,7 +196,7 @@ def _what_to_try(error: float, size: float, end: float) -> str:
 
 
 def _require_feasible(
-    beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: FloatArray, digits: float
+    beam: AnyBlade, spin_up: AnyRamp, time: FloatArray, along: FloatArray, digits: float
 ) -> None:
     """Refuse what would take more time or memory than there is, before it starts."""
     end = float(time[-1])
@@ -212,19 +214,19 @@ def _require_feasible(
 
 
 def _steps(
-    beam: AnyBlade, spin_up: SpinUp, end: float, digits: float, level: int
+    beam: AnyBlade, spin_up: AnyRamp, end: float, digits: float, level: int
 ) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
-    A corner is the end of the ramp, where Eq. 1 has a kink.
+    A corner is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    rate = spin_up.omega / beam.frequency_scale
+    rate = fastest(spin_up) / beam.frequency_scale
     first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
     longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]
     if end > spin_up.ramp_time:
         corners.append(end)
     # A short ramp still has to be seen as the smooth curve it is.
-    lengths = (min(longest, spin_up.ramp_time / 4.0), longest)
+    lengths = (min(longest, spin_up.shortest_wave / 4.0), longest)
     parts = zip(pairwise(corners), lengths, strict=False)
     return corners, [math.ceil((b - a) / step) for (a, b), step in parts]
