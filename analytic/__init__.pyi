@@ -30,6 +30,8 @@ from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
+from .ramps import SmoothRamp as SmoothRamp
+from .ramps import Table as Table
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed
