@@ -98,6 +98,7 @@ def planar_stability(
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
     *,
+    inextensible: bool = False,
     steps: int = STEPS,
 ) -> PlanarStability:
     """Return whether the planar orbits of a blade stay in the plane of rotation.
@@ -116,6 +117,8 @@ def planar_stability(
         Peak tip deflections |q|/L of the orbits.
     mode : int
         In-plane mode from which they grow, from 1.
+    inextensible : bool
+        Leave the extension of the orbits out, the limit μ → 0.
     steps : int
         Steps over a period; twice as many are taken, and as many again to see what that changes.
 
@@ -128,7 +131,7 @@ def planar_stability(
     """
     require_out_of_plane(blade)
     steps = whole_number("steps", steps)
-    orbits = periodic_orbits(blade, omega, amplitudes, mode)
+    orbits = periodic_orbits(blade, omega, amplitudes, mode, inextensible=inextensible)
     found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(
