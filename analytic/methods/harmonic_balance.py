@@ -107,6 +107,7 @@ class LastTangent:
 
     def solve(self, defect: FloatArray) -> FloatArray:
         """Return what the defect takes to vanish."""
+        assert self.factors is not None
         return np.asarray(linalg.lu_solve(self.factors, defect, check_finite=False))
 
 
