@@ -5,15 +5,19 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from json import dumps
 from pathlib import Path
 
-from ..files.results import whole_file
+from ..files.results import whole_file, writable_folder
+from ..report.document import SCHEMA, document
+from ..report.page import TITLE, report_page
+from ..report.record import Record
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
 from ..verification.mistakes.mistake import Mistake
 from ..verification.mistakes.search import mistakes_in
 from ..verification.submission_files.faults import MalformedSubmissionError
-from ..verification.submission_files.reading import read_submission
+from ..verification.submission_files.reading import digests, read_submission
 from .output import new_console
 from .verdicts import print_judgements, print_note
 
@@ -49,8 +53,6 @@ def judge(
     for target, ending in ((report, ".html"), (json, ".json")):
         if target is not None:
             _may_write(target, ending)
-    if run:
-        _run_what_is_missing(folder)
     try:
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
@@ -63,6 +65,14 @@ def judge(
     print_judgements([found], f"benchmark {VERSION}")
     for source in dict.fromkeys(found.sources.values()):
         print_note(f"reference: {source}")
+    record = Record(
+        submission=submission, judgement=found, mistakes=tuple(mistakes),
+        digests=digests(folder, submission),
+    )  # fmt: skip
+    if report is not None:
+        _write(report_page(record), report)
+    if json is not None:
+        _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
     sys.exit(0 if found.passed else 1)
 
 
@@ -74,11 +84,19 @@ def _known_cases(case: Sequence[str] | None) -> tuple[str, ...]:
 
 
 def _may_write(target: Path, ending: str) -> None:
-    pass
+    """Refuse a target of another ending, in a folder that cannot be written, or not of ours."""
+    if target.suffix != ending:
+        raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
+    writable_folder(target.parent)
+    ours = TITLE.encode(), SCHEMA.encode()
+    if target.exists() and not any(mark in target.read_bytes()[:1000] for mark in ours):
+        raise FileExistsError(f"{target} is there and is no judgement: choose another name")
 
 
-def _run_what_is_missing(folder: Path) -> None:
-    pass
+def _write(text: str, target: Path) -> None:
+    with whole_file(target) as partial:
+        partial.write_text(text, encoding="utf-8")
+    print_note(f"{target}, {target.stat().st_size / 1e6:.1f} MB")
 
 
 def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
