@@ -18,8 +18,14 @@ from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
 from .exact.periodic import periodic_orbits as periodic_orbits
+from .exact.planarity import PlanarStability as PlanarStability
+from .exact.planarity import planar_stability as planar_stability
 from .exact.response import SpinUpResponse as SpinUpResponse
 from .exact.response import spin_up_response as spin_up_response
+from .exact.stability_limit import StabilityLimit as StabilityLimit
+from .exact.stability_limit import growth_map as growth_map
+from .exact.stability_limit import limit_map as limit_map
+from .exact.stability_limit import stability_limit as stability_limit
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
@@ -30,6 +36,8 @@ from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
+from .ramps import SmoothRamp as SmoothRamp
+from .ramps import Table as Table
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed

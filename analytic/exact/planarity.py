@@ -13,16 +13,19 @@ from scipy import linalg
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import whole_number
-from ..methods.floquet import scaled_monodromy
+from ..methods.floquet import reversible_monodromy
 from .periodic import periodic_orbits
 from .space import OutOfPlaneMotion, Space, require_out_of_plane
 from .steady import BeamOrbit, SteadyBeam
 
 GROWTH = 1e-5
-"""Growth over a period above which a motion is unstable; the double multipliers' round-off is below."""
+"""Growth over a period above which a motion is unstable, above the round-off of double ones."""
 STEPS = 24
-_FEWEST, _MOST = 8, 48  # functions
-_SETTLED = 1e-3  # of the first three flap frequencies, from which twice as many functions follow
+_FEWEST, _MOST = 12, 40  # functions
+_SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
+_RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
+_FASTEST = 20.0  # growth over a period that is not looked at more closely
+_FAST = 1.0  # growth over a period beyond which it is no matter of resolution
 _SAME = 0.01  # of the growth, from half the functions and steps
 _REPORTED = 4  # modes
 _SHARE = 0.15  # of the energy, from which a mode is named
@@ -54,7 +57,8 @@ class PlanarStability:
     modes : tuple of tuple of str
         The modes that hold its energy as the blade passes its straight shape, as "flap 1".
     converged : ndarray (orbits,)
-        Whether half as many functions and steps tell the same: stable, or growth within 1 %.
+        Whether on half, or two thirds, as many functions and steps it is stable as well, or grows
+        within 1 % as fast.
     """
 
     blade: AnyBlade
@@ -71,7 +75,7 @@ class PlanarStability:
     @property
     def stable(self) -> NDArray[np.bool_]:
         """Whether nothing grows out of the plane, (orbits,)."""
-        return self.growth_rate == 0.0
+        return np.asarray(self.growth_rate == 0.0)
 
     def __str__(self) -> str:
         unstable = ~self.stable
@@ -94,6 +98,7 @@ def planar_stability(
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
     *,
+    inextensible: bool = False,
     steps: int = STEPS,
 ) -> PlanarStability:
     """Return whether the planar orbits of a blade stay in the plane of rotation.
@@ -112,6 +117,8 @@ def planar_stability(
         Peak tip deflections |q|/L of the orbits.
     mode : int
         In-plane mode from which they grow, from 1.
+    inextensible : bool
+        Leave the extension of the orbits out, the limit μ → 0.
     steps : int
         Steps over a period; twice as many are taken, and as many again to see what that changes.
 
@@ -124,7 +131,7 @@ def planar_stability(
     """
     require_out_of_plane(blade)
     steps = whole_number("steps", steps)
-    orbits = periodic_orbits(blade, omega, amplitudes, mode)
+    orbits = periodic_orbits(blade, omega, amplitudes, mode, inextensible=inextensible)
     found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(
@@ -169,14 +176,21 @@ class Growth(NamedTuple):
 
 
 def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
-    """Return what grows, and whether half as many functions and steps tell the same."""
+    """Return what grows, and whether half as many functions and steps tell the same.
+
+    Or two thirds as many, where half as many do not.
+    """
     functions = settled_functions(blade, orbit.system)
     rough = grown(blade, orbit, functions, steps)
-    fine = grown(blade, orbit, 2 * functions, 2 * steps)
-    if not (rough.unstable or fine.unstable):
-        return fine, True
-    same = rough.unstable and fine.unstable and rough.kind == fine.kind
-    return fine, same and abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
+    for finer in (2, 3):
+        fine = grown(blade, orbit, finer * functions, finer * steps)
+        if not (rough.unstable or fine.unstable):
+            return fine, True
+        close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
+        if (close and rough.kind == fine.kind) or fine.exponent > _FASTEST:
+            break
+        rough = fine
+    return fine, close
 
 
 def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Growth:
@@ -185,23 +199,25 @@ def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Grow
     orbit = orbit.on(_with_points_for(orbit.system, space.functions))
     motion = OutOfPlaneMotion(orbit, space)
     try:
-        matrix, exponent = scaled_monodromy(motion, steps)
+        matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
     except linalg.LinAlgError:
         return Growth(np.inf, np.full(2 * _REPORTED, np.nan + 0j), "divergence", ("torsion 1",))
     values, vectors = np.linalg.eig(matrix)
-    names, energy = _energies(space, orbit.system, vectors)
-    place = np.arange(len(energy)) @ (energy / energy.sum(axis=0))
-    largest = int(np.argmax(np.abs(values)))
+    frequencies, names, shares = _shares(space, orbit.system, vectors)
+    place = np.arange(len(shares)) @ shares
+    sizes = np.log(np.maximum(np.abs(values), 1e-300)) + exponent
+    # What oscillates too fast for the steps comes out at a wrong place and may meet others there.
+    slow = frequencies < _RESOLVED * steps * orbit.frequency / (2.0 * np.pi)
+    told = (slow @ shares > 0.5) | (sizes > _FAST)
+    largest = int(np.argmax(np.where(told, sizes, -np.inf)))
     with np.errstate(over="ignore", invalid="ignore"):
         lowest = (values * np.exp(exponent))[np.argsort(place)[: 2 * _REPORTED]]
-    growth = Growth(float(np.log(np.abs(values[largest])) + exponent), lowest.astype(complex))
+    growth = Growth(float(sizes[largest]), lowest.astype(complex))
     if not growth.unstable:
         return growth
-    shares = energy[:, largest] / energy[:, largest].sum()
-    by_share = np.argsort(shares)[::-1]
-    value = values[largest]
+    value, share = values[largest], shares[:, largest]
     kind = "sum resonance" if value.imag else "divergence" if value.real > 0 else "period doubling"
-    modes = tuple(names[k] for k in by_share[:2] if shares[k] >= _SHARE or k == by_share[0])
+    modes = tuple(names[k] for k in np.argsort(-share)[:2] if share[k] >= min(_SHARE, share.max()))
     return growth._replace(kind=kind, modes=modes)
 
 
@@ -210,7 +226,7 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     before, functions = None, _FEWEST
     while functions < _MOST:
         space = Space(blade, functions)
-        flap = _steady_modes(space, _with_points_for(planar, space.functions))[0][:3]
+        flap = _steady_modes(space, _with_points_for(planar, space.functions))[0][:4]
         if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
             return functions - functions // 3
         before, functions = flap, functions + functions // 2
@@ -242,13 +258,16 @@ def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatAr
     return np.concatenate(frequencies), np.concatenate(rows), names
 
 
-def _energies(
+def _shares(
     space: Space, planar: SteadyBeam, states: ComplexArray
-) -> tuple[list[str], FloatArray]:
-    """Return the modes' names, the slowest first, and the energy of each in each state."""
+) -> tuple[FloatArray, list[str], FloatArray]:
+    """Return the modes' frequencies and names, the slowest first, and their shares of the energy.
+
+    The shares are (modes, states).
+    """
     frequencies, rows, names = _steady_modes(space, planar)
     n = space.size
     energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
     energy += np.abs(rows @ states[n:]) ** 2
     order = np.argsort(frequencies)
-    return [names[k] for k in order], energy[order]
+    return frequencies[order], [names[k] for k in order], (energy / energy.sum(axis=0))[order]

@@ -132,7 +132,13 @@ class Space:
     def stiffness(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
     ) -> FloatArray:
-        """Return the stiffness (samples, n, n) about a planar motion of `planar`."""
+        """Return the stiffness (samples, n, n) about a planar motion of `planar`.
+
+        Raises
+        ------
+        LinAlgError
+            If the twist has no inertia and buckles.
+        """
         model, g, r = planar.model, self.g, self.section.bending_ratio
         x, panels = model.points, self.unit.panels
         kappa, e, change = model.bent(q)
@@ -156,6 +162,7 @@ class Space:
         mixed = g * _form(angle, moment, phi.slope) + (1.0 - r) * _form(bent, moment, phi.value)
         twisted = self.twist_stiffness + (r - 1.0) * _form(phi.value, moment * kappa, phi.value)
         if self.twist == "quasi-static":
+            np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
             return np.asarray(straight - mixed @ followed)
         return np.concatenate(
@@ -196,6 +203,11 @@ class OutOfPlaneMotion:
         n = self.space.size
         M = np.broadcast_to(self.space.mass, K.shape)
         return Tangent(np.zeros((phase.size, n)), K, np.zeros_like(K), M)
+
+    @property
+    def signs(self) -> FloatArray:
+        """How time reversal changes the coordinates: the twist turns with the curvature."""
+        return np.where(np.arange(self.space.size) < self.space.functions, 1.0, -1.0)
 
     def constants(self) -> None:
         """Return None: nothing is known beforehand of its multipliers."""

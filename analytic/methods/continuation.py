@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Generic
 
 import numpy as np
 
 from ..arrays import FloatArray
-from .harmonic_balance import NoOrbitError, PeriodicOrbit, S, solve
+from .harmonic_balance import LastTangent, NoOrbitError, solve
+from .periodic_orbit import PeriodicOrbit, S
 
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
@@ -23,6 +25,8 @@ MOST_FUNCTIONS = 128
 _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
+_SAME_AMPLITUDE = 1e-14  # steps add up to 0.3 within round-off
+_FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the amplitudes
 
 
 def linear_orbit(
@@ -65,6 +69,7 @@ class Path(Generic[S]):
     nodes: list[PeriodicOrbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
+    _tangent: LastTangent = field(init=False, default_factory=LastTangent)
 
     def __post_init__(self) -> None:
         self.nodes = [self.seed, self.double]
@@ -81,17 +86,17 @@ class Path(Generic[S]):
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
         below = self.nodes[max(place - 1, 0)]
-        if below.amplitude == amplitude:
-            return below
-        before = self.nodes[place - 2] if place >= 2 else None
-        above = self.nodes[place] if place < len(self.nodes) else None
-        guesses = [_predicted(below, before, amplitude)]
-        if above is not None and amplitude > below.amplitude:
-            guesses = [_on_line(below, above, amplitude), *guesses, above.scaled(amplitude)]
+        for node in (below, *self.nodes[place : place + 1]):
+            if abs(node.amplitude - amplitude) < _SAME_AMPLITUDE:
+                return replace(node, amplitude=amplitude)
+        lower, upper = self.nodes[max(place - 3, 0) : max(place, 1)], self.nodes[place : place + 1]
+        guesses = [_through(lower, amplitude), below]
+        if upper and place:
+            guesses = [_through([*lower, *upper], amplitude), *guesses, *upper]
         reasons = []
         for guess in guesses:
             try:
-                return _resolved(guess, amplitude)
+                return _resolved(guess.scaled(amplitude), amplitude, self._tangent)
             except NoOrbitError as reason:
                 reasons.append(str(reason))
         raise NoOrbitError(reasons[0], below)
@@ -115,39 +120,38 @@ class Path(Generic[S]):
         raise NoOrbitError(self._end, last)
 
     def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
-        return _resolved(_predicted(self.nodes[-1], self.nodes[-2], amplitude), amplitude)
+        guess = _through(self.nodes[-3:], amplitude)
+        return _resolved(guess, amplitude, self._tangent)
 
 
-def _predicted(
-    last: PeriodicOrbit[S], before: PeriodicOrbit[S] | None, amplitude: float
-) -> PeriodicOrbit[S]:
-    """Return the guess: harmonic k as a^k, times a linear function of a² if two are known."""
-    guess = last.scaled(amplitude)
-    # Far below, the high harmonics of `before` are round-off.
-    if before is None or not 0.0 < amplitude - last.amplitude < before.amplitude:
-        return guess
-    return _on_line(last, before, amplitude)
-
-
-def _on_line(one: PeriodicOrbit[S], other: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
-    """Return the guess from two orbits: harmonic k as a^k, times a linear function of a²."""
-    finer = max(one.system, other.system, key=lambda system: system.functions)
-    here, there = (
-        orbit.scaled(amplitude).with_harmonics(one.harmonics).on(finer) for orbit in (one, other)
+def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOrbit[S]:
+    """Return the guess through orbits: harmonic k as a^k, times a polynomial of a²."""
+    # Far below, the high harmonics are round-off.
+    near = [orbit for orbit in orbits if amplitude < _FARTHEST * orbit.amplitude]
+    last = near[-1] if near else orbits[-1]
+    finer = max(
+        (orbit.system for orbit in near), key=lambda one: one.functions, default=last.system
     )
-    weight = (amplitude**2 - one.amplitude**2) / (other.amplitude**2 - one.amplitude**2)
+    here = [
+        orbit.scaled(amplitude).with_harmonics(last.harmonics).on(finer) for orbit in near or [last]
+    ]
+    squares = np.array([orbit.amplitude**2 for orbit in near or [last]])
+    weights = [
+        np.prod([(amplitude**2 - other) / (one - other) for other in squares if other != one])
+        for one in squares
+    ]
     return replace(
-        here,
-        coefficients=here.coefficients + weight * (there.coefficients - here.coefficients),
-        frequency=here.frequency + weight * (there.frequency - here.frequency),
+        here[-1],
+        coefficients=sum(w * orbit.coefficients for w, orbit in zip(weights, here, strict=True)),
+        frequency=float(sum(w * orbit.frequency for w, orbit in zip(weights, here, strict=True))),
     )
 
 
-def _resolved(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+def _resolved(guess: PeriodicOrbit[S], amplitude: float, tangent: LastTangent) -> PeriodicOrbit[S]:
     """Return the orbit near `guess` with as many harmonics and functions as it needs."""
-    orbit = solve(guess, amplitude)
+    orbit = solve(guess, amplitude, tangent)
     while (larger := refined(orbit)) is not None:
-        orbit = solve(larger, amplitude)
+        orbit = solve(larger, amplitude, tangent)
     return orbit
 
 

@@ -17,10 +17,11 @@ FLOORS = {
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
         {"profiles", "motion", "out_of_plane", "point_mass"},
-        {"unit_blade", "section", "loads"},
+        {"unit_blade", "section", "loads", "ramps"},
         {"blade"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other
+        {"spin_up"},
     ],
     "rotbeam_exu": [
         {"paper", "resolution", "tones", "verdict", "files"},

@@ -1,0 +1,125 @@
+"""Make the shipped reference data anew: `python -m rotbeam_exu.verification.regenerate`.
+
+Takes ten minutes. Look at what moved, and by how much against the bounds, before committing it.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from rich.progress import track
+from scipy.interpolate import CubicSpline
+
+from analytic import AnyBlade, periodic_orbits
+from analytic.arrays import FloatArray
+from analytic.input_checks import RotbeamWarning
+
+from .cases import CASES, VERSION, Case
+from .sampled import Sampled, sampled_history
+from .shipped import DURATION, FILE, amplitudes, shipped_backbones, shipped_histories
+from .theory import BERNOULLI_EULER
+
+SPACING = 5e-3
+"""Of the shipped samples [s]."""
+
+TOLERANCES = {"S1+m": 4e-7, "S1+g": 1e-6}
+"""Of histories over max|q|, 1e-8 of others: gravity that sets in at once, and the tip mass, move
+the highest modes too."""
+
+_QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress
+
+
+def dataset(commit: str) -> xr.Dataset:
+    """Compute all shipped data, for the commit that makes them."""
+    cases = shipped_histories()
+    found = {name: history(cases[name]) for name in track(list(cases), "histories")}
+    places = shipped_backbones()
+    curves = {name: backbone(*places[name]) for name in track(list(places), "backbones")}
+    linear = CASES["L"]
+    frequencies = [BERNOULLI_EULER.first_frequency(linear.blade, w) for w in linear.speeds]
+    errors = [error for *_, error in curves.values()]
+    first = next(iter(found.values()))
+    described = {
+        "q": ("deflection of the tip across the turning line of the clamp", "m"),
+        "bound": ("error of q over max|q|, interpolation by a quintic spline included", "1"),
+        "omega_n": ("natural frequency", "rad/s"),
+        "curvature": ("(1 - ω_NL/ω_n)/a², a cubic spline over a²", "1"),
+        "first_frequency": ("first natural frequency in steady rotation", "rad/s"),
+        "time": ("time", "s"),
+        "amplitude": ("a, peak |q| over the length", "1"),
+        "speed": ("rotation speed", "rad/s"),
+    }
+    data = xr.Dataset(
+        {
+            "q": (("history", "time"), [one.q for one in found.values()]),
+            "bound": ("history", [one.error for one in found.values()]),
+            "omega_n": ("backbone", [one[0] for one in curves.values()]),
+            "curvature": (("backbone", "amplitude"), [one[1] for one in curves.values()]),
+            "first_frequency": ("speed", frequencies),
+        },
+        {
+            "history": list(found), "time": first.time, "backbone": list(curves),
+            "amplitude": amplitudes(), "speed": list(linear.speeds),
+        },
+        {
+            "title": "Reference data of the rotating beam benchmark",
+            "benchmark": VERSION,
+            "method": "the exact beam by Radau collocation of order 15 and by harmonic balance",
+            "commit": commit,
+            "frequency_bound": max(errors),
+        },
+    )  # fmt: skip
+    for name, (text, unit) in described.items():
+        data[name].attrs = {"long_name": text, "units": unit}
+    return data
+
+
+def history(case: Case) -> Sampled:
+    """Compute one history, rounded."""
+    tolerance = TOLERANCES.get(case.name, 1e-8)
+    case = replace(case, duration=DURATION)
+    found = sampled_history(case, BERNOULLI_EULER, tolerance=tolerance, spacing=SPACING)
+    # A power of two, so that rounding leaves trailing zeros in the mantissa.
+    quantum = 2.0 ** np.floor(np.log2(_QUANTUM * np.abs(found.q).max()))
+    return Sampled(time=found.time, q=np.round(found.q / quantum) * quantum, error=found.error)
+
+
+def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
+    """Compute ω_n, the curvature at `amplitudes`, and the relative error of ω_NL.
+
+    The error is that of the spline halfway between its points, and the change by half as many
+    functions again.
+    """
+    at = amplitudes()
+    halfway = 0.5 * (at[2:] + at[1:-1])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RotbeamWarning)  # a resonance that is known to be near
+        found = periodic_orbits(blade, speed, np.concatenate((at[1:], halfway)))
+        finer = periodic_orbits(blade, speed, at[10::10], functions=24)
+    curvature = (1.0 - found.frequency / found.omega_n) / found.amplitude**2
+    known, between = np.split(curvature, [at.size - 1])
+    known = np.concatenate(([found.lambda_omega], known))
+    of_spline = (CubicSpline(at**2, known)(halfway**2) - between) * halfway**2
+    of_functions = finer.frequency / found.frequency[9 : at.size - 1 : 10] - 1.0
+    error = float(np.abs(of_spline).max() + np.abs(of_functions).max())
+    return found.omega_n, known, error
+
+
+def main() -> None:
+    """Write the file of the package."""
+    root = Path(__file__).parents[2]
+    described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
+    commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()
+    data = dataset(commit)
+    packed = {name: {"zlib": True, "complevel": 9, "shuffle": True} for name in ("q", "curvature")}
+    FILE.parent.mkdir(exist_ok=True)
+    data.to_netcdf(FILE, engine="h5netcdf", encoding=packed)
+
+
+if __name__ == "__main__":
+    main()
