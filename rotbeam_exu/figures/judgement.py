@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
-from ..paper import BLUE, ORANGE
-from ..verification.history import Histories
+from analytic.arrays import FloatArray
+
+from ..paper import ORANGE
+from ..verification.convergence import Convergence, convergence, convergence_of_functions
+from ..verification.history import HISTORY_FLOOR, Histories
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding
 from ..verification.submission import Run
@@ -46,8 +50,7 @@ def judged_history(histories: Histories) -> Axes:
         above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
         above.set_ylabel("$q$ [m]")
         above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
-        runs = list(dict.fromkeys((*histories.rows.meshes, *histories.rows.steps)))
-        for run, color in zip(runs, _shades(len(runs)), strict=True):
+        for run, color in _colors(histories).items():
             every = max(1, run.time.size // _MOST_POINTS)
             largest = np.maximum.accumulate(np.abs(histories.differences[run]))[::every]
             below.semilogy(run.time[::every], largest, color=color, label=_name(run))
@@ -70,23 +73,28 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
     Axes or None
         The first ones, of a new figure; None if no quantity has two meshes.
     """
-    findings = judgement.findings[name]
-    drawn = {key: one for key, one in findings.items() if _has_errors(one)}
+    histories, declared = judgement.histories.get(name), judgement.declaration
+    drawn = _in_mesh(judgement.findings[name], histories, declared.order)
     if not drawn:
         return None
-    histories = judgement.histories.get(name)
-    timed = [run for run in histories.runs if run.wall > 0.0] if histories else []
     steps = histories.rows.steps if histories else ()
-    count = 1 + bool(steps) + bool(timed)
-    figure, grid = new_figure(COLUMNS / 3.0 * count, 2.5, ncols=count, squeeze=False)
+    timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
+    count = 1 + bool(steps) + timed
+    _, grid = new_figure(COLUMNS / 3.0 * count, 2.5, ncols=count, squeeze=False)
     axes = list(grid[0])
     with mpl.rc_context(STYLE):
-        _draw_meshes(axes[0], drawn, judgement.declaration.order)
+        elements = 1.0 / next(iter(drawn.values())).sizes
+        _draw_errors(axes[0], drawn, elements, declared.order)
+        axes[0].set(xlabel="elements", ylabel="run - limit in the mesh")
         if histories and steps:
-            _draw_steps(axes[1], histories, steps, judgement.declaration.order_in_step)
+            sizes = np.array([run.step for run in steps])
+            runs = _of_functions(histories, steps, sizes, declared.order_in_step)
+            _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
+            axes[1].set(
+                xlabel=f"step [ms], {steps[0].elements} elements", ylabel="run - limit in the step"
+            )
         if histories and timed:
-            _draw_cost(axes[-1], histories, timed)
-    figure.align_labels()
+            _draw_cost(axes[-1], histories, _colors(histories))
     first: Axes = axes[0]
     return first
 
@@ -107,85 +115,95 @@ def _name(run: Run) -> str:
     return f"{run.elements} × {1e3 * run.step:g} ms"
 
 
-def _shades(count: int) -> list[Any]:
-    """Return colors from light to dark."""
-    return [mpl.colormaps["viridis_r"](0.15 + 0.8 * k / max(count - 1, 1)) for k in range(count)]
+def _colors(histories: Histories) -> dict[Run, Any]:
+    """Return a color for each run, from light to dark, the finest last."""
+    rows = histories.rows
+    runs = sorted({*rows.meshes, *rows.steps}, key=lambda run: (run.elements, -run.step))
+    shades = np.linspace(0.3, 1.0, len(runs))
+    return dict(zip(runs, map(mpl.colormaps["viridis_r"], shades), strict=True))
 
 
-def _has_errors(found: Finding) -> bool:
-    return found.runs is not None and math.isfinite(found.runs.limit) and found.runs.sizes.size > 1
-
-
-def _draw_meshes(ax: Axes, findings: dict[str, Finding], declared: float | None) -> None:
-    """Draw |run - limit| of each quantity with the bar of the limit, and the declared order."""
-    largest = []
-    styles = zip(findings.items(), CYCLE, _MARKERS, strict=False)
-    for (quantity, found), color, marker in styles:
-        assert found.runs is not None
-        elements, errors = 1.0 / found.runs.sizes, np.abs(found.runs.errors)
-        bars = np.minimum(found.runs.error_bars, 0.9 * errors), found.runs.error_bars
+def _draw_errors(
+    ax: Axes, found: Mapping[str, Convergence], places: FloatArray, declared: float | None
+) -> None:
+    """Draw the distance from the limit with its bar, and the declared order above the first."""
+    for (quantity, runs), color, marker in zip(found.items(), CYCLE, _MARKERS, strict=False):
+        errors = np.maximum(np.abs(runs.errors), 1e-16)
+        bars = np.minimum(runs.error_bars, 0.9 * errors), runs.error_bars
         ax.errorbar(
-            elements, errors, yerr=bars, color=color, marker=marker, ms=3.5, capsize=2.0,
+            places, errors, yerr=bars, color=color, marker=marker, ms=3.5, capsize=2.0,
             elinewidth=0.6, label=_SYMBOLS[quantity],
         )  # fmt: skip
-        largest.append((elements, errors))
-    elements, errors = max(largest, key=lambda one: float(one[1][0]))
-    if declared and errors[0]:
-        line = 2.0 * errors[0] * (elements / elements[0]) ** -declared
-        ax.plot(elements, line, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}")
-    ax.set(xscale="log", yscale="log", xlabel="elements", ylabel="|run - limit|, relative")
-    _tick(ax, elements, "{:g}")
-    ax.legend(loc="best")
-
-
-def _draw_steps(
-    ax: Axes, histories: Histories, steps: Sequence[Run], declared: float | None
-) -> None:
-    """Draw what q(t) changes from each step to the smallest."""
-    finest = steps[-1]
-    h = np.array([run.step for run in steps[:-1]]) * 1e3
-    end = min(float(run.time[-1]) for run in steps)
-    time = finest.time[finest.time <= end]
-    last = histories.differences[finest][: time.size]
-    changes = [
-        float(np.abs(np.interp(time, run.time, histories.differences[run]) - last).max())
-        for run in steps[:-1]
-    ]
-    ax.plot(h, changes, color=BLUE, marker="o", ms=3.5, label=f"{finest.elements} elements")
-    if declared and changes[-1]:
-        smallest = 1e3 * finest.step
-        shape = h**declared - smallest**declared
-        ax.plot(
-            h, 2.0 * changes[-1] * shape / shape[-1], color="0.5", lw=0.7, ls="--",
-            label=f"order {declared:g}",
-        )  # fmt: skip
-    ax.set(
-        xscale="log", yscale="log", xlabel="step [ms]",
-        ylabel=f"|run - run at {1e3 * finest.step:g} ms|",
-    )  # fmt: skip
-    _tick(ax, h, "{:g}")
-    ax.legend(loc="best")
-
-
-def _draw_cost(ax: Axes, histories: Histories, timed: Sequence[Run]) -> None:
-    """Draw the error of q(t) over the time that it took, on the author's machine."""
-    wall = np.array([run.wall for run in timed])
-    error = np.array([float(np.abs(histories.differences[run]).max()) for run in timed])
-    ax.plot(wall, error, color=ORANGE, marker="s", ms=3.5, ls="none")
-    for run, x, y in zip(timed, wall, error, strict=True):
-        ax.annotate(
-            _name(run), (x, y), xytext=(0, 5), textcoords="offset points", fontsize=5.5,
-            ha="center", color="0.25",
-        )  # fmt: skip
-    ax.set(
-        xscale="log", yscale="log", xlabel="wall time [s]",
-        ylabel="difference from reference, of $q(t)$",
-    )  # fmt: skip
-    ax.margins(0.25)
-
-
-def _tick(ax: Axes, places: Any, form: str) -> None:
-    """Label the meshes or steps themselves, not powers of ten."""
-    ax.set_xticks(list(places), [form.format(float(f"{place:.4g}")) for place in places])
+    sizes = next(iter(found.values())).sizes
+    top = max(float(np.abs(runs.errors).max()) for runs in found.values())
+    if declared and top:
+        line = 2.5 * top * (sizes / sizes[0]) ** declared
+        ax.plot(places, line, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}")
+    ax.set(xscale="log", yscale="log")
+    ax.set_xticks(places, [f"{float(f'{place:.4g}'):g}" for place in places])
     ax.xaxis.set_minor_locator(mpl.ticker.NullLocator())
     ax.margins(0.12)
+    _whole_decades(ax)
+    ax.legend(loc="best")
+
+
+def _in_mesh(
+    findings: Mapping[str, Finding], histories: Histories | None, declared: float | None
+) -> dict[str, Convergence]:
+    """Return what tends to a limit in the mesh, the step left as it is."""
+    found = {}
+    for quantity, one in findings.items():
+        runs = one.runs
+        if runs is None or runs.sizes.size < 2:
+            continue
+        if quantity == "history" and histories is not None:
+            found[quantity] = _of_functions(histories, histories.rows.meshes, runs.sizes, declared)
+        elif math.isfinite(runs.limit):
+            found[quantity] = convergence(
+                runs.sizes.tolist(), runs.values.tolist(), noise=runs.noise.tolist(),
+                declared=declared,
+            )  # fmt: skip
+    return found
+
+
+def _of_functions(
+    histories: Histories, runs: Sequence[Run], sizes: ArrayLike, declared: float | None
+) -> Convergence:
+    functions = np.array([histories.aligned[run] for run in runs])
+    size = np.asarray(sizes, dtype=float).tolist()
+    return convergence_of_functions(size, functions, noise=HISTORY_FLOOR, declared=declared)[0]
+
+
+def _draw_cost(ax: Axes, histories: Histories, colors: Mapping[Run, Any]) -> None:
+    """Draw the error of q(t) over the time that it took, on the author's machine."""
+    for run, color in colors.items():
+        if run.wall > 0.0:
+            error = float(np.abs(histories.differences[run]).max())
+            ax.plot(run.wall, error, color=color, marker="s", ms=4.5, ls="none", label=_name(run))
+    ax.set(
+        xscale="log", yscale="log", xlabel="wall time [s]", ylabel="run - reference, of $q(t)$"
+    )  # fmt: skip
+    ax.margins(0.2)
+    _whole_decades(ax)
+    low, high = ax.get_xlim()
+    ax.set_xlim(low / 1.3, 1.3 * high)
+    ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
+    if high / low < 10.0:
+        _few_times(ax)
+    ax.legend(loc="best")
+
+
+def _few_times(ax: Axes) -> None:
+    """Label round times where no power of ten is in sight."""
+    low, high = ax.get_xlim()
+    powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
+    places = [float(k * power) for power in powers for k in (1, 2, 5)]
+    ax.set_xticks([x for x in places if low <= x <= high])
+    ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
+
+
+def _whole_decades(ax: Axes) -> None:
+    """Let the axis of errors begin and end at powers of ten, and label these alone."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(10.0 ** math.floor(math.log10(low)), 10.0 ** math.ceil(math.log10(high)))
+    ax.yaxis.set_minor_formatter(mpl.ticker.NullFormatter())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import re
 from collections.abc import Iterable, Sequence
 from html import escape
 from importlib import resources
@@ -22,6 +23,9 @@ from .row import latex_row
 
 TITLE = "rotbeam judgement"
 """Begins the title of each page, by which one is known."""
+
+_PIXELS = 1.75
+"""Of a point of a figure, whose letters are then as large as the text's."""
 
 _MARKS = {
     Outcome.REFERENCE: ("right", "✓"), Outcome.NOT_SUBMITTED: ("open", "–"),
@@ -170,8 +174,8 @@ def _case(name: str, record: Record) -> str:
     axes = judged_errors(name, found)
     if axes is not None:
         machine = found.declaration.machine or "the author's machine"
-        cost = f", and what they cost on {machine}" if histories is not None else ""
-        caption = f"{name}: discretization over mesh and step, with the bars of the limits{cost}."
+        cost = f"; error and time on {machine}" if histories is not None else ""
+        caption = f"{name}: distance from the limit in mesh and in step{cost}."
         parts.append(_figure(svg(axes), caption))
     parts.append(f"<p><small>Reference: {escape(found.sources.get(name, 'none'))}.</small></p>")
     return f"<section>{''.join(parts)}</section>"
@@ -179,8 +183,10 @@ def _case(name: str, record: Record) -> str:
 
 def _figure(picture: str, caption: str) -> str:
     data = base64.b64encode(picture.encode()).decode()
+    width = re.search(r'width="([0-9.]+)pt"', picture)
+    size = f' style="width: {_PIXELS * float(width[1]):.0f}px"' if width else ""
     return (
-        f'<figure><img alt="{escape(caption)}" src="data:image/svg+xml;base64,{data}">'
+        f'<figure><img{size} alt="{escape(caption)}" src="data:image/svg+xml;base64,{data}">'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
 
