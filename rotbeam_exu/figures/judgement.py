@@ -85,13 +85,13 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
     with mpl.rc_context(STYLE):
         elements = 1.0 / next(iter(drawn.values())).sizes
         _draw_errors(axes[0], drawn, elements, declared.order)
-        axes[0].set(xlabel="elements", ylabel="run - limit in the mesh")
+        axes[0].set(xlabel="elements", ylabel="|run − limit| in the mesh")
         if histories and steps:
             sizes = np.array([run.step for run in steps])
             runs = _of_functions(histories, steps, sizes, declared.order_in_step)
             _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
             axes[1].set(
-                xlabel=f"step [ms], {steps[0].elements} elements", ylabel="run - limit in the step"
+                xlabel=f"step [ms], {steps[0].elements} elements", ylabel="|run − limit| in the step"
             )
         if histories and timed:
             _draw_cost(axes[-1], histories, _colors(histories))
@@ -181,7 +181,7 @@ def _draw_cost(ax: Axes, histories: Histories, colors: Mapping[Run, Any]) -> Non
             error = float(np.abs(histories.differences[run]).max())
             ax.plot(run.wall, error, color=color, marker="s", ms=4.5, ls="none", label=_name(run))
     ax.set(
-        xscale="log", yscale="log", xlabel="wall time [s]", ylabel="run - reference, of $q(t)$"
+        xscale="log", yscale="log", xlabel="wall time [s]", ylabel="|run − reference|, of $q(t)$"
     )  # fmt: skip
     ax.margins(0.2)
     _whole_decades(ax)

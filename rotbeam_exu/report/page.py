@@ -69,9 +69,15 @@ def _link(text: str, kind: str) -> str:
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a table of cells that are HTML already."""
     head = "".join(f"<th>{cell}</th>" for cell in header)
-    body = "\n".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
+    body = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
     table = f"<table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table>"
     return f'<div class="wide">{table}</div>'
+
+
+def _cell(html: str) -> str:
+    """Return a cell; text may be broken, numbers with their bars not."""
+    words = ' class="text"' if re.search("[a-z]{4}", re.sub("<.*?>", "", html)) else ""
+    return f"<td{words}>{html}</td>"
 
 
 def _mistakes(record: Record) -> str:
