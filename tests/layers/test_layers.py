@@ -28,7 +28,7 @@ FLOORS = {
         {"oscillation", "fem"},
         {"sweeps", "verification"},
         {"comparison", "figures"},
-        {"explorer", "paper_figures"},
+        {"explorer", "paper_figures", "report"},
         {"cli"},
     ],
 }
