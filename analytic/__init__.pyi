@@ -17,6 +17,7 @@ from .exact.forced_orbits import ResponsePoint as ResponsePoint
 from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
+from .exact.out_of_plane_modes import TorsionModes as TorsionModes
 from .exact.periodic import periodic_orbits as periodic_orbits
 from .exact.planarity import PlanarStability as PlanarStability
 from .exact.planarity import planar_stability as planar_stability
