@@ -1,7 +1,6 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
-from .blade import PointMass as PointMass
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
 from .exact.branches import BackboneBranch as BackboneBranch
@@ -9,6 +8,8 @@ from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
+from .exact.curve import BackboneCurve as BackboneCurve
+from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
 from .exact.forced import forced_response as forced_response
 from .exact.forced import gravity_response as gravity_response
@@ -18,9 +19,16 @@ from .exact.forced_orbits import ResponsePoint as ResponsePoint
 from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
+from .exact.out_of_plane_modes import TorsionModes as TorsionModes
 from .exact.periodic import periodic_orbits as periodic_orbits
+from .exact.planarity import PlanarStability as PlanarStability
+from .exact.planarity import planar_stability as planar_stability
 from .exact.response import SpinUpResponse as SpinUpResponse
 from .exact.response import spin_up_response as spin_up_response
+from .exact.stability_limit import StabilityLimit as StabilityLimit
+from .exact.stability_limit import growth_map as growth_map
+from .exact.stability_limit import limit_map as limit_map
+from .exact.stability_limit import stability_limit as stability_limit
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
@@ -29,6 +37,10 @@ from .loads import SpeedRipple as SpeedRipple
 from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
+from .out_of_plane import OutOfPlane as OutOfPlane
+from .point_mass import PointMass as PointMass
+from .ramps import SmoothRamp as SmoothRamp
+from .ramps import Table as Table
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 from .blade import Blade
 from .input_checks import RotbeamWarning, positive
 from .loads import UNDAMPED, Damping
+from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
 
@@ -193,6 +194,37 @@ class Beam:
     def with_damping(self, damping: Damping) -> Blade:
         """Return the blade with `damping`."""
         return self.blade.with_damping(damping)
+
+    def with_section_out_of_plane(
+        self,
+        bending_ratio: float,
+        torsion_ratio: float | None = None,
+        polar_inertia: float | None = None,
+    ) -> Blade:
+        """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
+        return self.blade.with_section_out_of_plane(bending_ratio, torsion_ratio, polar_inertia)
+
+    def with_out_of_plane(self, out_of_plane: OutOfPlane) -> Blade:
+        """Return the blade with this out of its plane, whatever its A and I."""
+        return self.blade.with_out_of_plane(out_of_plane)
+
+    def rectangle(
+        self, height: float | None = None, width: float | None = None, poisson_ratio: float = 0.3
+    ) -> Blade:
+        """Return the blade with a rectangular section [m] of which the beam has the A and I.
+
+        The height is in the plane; without both, the one rectangle that has them. What contradicts
+        is refused.
+        """
+        return self.blade.with_out_of_plane(rectangle(self._gyration, height, width, poisson_ratio))
+
+    def tube(self, radius: float, wall: float, poisson_ratio: float = 0.3) -> Blade:
+        """Return the blade as a tube of this mean radius and wall [m], with the beam's A and I."""
+        return self.blade.with_out_of_plane(tube(self._gyration, radius, wall, poisson_ratio))
+
+    @property
+    def _gyration(self) -> Gyration:
+        return Gyration(squared=self.second_moment / self.area, area=self.area)
 
 
 AnyBlade = Beam | Blade

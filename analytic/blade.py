@@ -20,9 +20,11 @@ from scipy.linalg import eigh
 from .arrays import FloatArray
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
 from .loads import UNDAMPED, Damping
-from .profiles import Profile, evaluated, in_units, stations
+from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
+from .point_mass import PointMass
+from .profiles import Profile, evaluated, in_units
 from .quadrature import BasisValues, transverse_basis
-from .section import Section
+from .section import Section, section_from
 from .unit_blade import UnitBlade
 
 _FUNCTIONS = 24  # for scales: ω0 and the burst speed
@@ -32,49 +34,12 @@ _ACROSS, _ALONG = 0, 1
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointMass:
-    """A mass on the blade's axis.
-
-    Parameters
-    ----------
-    position : float
-        x from the clamp [m].
-    mass : float
-        [kg].
-    inertia : float
-        Against rotation in the plane of bending [kg m²].
-    """
-
-    position: float
-    mass: float
-    inertia: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name, value in (
-            ("position", _off_the_clamp(self.position)),
-            ("mass", not_negative("mass", self.mass, "kg")),
-            ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
-        ):
-            object.__setattr__(self, name, value)
-
-
-def _off_the_clamp(position: float) -> float:
-    at = not_negative("position", position, "m", "it is measured from the clamp to the tip")
-    if at == 0.0:
-        raise ValueError(
-            "a point mass at the clamp, position 0 m, does not move with the blade: leave it out, "
-            "it belongs to the hub"
-        )
-    return at
-
-
 def blade_from(values: Mapping[str, Any]) -> Blade:
     """Return the blade of which `dataclasses.asdict` made `values`, lists for tuples or not."""
     return Blade(
         **{
             **values,
-            "section": Section(**values["section"]),
+            "section": section_from(values["section"]),
             "point_masses": tuple(PointMass(**one) for one in values.get("point_masses", ())),
             "damping": Damping(**values.get("damping", {})),
         }
@@ -125,30 +90,8 @@ class Blade:
                 RotbeamWarning,
                 stacklevel=3,
             )
-        self._require_section()
+        self.section.require_along(self.length)
         self._require_masses()
-
-    def _require_section(self) -> None:
-        for name, profile in self.section.profiles().items():
-            at = stations(profile)
-            if at and (at[0] != 0.0 or not math.isclose(at[-1], self.length, rel_tol=1e-9)):
-                raise ValueError(
-                    f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from "
-                    f"0 to the length, {self.length:g} m"
-                )
-            x = np.union1d(np.linspace(0.0, 1.0, 257), np.minimum(at, self.length) / self.length)
-            values = evaluated(in_units(profile, self.length, 1.0), x)
-            if name == "rotary_inertia":
-                if values.min() < 0.0:
-                    raise ValueError(f"{name} must not be negative, got {values.min():g}")
-            elif values[0] <= 0.0:
-                raise ValueError(f"{name} must be positive at the clamp, got {values[0]:g}")
-            elif not np.all(values > 1e-6 * values[0]):
-                first = x[np.argmin(values > 1e-6 * values[0])]
-                raise ValueError(
-                    f"{name} vanishes at x = {first * self.length:.4g} m, where it is "
-                    f"{values[x == first][0]:.3g}: end the blade before, or taper it less"
-                )
 
     def _require_masses(self) -> None:
         own = self.mass - sum(one.mass for one in self.point_masses)
@@ -192,6 +135,42 @@ class Blade:
     def with_damping(self, damping: Damping) -> Blade:
         """Return the blade with `damping` in place of its own."""
         return replace(self, damping=damping)
+
+    def with_section_out_of_plane(
+        self,
+        bending_ratio: float,
+        torsion_ratio: float | None = None,
+        polar_inertia: float | None = None,
+    ) -> Blade:
+        """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
+        return self.with_out_of_plane(
+            OutOfPlane(
+                bending_ratio=bending_ratio,
+                torsion_ratio=torsion_ratio,
+                polar_inertia=polar_inertia,
+            )
+        )
+
+    def rectangle(
+        self, height: float | None = None, width: float | None = None, poisson_ratio: float = 0.3
+    ) -> Blade:
+        """Return the blade with a rectangular section [m] of which it has the I/A.
+
+        The height is in the plane; without it, the one that fits. What contradicts is refused.
+        """
+        return self.with_out_of_plane(rectangle(self._gyration, height, width, poisson_ratio))
+
+    def tube(self, radius: float, wall: float, poisson_ratio: float = 0.3) -> Blade:
+        """Return the blade as a tube of this mean radius and wall [m], of which it has the I/A."""
+        return self.with_out_of_plane(tube(self._gyration, radius, wall, poisson_ratio))
+
+    def with_out_of_plane(self, out_of_plane: OutOfPlane) -> Blade:
+        """Return the blade with this out of its plane, whatever its A and I."""
+        return replace(self, section=replace(self.section, out_of_plane=out_of_plane))
+
+    @property
+    def _gyration(self) -> Gyration:
+        return Gyration(squared=self.slenderness * self.length**2)
 
     @property
     def mass(self) -> float:

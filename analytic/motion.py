@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol, overload
+from typing import Any, ClassVar, Protocol, overload
 
 import numpy as np
 
@@ -100,10 +100,16 @@ class SpinUp:
 
     omega: float
     ramp_time: float
+    start: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "omega", rotation_speed(self.omega))
         object.__setattr__(self, "ramp_time", positive("ramp_time", self.ramp_time, "s"))
+
+    @property
+    def shortest_wave(self) -> float:
+        """Period of the acceleration during the ramp, T [s]."""
+        return self.ramp_time
 
     @overload
     def angle(self, t: float) -> float: ...

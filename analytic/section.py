@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .profiles import Profile, checked_profile, times
+from .arrays import FloatArray
+from .out_of_plane import OutOfPlane
+from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,12 +28,15 @@ class Section:
         m [kg/m].
     rotary_inertia : Profile
         Inertia of the slices against rotation, ρI [kg m].
+    out_of_plane : OutOfPlane, optional
+        What they resist out of the plane of bending, None where it is not known.
     """
 
     axial_stiffness: Profile
     bending_stiffness: Profile
     mass_per_length: Profile
     rotary_inertia: Profile = 0.0
+    out_of_plane: OutOfPlane | None = None
 
     def __post_init__(self) -> None:
         for name in ("axial_stiffness", "bending_stiffness", "mass_per_length", "rotary_inertia"):
@@ -43,8 +51,26 @@ class Section:
             "rotary_inertia": self.rotary_inertia,
         }
 
+    def require_along(self, length: float) -> None:
+        """Refuse a section that vanishes on a blade of that length [m], or is given for another."""
+        for name, profile in self.profiles().items():
+            at = stations(profile)
+            if at and (at[0] != 0.0 or not math.isclose(at[-1], length, rel_tol=1e-9)):
+                raise ValueError(
+                    f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from "
+                    f"0 to the length, {length:g} m"
+                )
+            x = np.union1d(np.linspace(0.0, 1.0, 257), np.minimum(at, length) / length)
+            _require_section(name, evaluated(in_units(profile, length, 1.0), x), x * length)
+
     def tapered(self, width: float, height: float) -> Section:
         """Return the section times (1 - width x/L)(1 - height x/L), and height cubed in bending."""
+        if self.out_of_plane is not None and width != height:
+            raise ValueError(
+                f"a width that tapers by {width:g} and a height by {height:g} change the ratios "
+                "out of the plane along the blade: taper both alike, or give "
+                "with_section_out_of_plane after with_taper, with the ratios at the root"
+            )
         b, h = (1.0, -width), (1.0, -height)
         slice_ = np.polynomial.polynomial.polymul(b, h)
         bent = np.polynomial.polynomial.polymul(slice_, np.polynomial.polynomial.polypow(h, 2))
@@ -53,4 +79,25 @@ class Section:
             bending_stiffness=times(self.bending_stiffness, bent),
             mass_per_length=times(self.mass_per_length, slice_),
             rotary_inertia=times(self.rotary_inertia, bent),
+            out_of_plane=self.out_of_plane,
+        )
+
+
+def section_from(values: Mapping[str, Any]) -> Section:
+    """Return the section of which `dataclasses.asdict` made `values`."""
+    beyond = values.get("out_of_plane")
+    return Section(**{**values, "out_of_plane": None if beyond is None else OutOfPlane(**beyond)})
+
+
+def _require_section(name: str, values: FloatArray, x: FloatArray) -> None:
+    if name == "rotary_inertia":
+        if values.min() < 0.0:
+            raise ValueError(f"{name} must not be negative, got {values.min():g}")
+    elif values[0] <= 0.0:
+        raise ValueError(f"{name} must be positive at the clamp, got {values[0]:g}")
+    elif not np.all(values > 1e-6 * values[0]):
+        first = int(np.argmin(values > 1e-6 * values[0]))
+        raise ValueError(
+            f"{name} vanishes at x = {x[first]:.4g} m, where it is {values[first]:.3g}: end the "
+            "blade before, or taper it less"
         )

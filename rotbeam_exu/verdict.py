@@ -18,11 +18,16 @@ from analytic import (
     Blade,
     DistributedForce,
     Gravity,
+    SmoothRamp,
     SpeedRipple,
+    SpinUp,
+    SteadyRotation,
+    Table,
     TipForce,
 )
 from analytic.blade import blade_from
 from analytic.loads import Load
+from analytic.ramps import AnyRamp
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -97,6 +102,28 @@ def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
     """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
     written = [{"load": type(load).__name__, **asdict(load)} for load in loads]
     return {"loads": json.dumps(written)} if written else {}
+
+
+def motion_of(attrs: Mapping[Any, Any]) -> AnyRamp | SteadyRotation:
+    """Return the rotation of the clamp that the attributes of a run describe."""
+    omega, ramp_time = float(attrs["omega"]), float(attrs["ramp_time"])
+    if "motion" not in attrs:
+        return (
+            SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
+        )
+    kinds = {kind.__name__: kind for kind in (SmoothRamp, Table)}
+    written = json.loads(attrs["motion"])
+    return kinds[written.pop("motion")](**written)
+
+
+def motion_attributes(motion: AnyRamp | SteadyRotation) -> dict[str, Any]:
+    """Return the attribute by which a run says how it was driven; `motion_of` reads it.
+
+    Eq. 1 and a steady rotation need none beside omega and ramp_time.
+    """
+    if isinstance(motion, SmoothRamp | Table):
+        return {"motion": json.dumps({"motion": type(motion).__name__, **asdict(motion)})}
+    return {}
 
 
 def remedy(run: xr.Dataset, t: float) -> str:

@@ -78,6 +78,11 @@ class Backbone:
         """Time at which q is greatest [s], (orbits,); there the reduced models start theirs."""
         return np.array([orbit.peak_phase for orbit in self._orbits]) / self.frequency
 
+    @property
+    def nondimensional(self) -> tuple[BeamOrbit, ...]:
+        """The orbits as `analytic.methods` have them, in time t √(EI/mL³)."""
+        return self._orbits
+
     def _orbit(self, i: int) -> BeamOrbit:
         count = len(self._orbits)
         if not -count <= i < count:

@@ -235,6 +235,16 @@ class Continuum(Kinematics):
         mass[..., :nb, :nb] += self._rotary_mass
         return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
 
+    def tension(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
+    ) -> FloatArray:
+        """Return the axial force N at the Gauss points, (samples, points), of the motion.
+
+        By d'Alembert, from all that moves outboard, so that it is there without extension too.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
+        return -at.force.real / self.weights
+
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.
 

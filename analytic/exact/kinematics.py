@@ -68,6 +68,11 @@ class Kinematics:
         """Which coordinates change their sign in the mirror image of a shape, (n,): of θ and γ."""
         return np.repeat([True, False, True], [self.bending, self.axial, self.shear])
 
+    @property
+    def integrals_at_points(self) -> FloatArray:
+        """Matrix from values at the Gauss points to the integrals from the clamp up to each."""
+        return self._integral(self.points)
+
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coordinates of θ and those of the strains, along the last axis."""
         return q[..., : self.bending], q[..., self.bending :]
@@ -92,6 +97,17 @@ class Kinematics:
         """Return e + iγ at the Gauss points, real without shear: (samples, points)."""
         strain: FloatArray | ComplexArray = q[..., self.bending :] @ self._psi.T
         return strain
+
+    def bent(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the curvature ϑ', e and e' at the Gauss points, each (samples, points)."""
+        bending, axial = self._a_panel
+        theta, strains = self.split(q)
+        turned = axial_basis(bending, self.points, self._panels).slope
+        stretched = axial_basis(axial, self.points, self._panels).curvature
+        if self._own is not None:
+            turned, stretched = turned @ self._own[0], stretched @ self._own[1]
+        change = math.sqrt(self.slenderness) * (strains[..., : self.axial] @ stretched.T)
+        return theta @ turned.T, self._strain(q).real, change
 
     def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
         """Return z' = (1 + e + iγ) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""

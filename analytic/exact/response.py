@@ -1,4 +1,4 @@
-"""Spin-up of the exact beam from rest, integrated until its own refinement agrees."""
+"""Spin-up of the exact beam, or another change of its speed, refined until two solutions agree."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
-from ..motion import SpinUp
+from ..ramps import AnyRamp, fastest, require_ramp
 from .discretization import blade_continuum
 from .steady import checked_share, section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
 
-_FUNCTIONS, _MORE_FUNCTIONS = 14, 4  # for θ, at first and from one refinement to the next
-_STEP, _SHORTER = 0.075, 1.5  # first step in units of 1/√(EI/mL³), at most 0.4/w̄
+_DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
+_A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
+_SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _MOST_STEPS = 100_000  # of one solution; some minutes
@@ -35,7 +37,7 @@ class SpinUpResponse:
     Attributes
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp
+    spin_up : SpinUp, SmoothRamp or Table
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -55,7 +57,7 @@ class SpinUpResponse:
     """
 
     beam: AnyBlade
-    spin_up: SpinUp
+    spin_up: AnyRamp
     time: FloatArray
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
@@ -68,7 +70,7 @@ class SpinUpResponse:
 
 def spin_up_response(
     beam: AnyBlade,
-    spin_up: SpinUp,
+    spin_up: AnyRamp,
     times: float | ArrayLike,
     *,
     tolerance: float = 1e-8,
@@ -77,7 +79,7 @@ def spin_up_response(
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
 ) -> SpinUpResponse:
-    """Return the exact response of the beam, damped or not, at rest and straight before t = 0.
+    """Return the exact response of the beam, damped or not, that does not swing before t = 0.
 
     Radau collocation of order 15 in the rotating frame, with the centrifugal, Coriolis and Euler
     forces of the spin-up; step and functions are refined together until two solutions agree.
@@ -85,7 +87,8 @@ def spin_up_response(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp
+    spin_up : SpinUp, SmoothRamp or Table
+        Before it the beam is straight, and stretched as the speed at t = 0 has it.
     times : array_like
         Times of the response [s], ascending, not before 0.
     tolerance : float
@@ -108,29 +111,28 @@ def spin_up_response(
         If the tolerance is not reached.
     """
     time, tolerance = _checked(times, tolerance)
-    if not isinstance(spin_up, SpinUp):
-        raise TypeError(
-            f"spin_up must be a SpinUp, from rest, got {spin_up!r}; for a beam that turns already "
-            f"take periodic_orbits"
-        )
-    warn_if_rpm(beam, spin_up.omega)
+    require_ramp(spin_up)
+    highest = fastest(spin_up)
+    warn_if_rpm(beam, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
     rotary, share = section_inertia(beam, rotary_inertia), checked_share(shear_share)
     along = points_of_beam("points", points, beam.length)
-    _require_feasible(beam, spin_up, time, along)
+    digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
+    _require_feasible(beam, spin_up, time, along, digits)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
-        functions = _FUNCTIONS + max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        functions = math.ceil(_A_DIGIT * digits)
+        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
         model = blade_continuum(
             beam.unit, beam.slenderness, functions, functions // 2, rotary, share
         )
-        steady_rate(beam, spin_up.omega, model)
-        corners, counts = _steps(beam, spin_up, float(time[-1]), level)
+        steady_rate(beam, highest, model)
+        corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        finer = integrated(beam, rotation, loads, model, grid, time, along)
+        finer = integrated(beam, rotation, loads, model, grid, time, along, spin_up.start)
         if finer is None:
             coarser = None
             continue
@@ -190,14 +192,16 @@ def _what_to_try(error: float, size: float, end: float) -> str:
         )
     return (
         f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
-        f"tolerance={2.0 * error:.0e} or a longer ramp"
+        f"tolerance={10.0 * error:.0e} or a longer ramp"
     )
 
 
-def _require_feasible(beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: FloatArray) -> None:
+def _require_feasible(
+    beam: AnyBlade, spin_up: AnyRamp, time: FloatArray, along: FloatArray, digits: float
+) -> None:
     """Refuse what would take more time or memory than there is, before it starts."""
     end = float(time[-1])
-    steps = sum(_steps(beam, spin_up, end, level=1)[1])  # two solutions are the least
+    steps = sum(_steps(beam, spin_up, end, digits, level=1)[1])  # two solutions are the least
     if steps > _MOST_STEPS:
         raise ValueError(
             f"times up to {end:g} s take {steps:.3g} steps, more than the {_MOST_STEPS:.3g} "
@@ -211,18 +215,19 @@ def _require_feasible(beam: AnyBlade, spin_up: SpinUp, time: FloatArray, along: 
 
 
 def _steps(
-    beam: AnyBlade, spin_up: SpinUp, end: float, level: int
+    beam: AnyBlade, spin_up: AnyRamp, end: float, digits: float, level: int
 ) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
-    A corner is the end of the ramp, where Eq. 1 has a kink.
+    A corner is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    rate = spin_up.omega / beam.frequency_scale
-    longest = min(_STEP, 0.4 / rate if rate else _STEP) / _SHORTER**level / beam.frequency_scale
+    rate = fastest(spin_up) / beam.frequency_scale
+    first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
+    longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]
     if end > spin_up.ramp_time:
         corners.append(end)
     # A short ramp still has to be seen as the smooth curve it is.
-    lengths = (min(longest, spin_up.ramp_time / 4.0), longest)
+    lengths = (min(longest, spin_up.shortest_wave / 4.0), longest)
     parts = zip(pairwise(corners), lengths, strict=False)
     return corners, [math.ceil((b - a) / step) for (a, b), step in parts]

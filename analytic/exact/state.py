@@ -11,8 +11,10 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_number, points_of_beam
 from ..methods.driven import DrivenOrbit
+from .continuum import Continuum
+from .discretization import blade_continuum
 from .loading import DrivenBeam
-from .steady import BeamOrbit
+from .steady import BeamOrbit, steady_rotation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +45,12 @@ class BeamState:
     shear_angle_dot: FloatArray | float = 0.0
 
 
+def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
+    """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
+    steady = steady_rotation(beam, omega, blade_continuum(beam.unit, beam.slenderness, 20, 10, 0.0))
+    return _state(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
+
+
 def orbit_state(
     beam: AnyBlade,
     orbit: BeamOrbit | DrivenOrbit[DrivenBeam],
@@ -52,7 +60,12 @@ def orbit_state(
     """Return the state of an orbit of `beam` at the points `x` [m] and the `phase` [rad]."""
     phases = np.array([finite_number("phase", phase, "rad")])
     (q,), (q_dot,), _ = orbit.coordinates(phases)
-    model = orbit.system.model
+    return _state(beam, orbit.system.model, q, q_dot, x)
+
+
+def _state(
+    beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+) -> BeamState:
     at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)

@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state
 from ..blade import Blade
 from ..input_checks import positive
-from ..methods.harmonic_balance import PeriodicOrbit
+from ..methods.periodic_orbit import PeriodicOrbit
 from ..methods.system import Tangent
 from .continuum import Continuum
 from .discretization import finer_model

@@ -18,6 +18,7 @@ from .continuum import Continuum
 from .loading import pushes, unit_loads
 
 _STAGES = 8
+_MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
 def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
@@ -64,19 +65,27 @@ def integrated(
     grid: FloatArray,
     time: FloatArray,
     points: FloatArray,
+    start: float = 0.0,
 ) -> Motion | None:
-    """Return the motion on the grid of steps, None where Newton's method fails."""
+    """Return the motion on the grid of steps, None where Newton's method fails.
+
+    A step on which it does is halved first, as often as it takes. Before the first the blade does
+    not swing, and the rotation at the speed `start` [rad/s] stretches it.
+    """
     method, per_second = radau(_STAGES), beam.frequency_scale
     drive = _drive(beam, rotation, loads, model)
-    q, q_dot = np.zeros(model.size), np.zeros(model.size)
+    q = model.steady_state(start / per_second) if start else np.zeros(model.size)
+    q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
-    z = np.ones(time.size, dtype=np.complex128)
+    z = np.full(time.size, model.tip(q), dtype=np.complex128)
     z_dot = np.zeros(time.size, dtype=np.complex128)
-    axis = np.broadcast_to(points, (time.size, points.size)).astype(np.complex128)
+    axis = np.tile(model.integrated(model.slope(q), points), (time.size, 1))
     previous = 0.0
-    for start, end in pairwise(grid):
-        h = (end - start) * per_second
-        stages = start + (end - start) * method.nodes
+    ahead = list(pairwise(grid))[::-1]
+    while ahead:
+        begin, end = ahead.pop()
+        h = (end - begin) * per_second
+        stages = begin + (end - begin) * method.nodes
         guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
@@ -88,10 +97,14 @@ def integrated(
             if found is not None:
                 break
         if found is None:
-            return None
+            if end - begin < (grid[-1] - grid[0]) / _MOST_PIECES:
+                return None
+            middle = 0.5 * (begin + end)
+            ahead += [(middle, end), (begin, middle)]
+            continue
         acceleration, previous = found, h
-        inside = slice(*np.searchsorted(time, (start, end), side="right"))
-        at = (time[inside] - start) / (end - start)
+        inside = slice(*np.searchsorted(time, (begin, end), side="right"))
+        at = (time[inside] - begin) / (end - begin)
         velocities = q_dot + h * method.integral(at) @ acceleration
         positions = (
             q

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Generic
 
 import numpy as np
 
 from ..arrays import FloatArray
-from .harmonic_balance import NoOrbitError, PeriodicOrbit, S, solve
+from .harmonic_balance import LastTangent, NoOrbitError, solve
+from .periodic_orbit import PeriodicOrbit, S
 
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
 
-_DRIFT_BOUND = 2e-11  # the drift of the invariant at which the harmonics suffice
+DRIFT_BOUND = 2e-11
+"""Drift of the invariant at which the harmonics suffice."""
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
 _FEWEST_HARMONICS, _MOST_HARMONICS = 6, 64
 MOST_FUNCTIONS = 128
@@ -23,6 +26,9 @@ MOST_FUNCTIONS = 128
 _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
+_SAME_AMPLITUDE = 1e-14  # steps add up to 0.3 within round-off
+_GUESSED_FROM = 4  # nodes
+_FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the amplitudes
 
 
 def linear_orbit(
@@ -55,6 +61,8 @@ class Path(Generic[S]):
         The smallest orbits.
     longest : float
         Longest step of the amplitude.
+    drift : float
+        Drift of the invariant at which the harmonics suffice.
     nodes : list of PeriodicOrbit
         Those found so far, ascending.
     """
@@ -62,9 +70,11 @@ class Path(Generic[S]):
     seed: PeriodicOrbit[S]
     double: PeriodicOrbit[S]
     longest: float
+    drift: float = DRIFT_BOUND
     nodes: list[PeriodicOrbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
+    _tangent: LastTangent = field(init=False, default_factory=LastTangent)
 
     def __post_init__(self) -> None:
         self.nodes = [self.seed, self.double]
@@ -81,27 +91,42 @@ class Path(Generic[S]):
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
         below = self.nodes[max(place - 1, 0)]
-        if below.amplitude == amplitude:
-            return below
-        before = self.nodes[place - 2] if place >= 2 else None
-        above = self.nodes[place] if place < len(self.nodes) else None
-        guesses = [_predicted(below, before, amplitude)]
-        if above is not None and amplitude > below.amplitude:
-            guesses = [_on_line(below, above, amplitude), *guesses, above.scaled(amplitude)]
+        for node in (below, *self.nodes[place : place + 1]):
+            if abs(node.amplitude - amplitude) < _SAME_AMPLITUDE:
+                return replace(node, amplitude=amplitude)
+        lower, upper = self.nodes[max(place - 3, 0) : max(place, 1)], self.nodes[place : place + 1]
+        guesses = [_through(lower, amplitude), below]
+        if upper and place:
+            guesses = [_through([*lower, *upper], amplitude), *guesses, *upper]
         reasons = []
         for guess in guesses:
             try:
-                return _resolved(guess, amplitude)
+                return self._resolved(guess.scaled(amplitude), amplitude)
             except NoOrbitError as reason:
                 reasons.append(str(reason))
         raise NoOrbitError(reasons[0], below)
 
-    def _extend(self) -> None:
-        """Add the next node."""
+    def laid(self, amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit of the peak `amplitude`, at or beyond the last node: it becomes a node.
+
+        Raises
+        ------
+        NoOrbitError
+            As `at` does.
+        """
+        while self.nodes[-1].amplitude < amplitude:
+            self._extend(amplitude)
+        return self.at(amplitude)
+
+    def _extend(self, end: float = math.inf) -> None:
+        """Add the next node, not beyond `end`."""
         if self._end:
             raise NoOrbitError(self._end, self.nodes[-1])
         last, reason = self.nodes[-1], ""
         step = min((_LARGEST_FACTOR - 1.0) * last.amplitude, self.longest, 2.0 * self._step)
+        if last.amplitude + 1.1 * step > end:
+            step = end - last.amplitude
+        whole = step
         while step > self.longest / 2.0**_HALVINGS:
             try:
                 found = self._stepped(last.amplitude + step)
@@ -109,64 +134,66 @@ class Path(Generic[S]):
                 reason, step = reason or str(failed), 0.5 * step
                 continue
             self.nodes.append(found)
-            self._step = step
+            self._step = step if step < whole else math.inf
             return
         self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"
         raise NoOrbitError(self._end, last)
 
     def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
-        return _resolved(_predicted(self.nodes[-1], self.nodes[-2], amplitude), amplitude)
+        last = self.nodes[-1]
+        guess = _through(self.nodes[-_GUESSED_FROM:], amplitude)
+        # Cut at harmonic H, the invariant drifts as the next one, with a^(H + 1).
+        growth = (amplitude / last.amplitude) ** (last.harmonics + 1)
+        if (last.invariant_drift - last.invariant_noise) * growth > self.drift:
+            guess = _on_more_harmonics(guess)
+        return self._resolved(guess, amplitude)
+
+    def _resolved(self, guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit near `guess` with as many harmonics and functions as it needs."""
+        orbit = solve(guess, amplitude, self._tangent)
+        while (larger := refined(orbit, self.drift)) is not None:
+            orbit = solve(larger, amplitude, self._tangent)
+        return orbit
 
 
-def _predicted(
-    last: PeriodicOrbit[S], before: PeriodicOrbit[S] | None, amplitude: float
-) -> PeriodicOrbit[S]:
-    """Return the guess: harmonic k as a^k, times a linear function of a² if two are known."""
-    guess = last.scaled(amplitude)
-    # Far below, the high harmonics of `before` are round-off.
-    if before is None or not 0.0 < amplitude - last.amplitude < before.amplitude:
-        return guess
-    return _on_line(last, before, amplitude)
-
-
-def _on_line(one: PeriodicOrbit[S], other: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
-    """Return the guess from two orbits: harmonic k as a^k, times a linear function of a²."""
-    finer = max(one.system, other.system, key=lambda system: system.functions)
-    here, there = (
-        orbit.scaled(amplitude).with_harmonics(one.harmonics).on(finer) for orbit in (one, other)
+def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOrbit[S]:
+    """Return the guess through orbits: harmonic k as a^k, times a polynomial of a²."""
+    # Far below, the high harmonics are round-off.
+    near = [orbit for orbit in orbits if amplitude < _FARTHEST * orbit.amplitude]
+    last = near[-1] if near else orbits[-1]
+    finer = max(
+        (orbit.system for orbit in near), key=lambda one: one.functions, default=last.system
     )
-    weight = (amplitude**2 - one.amplitude**2) / (other.amplitude**2 - one.amplitude**2)
+    here = [
+        orbit.scaled(amplitude).with_harmonics(last.harmonics).on(finer) for orbit in near or [last]
+    ]
+    squares = np.array([orbit.amplitude**2 for orbit in near or [last]])
+    weights = [
+        np.prod([(amplitude**2 - other) / (one - other) for other in squares if other != one])
+        for one in squares
+    ]
     return replace(
-        here,
-        coefficients=here.coefficients + weight * (there.coefficients - here.coefficients),
-        frequency=here.frequency + weight * (there.frequency - here.frequency),
+        here[-1],
+        coefficients=sum(w * orbit.coefficients for w, orbit in zip(weights, here, strict=True)),
+        frequency=float(sum(w * orbit.frequency for w, orbit in zip(weights, here, strict=True))),
     )
 
 
-def _resolved(guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
-    """Return the orbit near `guess` with as many harmonics and functions as it needs."""
-    orbit = solve(guess, amplitude)
-    while (larger := refined(orbit)) is not None:
-        orbit = solve(larger, amplitude)
-    return orbit
-
-
-def refined(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S] | None:
+def refined(orbit: PeriodicOrbit[S], drift: float = DRIFT_BOUND) -> PeriodicOrbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
-    Harmonics until the invariant is constant, functions until the residual is small.
+    Harmonics until the invariant drifts by `drift` at most, functions until the residual is small.
 
     Raises
     ------
     NoOrbitError
         If it needs more than are taken.
     """
-    if orbit.invariant_drift > _DRIFT_BOUND + orbit.invariant_noise:
+    if orbit.invariant_drift > drift + orbit.invariant_noise:
         most = orbit.harmonics >= _MOST_HARMONICS
         if most and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
             return None
-        count = orbit.harmonics + max(4, orbit.harmonics // 4)
-        larger = orbit.with_harmonics(min(count, _MOST_HARMONICS))
+        larger = _on_more_harmonics(orbit)
         if most or _too_large(larger):
             raise NoOrbitError(
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
@@ -174,6 +201,11 @@ def refined(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S] | None:
             )
         return larger
     return None if meets_the_equations(orbit) else _on_more_functions(orbit)
+
+
+def _on_more_harmonics(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+    count = orbit.harmonics + max(4, orbit.harmonics // 4)
+    return orbit.with_harmonics(min(count, _MOST_HARMONICS))
 
 
 def _on_more_functions(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:

@@ -21,6 +21,7 @@ _REPORTED = 4  # modes
 _COVERED = 6
 _FEWEST_STEPS = 24
 _MASSLESS = 1e-12  # energy of a shape of unit length, over the lowest frequency squared
+_LARGE = 1e60  # size of a monodromy that is kept apart, before it overflows
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 
 
@@ -108,12 +109,44 @@ def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
 
 def monodromy(orbit: Orbit, steps: int) -> FloatArray:
     """Return what a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n)."""
+    matrix, exponent = scaled_monodromy(orbit, steps)
+    return np.asarray(matrix * np.exp(exponent))
+
+
+def scaled_monodromy(orbit: Orbit, steps: int) -> tuple[FloatArray, float]:
+    """Return the `monodromy` over its size, where that is beyond 1e60, and the size's logarithm."""
+    return _flow(orbit, steps, 1.0)
+
+
+def reversible_monodromy(orbit: Orbit, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
+    """Return the same of an undamped orbit that time reversal maps onto itself, from half of it.
+
+    With signs S (n,), M(-φ) = SM(φ)S and K(-φ) = SK(φ)S. What half a period makes of (q, Mq̇) is
+    symplectic, which gives its inverse, and reversed that is the other half.
+    """
+    half, exponent = _flow(orbit, -(-steps // 2), 0.5)
+    n = signs.size
+    start, end = orbit.tangent(np.array([0.0, np.pi])).mass
+    momenta = half.copy()
+    momenta[n:] = end @ momenta[n:]
+    momenta[:, n:] = linalg.solve(start, momenta[:, n:].T, assume_a="pos").T
+    # The inverse of [[A, B], [C, D]] is [[Dᵀ, -Bᵀ], [-Cᵀ, Aᵀ]]; reversing turns the signs of both.
+    A, B, C, D = momenta[:n, :n], momenta[:n, n:], momenta[n:, :n], momenta[n:, n:]
+    back = np.block([[D.T, B.T], [C.T, A.T]]) * np.outer(np.tile(signs, 2), np.tile(signs, 2))
+    whole = back @ momenta
+    whole[n:] = linalg.solve(start, whole[n:], assume_a="pos")
+    whole[:, n:] = whole[:, n:] @ start
+    return whole, 2.0 * exponent
+
+
+def _flow(orbit: Orbit, steps: int, share: float) -> tuple[FloatArray, float]:
+    """Return what the first `share` of a period makes, scaled as `scaled_monodromy` says."""
     method = gauss(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
-    tangents = orbit.tangent(2.0 * np.pi * nodes.ravel())
+    tangents = orbit.tangent(2.0 * np.pi * share * nodes.ravel())
     n = tangents.residual.shape[-1]
-    h = 2.0 * np.pi / orbit.frequency / steps
-    position, velocity = np.eye(n, 2 * n), np.eye(n, 2 * n, k=n)
+    h = 2.0 * np.pi * share / orbit.frequency / steps
+    position, velocity, exponent = np.eye(n, 2 * n), np.eye(n, 2 * n, k=n), 0.0
     for step in range(steps):
         at = Tangent(*(part[step * _STAGES : (step + 1) * _STAGES] for part in tangents))
         drifted = position + h * method.nodes[:, None, None] * velocity
@@ -125,7 +158,10 @@ def monodromy(orbit: Orbit, steps: int) -> FloatArray:
             position + h * velocity + h**2 * np.tensordot(method.last_position, acceleration, 1)
         )
         velocity = velocity + h * np.tensordot(method.last_velocity, acceleration, 1)
-    return np.asarray(np.vstack((position, velocity)))
+        size = np.abs(position).max()
+        if size > _LARGE:
+            position, velocity, exponent = position / size, velocity / size, exponent + np.log(size)
+    return np.vstack((position, velocity)), float(exponent)
 
 
 def _modes(at: Tangent) -> tuple[FloatArray, FloatArray]:

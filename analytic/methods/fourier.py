@@ -75,6 +75,13 @@ def half_period(harmonics: int) -> HalfPeriod:
     return HalfPeriod(harmonics)
 
 
+@lru_cache(maxsize=64)
+def fine_waves(harmonics: int) -> Waves:
+    """Return the waves at 4H + 8 midpoints of half a period, which see what H harmonics leave."""
+    count = 4 * harmonics + 8
+    return Waves(np.pi * (np.arange(count) + 0.5) / count, harmonics)
+
+
 def packed(coefficients: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
     """Return the coefficients (H + 1, n) as the unknowns (..,): those of sines, then of cosines."""
     return np.concatenate((coefficients[1:, odd].ravel(), coefficients[:, ~odd].ravel()))

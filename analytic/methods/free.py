@@ -11,7 +11,8 @@ from ..arrays import FloatArray
 from .arclength import NoWayOnError
 from .continuation import refined
 from .fourier import half_period, packed, unpacked
-from .harmonic_balance import NoOrbitError, PeriodicOrbit, S, at_peak, jacobian
+from .harmonic_balance import NoOrbitError, jacobian
+from .periodic_orbit import PeriodicOrbit, S, at_peak
 
 _ROUGHLY = 1e-4  # drift of the invariant up to which a fold is still told, beyond all harmonics
 _FREQUENCY_SCALE = 0.05  # relative change of Ω that counts as much as a unit of the coordinates

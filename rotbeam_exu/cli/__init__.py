@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import difflib
 import math
 import os
 import sys
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
 
 import cyclopts
 from rich.text import Text
@@ -21,24 +23,30 @@ app = cyclopts.App(
     name="rotbeam",
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
     version=__version__,
+    default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for _command in (
-    "run",
-    "sweep",
-    "backbone",
-    "compare",
-    "campbell",
-    "respond",
-    "figure",
-    "table",
-    "verify",
-    "explore",
-    "animate",
-    "doctor",
-):
-    app.command(f"{__name__}.{_command}:{_command}", name=_command)
+_COMMANDS = (
+    "run", "backbone", "campbell", "respond", "sweep", "compare", "figure", "table", "explore",
+    "animate", "verify", "judge", "doctor",
+)  # fmt: skip
+"""In the order of the work; each is imported when it is called."""
+
+
+def _description(command: str) -> str:
+    """Return what a command's docstring says ahead of its parameters, without importing it."""
+    tree = ast.parse(Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8"))
+    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
+    (text,) = (ast.get_docstring(node) for node in functions if node.name == command)
+    return (text or "").partition("Parameters\n---")[0].strip()
+
+
+for _order, _command in enumerate(_COMMANDS):
+    app.command(
+        f"{__name__}.{_command}:{_command}",
+        name=_command, help=_description(_command), sort_key=_order,
+    )  # fmt: skip
 app.command(f"{__name__}.campbell:campbell", name="compare-modes", show=False)  # its former name
 
 _SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}

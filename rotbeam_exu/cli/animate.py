@@ -36,7 +36,9 @@ def animate(
     out: Path | None = None,
     force: Force = False,
 ) -> None:
-    """Write the beam's spin-up as GIF or MP4: inertial and rotating view, and q over time.
+    """Write the spin-up as GIF or MP4.
+
+    Inertial and rotating view, and q over time.
 
     The response is that of the exact beam, to scale; a beam faster than the paper's is shown as
     many times slower.

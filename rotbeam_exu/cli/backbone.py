@@ -29,7 +29,7 @@ def backbone(
     config: Path | None = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
-    """Print the backbone of a reduced model: frequency against amplitude.
+    """Print the frequency over the amplitude, reduced and exact.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ def campbell(
     config: Path | None = None,
     format: Format = "table",  # noqa: A002  the name of the option
 ) -> None:
-    """Print in-plane frequencies against the speed, and where they cross the lines k omega.
+    """Print frequencies over the speed, and where they cross k ω.
 
     Exact, extensible beam about its steady rotation; modes are tracked by shape.
 

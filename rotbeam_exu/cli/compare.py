@@ -20,7 +20,7 @@ def compare(
     workers: Workers = _WORKERS,
     results: Results = _RESULTS,
 ) -> None:
-    """Write the data of Figures 14 and 15 and the error budgets; print the budgets.
+    """Print all models' errors, and write Figures 14 and 15's data.
 
     Parameters
     ----------

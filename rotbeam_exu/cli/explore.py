@@ -20,7 +20,7 @@ def explore(
     jobs: Jobs = None,
     force: Force = False,
 ) -> None:
-    """Write the Explorer: one page with all models, the exact beam and finite element points.
+    """Write the Explorer: all models and the exact beam on a page.
 
     The page needs no network. Sliders set speed and amplitude.
 

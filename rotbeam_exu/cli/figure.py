@@ -24,7 +24,7 @@ def figure(
     workers: Workers = _WORKERS,
     results: Results = _RESULTS,
 ) -> None:
-    """Make a figure of the paper: netCDF, CSV, PNG, PDF and a caption.
+    """Make a figure of the paper: data, pictures and caption.
 
     Parameters
     ----------

@@ -101,7 +101,7 @@ class Results:
         Replace a result of other inputs that has the same name.
     """
 
-    out: Path = Path("results")
+    out: Annotated[Path, Parameter(alias="-o")] = Path("results")
     force: Force = False
 
 

@@ -132,7 +132,9 @@ def respond(
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
-    """Follow the forced response of the exact blade through its folds, write data and figure.
+    """Follow a damped, driven blade's response through its folds.
+
+    Of the exact blade; writes netCDF, CSV and a figure.
 
     Printed are both ends and, in order along the curve, all folds and peaks.
 

@@ -36,7 +36,9 @@ def run(
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
-    """Spin a beam up in Exudyn, measure its steady oscillation, write data and figure.
+    """Spin a beam up in Exudyn and measure what oscillation is left.
+
+    Writes netCDF, CSV and a figure.
 
     Parameters
     ----------

@@ -53,7 +53,9 @@ def sweep(
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
-    """Spin the beam up over a grid of speeds and ramp times; failed cases stay on record.
+    """Spin the beam up over a grid of speeds and ramp times.
+
+    Failed cases stay on record; a sweep that was stopped goes on where it stopped.
 
     Parameters
     ----------

@@ -13,7 +13,9 @@ from .output import Format, print_columns
 
 
 def table(number: Whole, *, form: Annotated[Format, Parameter(name="--format")] = "table") -> None:
-    """Print a table of the paper as printed and as derived, differences and errata marked.
+    """Print a table of the paper, as printed and as derived.
+
+    Differences and errata are marked.
 
     Parameters
     ----------

@@ -32,7 +32,9 @@ def verify(
     error: float = 1e-2,
     config: Path | None = None,
 ) -> None:
-    """Judge formulations by what they tend to: frequencies, history, amplitude, nonlinear shift.
+    """Judge elements, and other codes at hand, by what they tend to.
+
+    Frequencies, history, amplitude and nonlinear shift.
 
     Of the paper's beam the benchmark's cases L, S1, S2, O and S4; of another one its spin-up.
 

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
-from analytic import AnyBlade, SpinUp, SteadyRotation
+from analytic import AnyBlade, SteadyRotation
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
+from analytic.ramps import AnyRamp, fastest
 
 from ..resolution import checked_steps
-from ..verdict import beam_attributes, loads_attributes
+from ..verdict import beam_attributes, loads_attributes, motion_attributes
 from .elements import Formulation, formulation, options_of, require_modeled
 from .solver import Frame, require_frame
 
@@ -26,7 +27,7 @@ class Case:
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp or SteadyRotation
+    spin_up : SpinUp, SmoothRamp, Table or SteadyRotation
     element : str or Formulation
         A name becomes the formulation.
     elements, duration, step, frame, loads
@@ -39,7 +40,7 @@ class Case:
     """
 
     beam: AnyBlade
-    spin_up: SpinUp | SteadyRotation
+    spin_up: AnyRamp | SteadyRotation
     element: str | Formulation = "cable"
     elements: int = 16
     duration: float = 15.0
@@ -74,8 +75,13 @@ class Case:
 
     @property
     def omega(self) -> float:
-        """Steady angular velocity [rad/s]."""
+        """Steady angular velocity, after the ramp [rad/s]."""
         return self.spin_up.omega
+
+    @property
+    def fastest(self) -> float:
+        """Highest angular velocity [rad/s]."""
+        return fastest(self.spin_up)
 
     @property
     def ramp_time(self) -> float:
@@ -96,7 +102,7 @@ class Case:
     def steps_and_sampling(self) -> tuple[int, int]:
         """How many steps there are, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.omega, self.ramp_time, self.elements, self.duration, self.step,
+            self.beam, self.fastest, self.ramp_time, self.elements, self.duration, self.step,
             [getattr(load, "frequency", self.omega) for load in self.loads],
         )  # fmt: skip
 
@@ -106,6 +112,7 @@ class Case:
             **beam_attributes(self.beam),
             "omega": self.omega,
             "ramp_time": self.ramp_time,
+            **motion_attributes(self.spin_up),
             "element": self.model.name,
             "element_options": json.dumps(options_of(self.model)),
             "elements": self.elements,

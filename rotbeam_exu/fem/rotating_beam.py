@@ -84,7 +84,7 @@ def add_rotating_beam(
     mbs : exudyn.MainSystem
     beam : Beam or Blade
         In the units of the system, SI as a rule.
-    rotation : SpinUp or SteadyRotation
+    rotation : SpinUp, SmoothRamp, Table or SteadyRotation
         Angle of the clamp over time.
     element, elements, frame, loads
         As in `simulate`; loads in the units of the system.

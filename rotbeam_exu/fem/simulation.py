@@ -8,6 +8,7 @@ import time as clock
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from importlib import metadata
 from typing import Any
 
@@ -15,12 +16,14 @@ import exudyn
 import numpy as np
 import xarray as xr
 
-from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
+from analytic import AnyBlade, BeamState, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
+from analytic.exact.state import stretched_state
 from analytic.input_checks import RotbeamWarning
 from analytic.loads import Load
 from analytic.motion import Rotation
+from analytic.ramps import AnyRamp
 
 from .. import __version__
 from ..verdict import SimulationError, check_run, remedy
@@ -37,7 +40,7 @@ from .units import Units
 
 def simulate(
     beam: AnyBlade,
-    spin_up: SpinUp | SteadyRotation,
+    spin_up: AnyRamp | SteadyRotation,
     *,
     element: str | Formulation = "cable",
     elements: int = 16,
@@ -58,8 +61,9 @@ def simulate(
     ----------
     beam : Beam or Blade
         The beam.
-    spin_up : SpinUp or SteadyRotation
-        Prescribed rotation of the clamped end: Eq. 1, or constant from the start.
+    spin_up : SpinUp, SmoothRamp, Table or SteadyRotation
+        Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
+        speed from the start.
     element : str or Formulation
         Beam formulation: a key of `rotbeam_exu.fem.elements.FORMULATIONS`, or an instance with its
         options, such as `Exact(nodes=3)`.
@@ -80,7 +84,8 @@ def simulate(
     initial_state : callable, optional
         Gives the state at material points x [m] at t = 0, as
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does; otherwise the beam
-        is straight and at rest in the frame of the clamp.
+        is straight and at rest in the frame of the clamp, and stretched where a change of the
+        speed begins in rotation.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -118,7 +123,7 @@ def run_case(
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what `simulate` does, of a case."""
-    warn_if_rpm(case.beam, case.omega)
+    warn_if_rpm(case.beam, case.fastest)
     units = Units.of(case.beam, case.step)
     beam = units.beam(case.beam)
     with exudyn_system() as mbs:
@@ -162,7 +167,9 @@ def _built(
     )  # fmt: skip
     chain = built.chain
     sensors = Sensors(mbs, chain)
-    start = None
+    start, turning = None, getattr(case.spin_up, "start", 0.0)
+    if initial_state is None and turning:
+        initial_state = partial(stretched_state, case.beam, turning)
     if initial_state is not None:
         x = np.linspace(0.0, 1.0, len(chain.nodes))
         state = units.state(initial_state(case.beam.length * x))

@@ -9,11 +9,12 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from analytic import AnyBlade, Beam, Blade, Damping
+from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane
 from analytic.blade import blade_from
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _DAMPING = tuple(field.name for field in fields(Damping))
+_OUT_OF_PLANE = tuple(field.name for field in fields(OutOfPlane))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
 
 
@@ -24,7 +25,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     axial_stiffness, bending_stiffness and mass_per_length. [blade] gives length and, where they are
     not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
-    stations [x, value]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
+    stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
+    and polar_inertia [kg m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
     bending [s], axial [s] and external [kg/(m s)], each zero where it is not given.
 
     Raises
@@ -83,7 +85,15 @@ def _blade(table: dict[str, Any], source: Path) -> Blade:
             f"{source}: write [blade.section], [blade.damping] and, for each mass, "
             "[[blade.point_mass]] as tables"
         )
-    _require_keys(section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia",))
+    _require_keys(
+        section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia", "out_of_plane")
+    )
+    beyond = section.get("out_of_plane")
+    if beyond is not None:
+        if not isinstance(beyond, dict):
+            raise ValueError(f"{source}: write [blade.section.out_of_plane] as a table")
+        title = "[blade.section.out_of_plane]"
+        _require_keys(beyond, title, source, _OUT_OF_PLANE[:1], _OUT_OF_PLANE[1:])
     _require_keys(damping, "[blade.damping]", source, (), _DAMPING)
     for one in masses:
         _require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))

@@ -65,16 +65,21 @@ class Histories:
         """Of each run from the reference over max|q|, at the run's own times."""
         return {run: (run.q - self.reference.history(run.time)) / self.scale for run in self.runs}
 
-    def deflection(self, tolerance: float) -> tuple[Finding, dict[str, Order]]:
-        """Return the finding of q(t) itself, over max|q|, and the orders in mesh and step."""
-        time = self.rows.finest.time
-        time = time[time <= min(float(run.time[-1]) for run in self.runs)]
-        differences = {
-            run: d if run is self.rows.finest else CubicSpline(run.time, d)(time)
+    @cached_property
+    def aligned(self) -> dict[Run, FloatArray]:
+        """The differences of all runs at the finest one's times, as far as all of them go."""
+        finest = self.rows.finest
+        time = finest.time[finest.time <= min(float(run.time[-1]) for run in self.runs)]
+        return {
+            run: d[: time.size] if run is finest else CubicSpline(run.time, d)(time)
             for run, d in self.differences.items()
         }
-        differences[self.rows.finest] = self.differences[self.rows.finest][: time.size]
-        runs, steps, _ = limit_of_histories(self.rows, differences, HISTORY_FLOOR, self.declaration)
+
+    def deflection(self, tolerance: float) -> tuple[Finding, dict[str, Order]]:
+        """Return the finding of q(t) itself, over max|q|, and the orders in mesh and step."""
+        runs, steps, _ = limit_of_histories(
+            self.rows, self.aligned, HISTORY_FLOOR, self.declaration
+        )
         declared = self.declaration.order, self.declaration.order_in_step
         orders = {"mesh": Order(value=runs.order, declared=declared[0], why=runs.why)}
         if steps is not None:

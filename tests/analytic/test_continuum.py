@@ -9,9 +9,10 @@ from analytic.exact.discretization import continuum
 from analytic.quadrature import axial_basis, gauss_points
 
 
+@pytest.mark.parametrize("shear_share", [None, 0.3])
 @pytest.mark.parametrize("derivative", ["stiffness", "damping", "mass"])
-def test_tangent_is_the_derivative_of_the_residual(derivative):
-    model = continuum(1e-2, 6, 5, 1e-2)
+def test_tangent_is_the_derivative_of_the_residual(derivative, shear_share):
+    model = continuum(1e-2, 6, 5, 1e-2, shear_share=shear_share)
     rng = np.random.default_rng(1)
     state = [0.4 * rng.normal(size=(3, model.size)) for _ in range(3)]
     which = ["stiffness", "damping", "mass"].index(derivative)

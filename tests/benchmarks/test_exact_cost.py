@@ -15,6 +15,7 @@ from analytic import (
     spin_up_response,
 )
 from rotbeam_exu import simulate
+from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 pytestmark = pytest.mark.benchmarks
 
@@ -62,3 +63,25 @@ def test_a_response_curve_with_two_folds_takes_less_than_a_simulation(beam):
     run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
     response = seconds(curve)
     assert response < run, f"{response:.3f} s against {run:.3f} s"
+
+
+def test_24_spin_ups_to_1e_6_take_less_than_their_sweep(beam):
+    """Each pair one after the other, so that both meet the same machine; 16 elements."""
+    times = np.linspace(0.0, 15.0, 1501)
+    swept = exact = 0.0
+    for omega in SPEEDS:
+        for ramp_time in RAMP_TIMES:
+            spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
+            swept += seconds(lambda s=spin_up: simulate(beam, s, elements=16), repeats=1)
+            exact += seconds(lambda s=spin_up: spin_up_response(beam, s, times, tolerance=1e-6), 1)
+    assert exact < swept, f"{exact:.3f} s against {swept:.3f} s"
+
+
+@pytest.mark.parametrize(("omega", "ramp_time"), [(2.0, 3.0), (6.0, 3.0), (8.0, 2.5)])
+def test_a_loose_tolerance_costs_less(beam, omega, ramp_time):
+    spin_up, times = SpinUp(omega=omega, ramp_time=ramp_time), np.linspace(0.0, 15.0, 1501)
+    loose, tight = (
+        seconds(lambda t=tolerance: spin_up_response(beam, spin_up, times, tolerance=t))
+        for tolerance in (1e-4, 1e-8)
+    )
+    assert loose < 0.75 * tight, f"{loose:.3f} s against {tight:.3f} s"

@@ -16,18 +16,19 @@ FLOORS = {
     "analytic": [
         {"arrays"},
         {"input_checks", "quadrature", "methods"},
-        {"profiles", "motion"},
-        {"unit_blade", "section", "loads"},
+        {"profiles", "motion", "out_of_plane", "point_mass"},
+        {"unit_blade", "section", "loads", "ramps"},
         {"blade"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other
+        {"spin_up"},
     ],
     "rotbeam_exu": [
         {"paper", "resolution", "tones", "verdict", "files"},
         {"oscillation", "fem"},
         {"sweeps", "verification"},
         {"comparison", "figures"},
-        {"explorer", "paper_figures"},
+        {"explorer", "paper_figures", "report"},
         {"cli"},
     ],
 }

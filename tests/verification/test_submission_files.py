@@ -155,7 +155,7 @@ def numbers(form):
 
 S1 = "S1/m008_h1e-3.csv"
 FAULTS = [
-    (S1, lambda text: text.replace(",", ";"), ":1: columns are separated by semicolons"),
+    (S1, lambda text: text.replace(",", ";"), ":1: the header is split by semicolons"),
     (S1, lambda text: text.replace("time,q", "time,Q"), ":1: unknown column 'Q'; did you mean 'q'"),
     (S1, lambda text: text.replace("time,q", "time [ms],q [m]"), "write it in [s]"),
     (S1, lambda text: text.replace("time,q\n", ""), ":1: there is no header"),

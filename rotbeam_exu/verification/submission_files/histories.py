@@ -42,7 +42,7 @@ def history_of(
     if unfit:
         faults += unfit
         return None
-    within = columns["time"] <= case.duration * (1.0 + _SLACK)
+    within = columns["time"] <= case.duration
     return {name: values[within] for name, values in columns.items()}
 
 

@@ -140,8 +140,9 @@ def _header_faults(
 
     wanted = ",".join(required)
     if "," not in title and len(required) > 1:
-        other = next((name for mark, name in _SEPARATORS.items() if mark in title.strip()), "none")
-        return [fault(f"columns are separated by {other}: separate them by commas, {wanted}")]
+        other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in title.strip()]
+        split = f"is split{other[0]}" if other else f"is {shown(title.strip())}"
+        return [fault(f"the header {split}: separate the columns by commas, {wanted}")]
     cells = [_cell_of_header(cell) for cell in title.split(",")]
     names = [name for name, _ in cells]
     if all(_NUMBER.fullmatch(name) for name in names):

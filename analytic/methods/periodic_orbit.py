@@ -1,0 +1,189 @@
+"""A periodic orbit that time reversal maps onto itself: its Fourier series, and what that tells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from ..arrays import FloatArray
+from .fourier import Waves, fine_waves, half_period, packed
+from .system import System, Tangent
+
+_PHASE_STEP = 1e-4  # of the last step to the peak: after it the phase is wrong by its square
+
+S = TypeVar("S", bound=System)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PeriodicOrbit(Generic[S]):
+    """A periodic orbit in nondimensional form: phase φ = Ωτ, odd coordinates zero at φ = 0.
+
+    Attributes
+    ----------
+    system : System
+    amplitude : float
+        Peak of the gauge.
+    frequency : float
+        Ω.
+    coefficients : ndarray (H + 1, n)
+        Harmonics 0 to H: of sines for the odd coordinates, of cosines for the others.
+    peak_phase : float
+        Phase at which the gauge is greatest.
+    """
+
+    system: S
+    amplitude: float
+    frequency: float
+    coefficients: FloatArray
+    peak_phase: float = 0.5 * np.pi
+
+    @property
+    def harmonics(self) -> int:
+        """Number of harmonics H."""
+        return len(self.coefficients) - 1
+
+    @property
+    def sines(self) -> FloatArray:
+        """Harmonics 1 to H of the odd coordinates, (H, odd)."""
+        return self.coefficients[1:, self.system.odd]
+
+    def coordinates(self, phase: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return q, dq/dτ, d²q/dτ² (phases, n) at the phases (phases,)."""
+        waves = Waves(phase, self.harmonics)
+        return waves.sums(self.coefficients, self.system.odd, self.frequency)
+
+    def at_waves(self, waves: Waves) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the same at the phases of `waves`, which has as many harmonics."""
+        return waves.sums(self.coefficients, self.system.odd, self.frequency)
+
+    def gauge(self, phase: FloatArray) -> FloatArray:
+        """Return the gauge, (phases,)."""
+        return self.system.gauge(self.coordinates(phase)[0])
+
+    @cached_property
+    def _finely(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The coordinates at four times as many phases of half a period as harmonics."""
+        return self.at_waves(fine_waves(self.harmonics))
+
+    @cached_property
+    def gauge_harmonics(self) -> FloatArray:
+        """Sine coefficients 1 to H of the gauge, (H,)."""
+        sines = fine_waves(self.harmonics).odd[0]
+        return np.asarray(2.0 / len(sines) * self.system.gauge(self._finely[0]) @ sines)
+
+    @cached_property
+    def residual(self) -> float:
+        """Largest residual along the orbit, relative to the odd coordinates' own size.
+
+        At four times as many phases as harmonics and in the refined system, so that it also sees
+        what both truncations left out.
+        """
+        finer = self.system.refined()
+        q, q_dot, q_ddot = (self.system.lifted(c, finer) for c in self._finely)
+        defect = finer.residual(q, q_dot, q_ddot)
+        size = np.linalg.norm(q[:, finer.odd], axis=-1).max()
+        return float(np.linalg.norm(defect, axis=-1).max() / size)
+
+    @cached_property
+    def _energies(self) -> tuple[FloatArray, float]:
+        q, q_dot, _ = self._finely
+        kinetic = float(self.system.kinetic_energy(q, q_dot).max())
+        return self.system.invariant(q, q_dot), kinetic
+
+    @property
+    def invariant_drift(self) -> float:
+        """Largest change of the invariant along the orbit, over the kinetic energy."""
+        invariant, kinetic = self._energies
+        return float(np.ptp(invariant) / kinetic)
+
+    @property
+    def invariant_noise(self) -> float:
+        """Round-off of `invariant_drift`: a potential may outweigh small orbits."""
+        invariant, kinetic = self._energies
+        return float(4.0 * np.finfo(float).eps * np.abs(invariant).max() / kinetic)
+
+    def tangent(self, phase: FloatArray) -> Tangent:
+        """Return the equations' residual and derivatives at the phases (phases,)."""
+        return self.system.tangent(*self.coordinates(phase))
+
+    def constants(self) -> tuple[FloatArray, FloatArray]:
+        """Return the flow (2n,) and the gradient of the invariant (2n,) at φ = 0."""
+        q, q_dot, q_ddot = self.coordinates(np.zeros(1))
+        n, h = self.system.size, 1e-5
+        steps = h * np.eye(2 * n)
+        ahead, behind = (
+            self.system.invariant(q + sign * steps[:, :n], q_dot + sign * steps[:, n:])
+            for sign in (1.0, -1.0)
+        )
+        return np.concatenate((q_dot[0], q_ddot[0])), (ahead - behind) / (2.0 * h)
+
+    def with_harmonics(self, count: int) -> PeriodicOrbit[S]:
+        """Return the same orbit with its series cut or padded to `count` harmonics."""
+        coefficients = np.zeros((count + 1, self.system.size))
+        kept = min(count, self.harmonics) + 1
+        coefficients[:kept] = self.coefficients[:kept]
+        return replace(self, coefficients=coefficients)
+
+    def on(self, system: S) -> PeriodicOrbit[S]:
+        """Return the same orbit in the finer `system`."""
+        if system is self.system:
+            return self
+        return replace(
+            self, system=system, coefficients=self.system.lifted(self.coefficients, system)
+        )
+
+    def scaled(self, amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit with harmonic k scaled as its leading order is, as amplitude^k.
+
+        The mean departs from the equilibrium by the square; any linear extrapolation would strain
+        what is stiff. High harmonics are held back, or their round-off would be blown up.
+        """
+        factor = amplitude / self.amplitude
+        powers = factor ** np.minimum(np.arange(self.harmonics + 1.0), 6.0)[:, None]
+        coefficients = powers * self.coefficients
+        mean = self.system.equilibrium
+        coefficients[0] = mean + factor**2 * (self.coefficients[0] - mean)
+        return replace(self, amplitude=amplitude, coefficients=coefficients)
+
+
+def at_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float, FloatArray]:
+    """Return the orbit with its peak's phase, the peak and its derivatives to the unknowns.
+
+    The phase is where the gauge is stationary, so it adds nothing to the derivatives.
+    """
+    orbit, peak = near_peak(highest(orbit))
+    return orbit, peak, peak_gradient(orbit)
+
+
+def highest(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+    """Return the orbit with the phase near which its gauge is greatest."""
+    half = half_period(orbit.harmonics)
+    values = orbit.system.gauge(orbit.at_waves(half.waves)[0])
+    return replace(orbit, peak_phase=float(half.phase[np.argmax(values)]))
+
+
+def near_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float]:
+    """Return the orbit with the phase of the peak near the one that it has, and the peak."""
+    phase = orbit.peak_phase
+    for _ in range(6):
+        q, q_dot, _ = orbit.coordinates(phase + np.array([-1e-4, 0.0, 1e-4]))
+        rate = orbit.system.gauge_rate(q, q_dot) / orbit.frequency
+        step = float(-rate[1] / ((rate[2] - rate[0]) / 2e-4))
+        phase += float(np.clip(step, -0.2, 0.2))
+        if abs(step) < _PHASE_STEP:
+            break
+    # Beyond the last step's square, which is half its rate, the cube is below round-off.
+    peak = float(orbit.system.gauge(q)[1] + 0.5 * step * rate[1])
+    return replace(orbit, peak_phase=phase), peak
+
+
+def peak_gradient(orbit: PeriodicOrbit[Any]) -> FloatArray:
+    """Return the derivatives of the gauge at the peak's phase to the unknowns."""
+    phase, odd = orbit.peak_phase, orbit.system.odd
+    q = orbit.coordinates(np.array([phase]))[0]
+    k = np.arange(orbit.harmonics + 1)[:, None]
+    waves = np.where(odd, np.sin(k * phase), np.cos(k * phase))
+    return np.append(packed(waves * orbit.system.gauge_gradient(q)[0], odd), 0.0)

@@ -1,0 +1,44 @@
+"""A mass on the blade's axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .input_checks import not_negative
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointMass:
+    """A mass on the blade's axis.
+
+    Parameters
+    ----------
+    position : float
+        x from the clamp [m].
+    mass : float
+        [kg].
+    inertia : float
+        Against rotation in the plane of bending [kg m²].
+    """
+
+    position: float
+    mass: float
+    inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, value in (
+            ("position", _off_the_clamp(self.position)),
+            ("mass", not_negative("mass", self.mass, "kg")),
+            ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
+        ):
+            object.__setattr__(self, name, value)
+
+
+def _off_the_clamp(position: float) -> float:
+    at = not_negative("position", position, "m", "it is measured from the clamp to the tip")
+    if at == 0.0:
+        raise ValueError(
+            "a point mass at the clamp, position 0 m, does not move with the blade: leave it out, "
+            "it belongs to the hub"
+        )
+    return at

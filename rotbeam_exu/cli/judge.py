@@ -1,0 +1,127 @@
+"""`rotbeam judge`: the verdict on a submission of files, from any code in any language."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from json import dumps
+from pathlib import Path
+
+from ..files.results import whole_file, writable_folder
+from ..report.document import SCHEMA, document
+from ..report.page import TITLE, report_page
+from ..report.record import Record
+from ..verification.cases import CASES, VERSION
+from ..verification.judgement import Judgement, judged
+from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes.search import mistakes_in
+from ..verification.submission_files.faults import MalformedSubmissionError
+from ..verification.submission_files.reading import digests, read_submission
+from .output import new_console
+from .verdicts import print_judgements, print_note
+
+
+def judge(
+    folder: Path,
+    /,
+    *,
+    report: Path | None = None,
+    json: Path | None = None,
+    case: list[str] | None = None,
+    run: bool = False,
+) -> None:
+    """Judge a submission of files, from any code, by what it tends to.
+
+    Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
+    malformed, and all their faults are told.
+
+    Parameters
+    ----------
+    folder
+        With entry.toml and L.csv, B.csv, or histories and runs.csv.
+    report
+        Write the report, one HTML page.
+    json
+        Write all findings as JSON.
+    case
+        Tell of this case alone; may be given again.
+    run
+        First run the command of run.toml for what is missing.
+    """
+    chosen = _known_cases(case)
+    for target, ending in ((report, ".html"), (json, ".json")):
+        if target is not None:
+            _may_write(target, ending)
+    try:
+        submission = read_submission(folder)
+    except MalformedSubmissionError as error:
+        _print_faults(error)
+        sys.exit(2)
+    whole = judged(submission)
+    mistakes = [one for one in mistakes_in(submission, whole) if one.case in chosen]
+    found = _only(whole, chosen)
+    _print_mistakes(mistakes)
+    print_judgements([found], f"benchmark {VERSION}")
+    for source in dict.fromkeys(found.sources.values()):
+        print_note(f"reference: {source}")
+    record = Record(
+        submission=submission, judgement=found, mistakes=tuple(mistakes),
+        digests=digests(folder, submission),
+    )  # fmt: skip
+    if report is not None:
+        _write(report_page(record), report)
+    if json is not None:
+        _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
+    sys.exit(0 if found.passed else 1)
+
+
+def _known_cases(case: Sequence[str] | None) -> tuple[str, ...]:
+    for name in case or ():
+        if name not in CASES:
+            raise ValueError(f"unknown case {name!r}; known are {', '.join(CASES)}")
+    return tuple(case or CASES)
+
+
+def _may_write(target: Path, ending: str) -> None:
+    """Refuse a target of another ending, in a folder that cannot be written, or not of ours."""
+    if target.suffix != ending:
+        raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
+    writable_folder(target.parent)
+    ours = TITLE.encode(), SCHEMA.encode()
+    if target.exists() and not any(mark in target.read_bytes()[:1000] for mark in ours):
+        raise FileExistsError(f"{target} is there and is no judgement: choose another name")
+
+
+def _write(text: str, target: Path) -> None:
+    with whole_file(target) as partial:
+        partial.write_text(text, encoding="utf-8")
+    print_note(f"{target}, {target.stat().st_size / 1e6:.1f} MB")
+
+
+def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
+    """Return what was found of some cases; all were judged, for L has a share in the others."""
+    return replace(
+        found,
+        findings={name: one for name, one in found.findings.items() if name in chosen},
+        orders={name: one for name, one in found.orders.items() if name in chosen},
+        histories={name: one for name, one in found.histories.items() if name in chosen},
+        sources={name: one for name, one in found.sources.items() if name in chosen},
+    )
+
+
+def _print_faults(error: MalformedSubmissionError) -> None:
+    console = new_console(stderr=True)
+    for fault in error.faults:
+        console.print(str(fault))
+    count = len(error.faults)
+    console.print(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged")
+
+
+def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
+    """Print each mistake once, with the cases that it explains."""
+    by_name: dict[str, list[Mistake]] = {}
+    for one in mistakes:
+        by_name.setdefault(one.name, []).append(one)
+    for alike in by_name.values():
+        print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")

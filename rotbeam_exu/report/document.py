@@ -1,0 +1,105 @@
+"""A judgement as a JSON document; docs/howto/judge.md says what each key means."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from ..verification.cases import CASES, VERSION
+from ..verification.judgement import Judgement
+from ..verification.outcomes import Finding, Order
+from ..verification.submission import Run
+from .record import Record
+
+SCHEMA = "rotbeam judgement 1"
+"""Its number grows where a key goes, or means something else."""
+
+
+def document(record: Record) -> dict[str, Any]:
+    """Return what was judged, found, and by what; numbers that are not known are None."""
+    found = record.judgement
+    made: dict[str, Any] = _plain(
+        {
+            "schema": SCHEMA,
+            "benchmark": VERSION,
+            "self_judged": True,
+            "date": record.date.isoformat(timespec="seconds"),
+            "versions": dict(record.versions),
+            "declaration": dataclasses.asdict(found.declaration),
+            "outcome": found.outcome,
+            "passed": found.passed,
+            "mistakes": [dataclasses.asdict(one) for one in record.mistakes],
+            "cases": {name: _case(name, record) for name in found.findings},
+            "files": dict(record.digests),
+        }
+    )
+    return made
+
+
+def _case(name: str, record: Record) -> dict[str, Any]:
+    found = record.judgement
+    return {
+        "title": CASES[name].title if name in CASES else name,
+        "outcome": str(found.outcome_of(name)),
+        "reference": found.sources.get(name, ""),
+        "quantities": {key: _finding(one) for key, one in found.findings[name].items()},
+        "orders": {key: _order(one) for key, one in found.orders.get(name, {}).items()},
+        "runs": [_run(run, found) for run in record.submission.runs if run.case == name],
+    }
+
+
+def _finding(found: Finding) -> dict[str, Any]:
+    runs = found.runs
+    return {
+        "outcome": str(found.outcome),
+        "passed": found.outcome.passed,
+        "note": found.note,
+        "at_most": found.tolerance,
+        "model_difference": found.model_difference,
+        "bar": runs.bar if runs else None,
+        "difference_of_finest": found.difference,
+        "discretization": runs.errors[-1] if runs else None,
+        "floor": runs.noise[-1] if runs else None,
+        "reference_bound": found.bound,
+        "order": runs.order if runs else None,
+        "why_no_order": runs.why if runs else "",
+        "sizes": runs.sizes if runs else [],
+        "values": runs.values if runs else [],
+        "errors": runs.errors if runs else [],
+    }
+
+
+def _order(order: Order) -> dict[str, Any]:
+    return {"observed": order.value, "declared": order.declared, "low": order.low, "why": order.why}
+
+
+def _run(run: Run, found: Judgement) -> dict[str, Any]:
+    histories = found.histories.get(run.case)
+    known = histories.differences.get(run) if histories else None
+    return {
+        "file": run.file,
+        "elements": run.elements,
+        "step": run.step,
+        "dof": run.dof,
+        "wall_s": run.wall,
+        "cpu_s": run.cpu,
+        "difference": None if known is None else np.abs(known).max(),
+        "failure": run.failure,
+        "remark": run.remark,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON has: no arrays, no NaN, no infinity."""
+    if isinstance(value, dict):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_plain(one) for one in value]
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,228 @@
+"""The report: one HTML page that needs nothing else, to be read, printed, and sent with a paper."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import re
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib import resources
+from string import Template
+from urllib.parse import quote
+
+from ..figures.judgement import judged_errors, judged_history, svg
+from ..verification.cases import CASES, VERSION
+from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.submission import Run
+from .badge import badge
+from .document import document
+from .record import Record
+from .row import latex_row
+
+TITLE = "rotbeam judgement"
+"""Begins the title of each page, by which one is known."""
+
+_PIXELS = 1.75
+"""Of a point of a figure, whose letters are then as large as the text's."""
+
+_MARKS = {
+    Outcome.REFERENCE: ("right", "✓"), Outcome.NOT_SUBMITTED: ("open", "–"),
+    Outcome.NO_VERDICT: ("open", "?"), Outcome.ANOTHER_LIMIT: ("other", "≠"),
+    Outcome.NO_LIMIT: ("wrong", "✗"),
+}  # fmt: skip
+
+
+def report_page(record: Record) -> str:
+    """Return the page as text."""
+    found = record.judgement
+    template = resources.files(__package__).joinpath("template.html").read_text(encoding="utf-8")
+    shield, row = badge(found), latex_row(found)
+    text = json.dumps(document(record), indent=1, ensure_ascii=False)
+    return Template(template).substitute(
+        title=escape(f"{TITLE}: {record.name}"),
+        name=escape(record.name),
+        benchmark=VERSION,
+        date=f"{record.date:%d %B %Y, %H:%M} UTC",
+        verdict=escape(found.outcome),
+        badge=shield,
+        mistakes=_mistakes(record),
+        about=_about(record),
+        outcomes=_outcomes(record),
+        orders=_orders(record),
+        cases="\n".join(_case(name, record) for name in found.findings),
+        runs=_runs(record),
+        files=_files(record),
+        row=escape(row),
+        versions=escape(", ".join(f"{name} {one}" for name, one in record.versions.items())),
+        badge_link=_link(shield, "image/svg+xml"),
+        row_link=_link(row, "text/plain"),
+        json_link=_link(text, "application/json"),
+    )
+
+
+def _link(text: str, kind: str) -> str:
+    return f"data:{kind};charset=utf-8,{quote(text)}"
+
+
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table of cells that are HTML already."""
+    head = "".join(f"<th>{cell}</th>" for cell in header)
+    body = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
+    table = f"<table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table>"
+    return f'<div class="wide">{table}</div>'
+
+
+def _cell(html: str) -> str:
+    """Return a cell; text may be broken, numbers with their bars not."""
+    words = ' class="text"' if re.search("[a-z]{4}", re.sub("<.*?>", "", html)) else ""
+    return f"<td{words}>{html}</td>"
+
+
+def _mistakes(record: Record) -> str:
+    if not record.mistakes:
+        return ""
+    items = "".join(
+        f"<li><b>{escape(one.case)}</b>: {escape(str(one))}</li>" for one in record.mistakes
+    )
+    return f'<section class="mistakes"><h2>A usual mistake?</h2><ul>{items}</ul></section>'
+
+
+def _about(record: Record) -> str:
+    stated = record.judgement.declaration
+    link = stated.url if stated.url.startswith(("https://", "http://")) else ""
+    url = f'<a href="{escape(link)}">{escape(link)}</a>' if link else escape(stated.url)
+    orders = [
+        f"{value:g} in {what}"
+        for value, what in ((stated.order, "mesh"), (stated.order_in_step, "step"))
+        if value
+    ]
+    tells = {
+        "Authors": escape(", ".join(stated.authors)),
+        "Source": url,
+        "Licence": escape(stated.licence),
+        "Element": escape(stated.element),
+        "Held against": escape(f"the exact {stated.theory.name} beam"),
+        "Declared orders": ", ".join(orders),
+        "Machine": escape(stated.machine),
+        "Remarks": escape(stated.remarks),
+    }
+    return "".join(f"<dt>{key}</dt><dd>{text}</dd>" for key, text in tells.items() if text)
+
+
+def _outcomes(record: Record) -> str:
+    header = [
+        "case", "quantity", "outcome", "limit − reference", "at most", "run − limit", "order",
+        "floor", "reference ±",
+    ]  # fmt: skip
+    rows = [
+        _outcome_row(case, quantity, found)
+        for (case, quantity), found in record.judgement.by_quantity.items()
+    ]
+    return _table(header, rows)
+
+
+def _outcome_row(case: str, quantity: str, found: Finding) -> list[str]:
+    kind, mark = _MARKS[found.outcome]
+    runs = found.runs
+    outcome = f'<span class="{kind}">{mark} {found.outcome}</span>'
+    if found.note and found.outcome is not Outcome.REFERENCE:
+        outcome += f"<br><small>{escape(found.note)}</small>"
+    limit = order = finest = floor = "–"
+    if runs is not None:
+        finest, floor = _number(float(runs.errors[-1])), _number(float(runs.noise[-1]), "")
+        order = f"{runs.order:.1f}" if math.isfinite(runs.order) else f"<small>{runs.why}</small>"
+        if math.isfinite(runs.limit):
+            limit = f"{_number(runs.limit)} ± {_number(runs.bar, '')}"
+    return [
+        escape(case), quantity, outcome, limit, f"{found.tolerance:g}", finest, order, floor,
+        _number(found.bound, ""),
+    ]  # fmt: skip
+
+
+def _number(value: float, sign: str = "+") -> str:
+    """Return a number of two digits, as 1.2·10⁻³; a dash where there is none."""
+    if not math.isfinite(value):
+        return "–"
+    mantissa, power = f"{value:{sign}.1e}".split("e")
+    return f"{mantissa.replace('-', '−')}·10<sup>{int(power)}</sup>".replace("<sup>-", "<sup>−")
+
+
+def _orders(record: Record) -> str:
+    rows = [
+        [escape(case), name, _order(order)]
+        for case, orders in record.judgement.orders.items()
+        for name, order in orders.items()
+    ]
+    return _table(["case", "refined in", "order of q(t)"], rows) if rows else ""
+
+
+def _order(order: Order) -> str:
+    low = " <small>(less than declared)</small>" if order.low else ""
+    return escape(str(order)) + low
+
+
+def _case(name: str, record: Record) -> str:
+    found = record.judgement
+    case = CASES.get(name)
+    title = f"{name}: {case.title}" if case else name
+    parts = [f"<h3>{escape(title)}</h3>"]
+    histories = found.histories.get(name)
+    if histories is not None:
+        parts.append(
+            _figure(
+                svg(judged_history(histories)),
+                f"{name}: the finest run over the reference, and the largest difference of each "
+                "run up to each time; dashed, what passes of a limit.",
+            )
+        )
+    axes = judged_errors(name, found)
+    if axes is not None:
+        machine = found.declaration.machine or "the author's machine"
+        cost = f"; error and time on {machine}" if histories is not None else ""
+        caption = f"{name}: distance from the limit in mesh and in step{cost}."
+        parts.append(_figure(svg(axes), caption))
+    parts.append(f"<p><small>Reference: {escape(found.sources.get(name, 'none'))}.</small></p>")
+    return f"<section>{''.join(parts)}</section>"
+
+
+def _figure(picture: str, caption: str) -> str:
+    data = base64.b64encode(picture.encode()).decode()
+    width = re.search(r'width="([0-9.]+)pt"', picture)
+    size = f' style="width: {_PIXELS * float(width[1]):.0f}px"' if width else ""
+    return (
+        f'<figure><img{size} alt="{escape(caption)}" src="data:image/svg+xml;base64,{data}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
+    )
+
+
+def _runs(record: Record) -> str:
+    chosen = record.judgement.findings
+    runs = [run for run in record.submission.runs if run.case in chosen]
+    if not runs:
+        return ""
+    header = ["file", "elements", "step [s]", "unknowns", "wall [s]", "CPU [s]", "what happened"]
+    return f"<h2>Runs</h2>{_table(header, map(_run_row, runs))}"
+
+
+def _run_row(run: Run) -> list[str]:
+    def told(value: float) -> str:
+        return f"{value:.3g}" if math.isfinite(value) else "–"
+
+    happened = f"failed: {run.failure}" if run.failure else run.remark
+    dof = str(run.dof) if run.dof else "–"
+    return [
+        f"<code>{escape(run.file)}</code>", str(run.elements), f"{run.step:g}", dof,
+        told(run.wall), told(run.cpu), escape(happened),
+    ]  # fmt: skip
+
+
+def _files(record: Record) -> str:
+    if not record.digests:
+        return ""
+    rows = [
+        [f"<code>{escape(file)}</code>", f'<code class="digest">{digest}</code>']
+        for file, digest in record.digests.items()
+    ]
+    return f"<h2>Files</h2>{_table(['file', 'SHA-256'], rows)}"

@@ -1,0 +1,141 @@
+"""Mistakes in L.csv and B.csv: other units, other speeds, other amplitudes than were asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from analytic import linear_modes, periodic_orbits
+from analytic.arrays import FloatArray
+
+from ..cases import Case
+from ..references import Reference
+from ..submission import BackbonePoint, Frequency
+from .mistake import Mistake, explaining
+
+Row = TypeVar("Row", Frequency, BackbonePoint)
+
+SMALL = 2e-4
+"""Relative error of a frequency below which no mistake is looked for: what passes."""
+
+SMALL_OF_SHIFT = 1e-2
+"""Of backbones over the largest shift: a first harmonic for a peak is 5 % of it at 0.6."""
+
+_FREQUENCY_UNITS = {
+    "hertz": ("the frequencies are in Hz", 0.5 / math.pi),
+    "revolutions per minute": ("the frequencies are in rpm", 30.0 / math.pi),
+    "degrees": ("the frequencies are in degrees/s", 180.0 / math.pi),
+}
+_SPEED_UNITS = {
+    "degrees": ("the speeds in rad/s were taken for degrees/s", math.pi / 180.0),
+    "revolutions per minute": ("the speeds in rad/s were taken for rpm", math.pi / 30.0),
+    "no rotation": ("the frequencies are those at rest, whatever the speed", 0.0),
+}
+
+
+def mistake_in_frequencies(
+    case: Case, rows: Sequence[Frequency], reference: Reference
+) -> Mistake | None:
+    """Return the mistake that explains what the finest mesh's linear frequencies are off by."""
+    finest = [one for one in _finest(rows) if not one.failure]
+    if not finest:
+        return None
+    speeds = np.array([one.speed for one in finest])
+    found = np.array([one.frequency for one in finest])
+    true = np.array([reference.first_frequency(speed) for speed in speeds])
+    before = _largest(found / true - 1.0)
+    if not before > SMALL:
+        return None
+
+    def made(name: str, said: str, expected: FloatArray) -> Mistake:
+        after = _largest(found / expected - 1.0)
+        return Mistake(case=case.name, name=name, said=said, before=before, after=after)
+
+    tried = [
+        made(name, f"{said}: hand in rad/s", factor * true)
+        for name, (said, factor) in _FREQUENCY_UNITS.items()
+    ]
+    said = "the frequencies are ω_n², eigenvalues: hand in their roots"
+    tried.append(made("eigenvalues", said, true**2))
+    if speeds.any():
+        tried += [
+            made(name, f"{said}", _at_speeds(case, factor * speeds))
+            for name, (said, factor) in _SPEED_UNITS.items()
+        ]
+    return explaining(tried)
+
+
+def mistake_in_backbone(
+    case: Case, rows: Sequence[BackbonePoint], reference: Reference
+) -> Mistake | None:
+    """Return the mistake that explains what the finest mesh's backbones are off by."""
+    points = _finest(rows)
+    found = np.array([one.frequency for one in points])
+    true = np.array([reference.frequency_at(one.amplitude, one.speed) for one in points])
+    linear = np.array([reference.first_frequency(one.speed) for one in points])
+    scale = np.array([_largest((true / linear - 1.0)[_at(points, one.speed)]) for one in points])
+    before = _largest((found / true - 1.0) / scale)
+    if not before > SMALL_OF_SHIFT:
+        return None
+    tried = [
+        Mistake(
+            case=case.name, name=name, said=said, before=before,
+            after=_largest((found / expected - 1.0) / scale),
+        )
+        for name, said, expected in _backbones(case, points, true, linear)
+    ]  # fmt: skip
+    return explaining(tried)
+
+
+def _backbones(
+    case: Case, points: Sequence[BackbonePoint], true: FloatArray, linear: FloatArray
+) -> Iterator[tuple[str, str, FloatArray]]:
+    """Yield name, sentence and frequencies of each mistake."""
+    for name, (said, factor) in _FREQUENCY_UNITS.items():
+        yield name, f"{said}: hand in rad/s", factor * true
+    yield "linear frequency", "the frequencies are ω_n, whatever the amplitude", linear
+    a = np.array([one.amplitude for one in points])
+    said = "the amplitudes are those of the first harmonic: hand in the peak, max|q|/L"
+    yield "first harmonic", said, _of_orbits(case, points, a, first_harmonic=True)
+    said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
+    yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
+
+
+def _of_orbits(
+    case: Case, points: Sequence[BackbonePoint], a: FloatArray, first_harmonic: bool = False
+) -> FloatArray:
+    """Return the exact frequencies at peaks or first harmonics; where there is none, infinity."""
+    found = np.full(a.size, np.inf)
+    for speed in {one.speed for one in points}:
+        here = _at(points, speed)
+        wanted = np.unique(a[here])
+        try:
+            # A first harmonic is up to 3 % larger than the peak.
+            peaks = np.union1d(wanted, 0.97 * wanted) if first_harmonic else wanted
+            orbits = periodic_orbits(case.blade, speed, peaks)
+        except (RuntimeError, ValueError):
+            continue
+        sizes = orbits.first_harmonic if first_harmonic else orbits.amplitude
+        # Frequencies are nearly linear in a².
+        found[here] = np.interp(a[here] ** 2, sizes**2, orbits.frequency)
+    return found
+
+
+def _at(points: Sequence[BackbonePoint], speed: float) -> np.ndarray[tuple[int], np.dtype[np.bool]]:
+    return np.array([one.speed == speed for one in points])
+
+
+def _at_speeds(case: Case, speeds: FloatArray) -> FloatArray:
+    return np.array([linear_modes(case.blade, speed, 1).frequencies[0] for speed in speeds])
+
+
+def _finest(rows: Sequence[Row]) -> list[Row]:
+    most = max(one.elements for one in rows)
+    return [one for one in rows if one.elements == most]
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.abs(values).max())

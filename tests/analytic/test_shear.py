@@ -1,0 +1,225 @@
+"""The exact beam with shear: Reissner's statics, Timoshenko's frequencies, action, limits."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from numpy.polynomial import Legendre
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from analytic import (
+    Beam,
+    SpinUp,
+    linear_modes,
+    periodic_orbits,
+    spin_up_response,
+    timoshenko_frequencies,
+)
+from analytic.exact.discretization import continuum, finer_model
+from analytic.methods.collocation import radau
+from analytic.quadrature import axial_basis, gauss_points
+
+SHARE = (5.0 / 6.0) / 2.6
+MU = 1e-3
+STUBBY = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1.0 / MU, bending_stiffness=1.0, mass_per_length=1.0
+)
+"""EI = m = L = 1: shear takes 0.7 % off its first frequency."""
+
+
+@pytest.mark.parametrize("rotary_inertia", [False, True])
+@pytest.mark.parametrize(
+    ("beam", "omega"),
+    [
+        (STUBBY, 0.0),
+        (STUBBY, 3.0),
+        (STUBBY, 10.0),
+        (Beam.reference(), 0.0),
+        (Beam.reference(), 8.0),
+    ],
+)
+def test_frequencies_are_timoshenkos(beam, omega, rotary_inertia):
+    """Linear about the stretched state, in another formulation; each settles to 1e-9."""
+    found = linear_modes(beam, omega, rotary_inertia=rotary_inertia, shear_share=SHARE)
+    linear = timoshenko_frequencies(beam, omega, rotary_inertia=rotary_inertia, shear_share=SHARE)
+    assert found.frequencies == pytest.approx(linear, rel=1e-9)
+
+
+def bent_at_rest(force):
+    """Return the tip z(1) under a dead force across, on the discretized beam."""
+    model = continuum(MU, 16, 10, shear_share=SHARE)
+    q, zero = np.zeros((1, model.size)), np.zeros((1, model.size))
+    for part in np.minimum(np.arange(1, 20) / 10, 1.0):
+        push = 1j * part * force * model.outboard["tip"][None]
+        at = model.tangent(q, zero, zero, 0.0, push=push)
+        q = q - np.linalg.solve(at.stiffness[0], at.residual[0])
+    assert np.abs(at.residual).max() < 1e-12
+    return model.tip(q)[0]
+
+
+def reissners_cantilever(force):
+    """Return the tip under a dead force across, by shooting with the moment at the clamp.
+
+    θ' = M, M' = -x' F, and z' = (1 + μ F sin θ + i (μ/σ) F cos θ) exp(iθ): the force of the section
+    is F turned into its axes, and the moment changes by the arm.
+    """
+
+    def slopes(_, state):
+        theta, moment = state[:2]
+        along, across = force * np.sin(theta), force * np.cos(theta)
+        slope = (1.0 + MU * along + 1j * MU / SHARE * across) * np.exp(1j * theta)
+        return [moment, -slope.real * force, slope.real, slope.imag]
+
+    solved = partial(solve_ivp, slopes, (0.0, 1.0), method="DOP853", rtol=1e-12, atol=1e-13)
+    clamp = brentq(lambda m: solved([0.0, m, 0.0, 0.0]).y[1, -1], 0.0, 1.2 * force, xtol=1e-13)
+    tip = solved([0.0, clamp, 0.0, 0.0]).y[2:, -1]
+    return complex(*tip)
+
+
+def test_a_small_force_bends_and_shears_the_cantilever():
+    """F L³/(3 EI) + F L/(k_s GA): 0.9 % are shear."""
+    small = 1e-6
+    assert bent_at_rest(small).imag / small == pytest.approx(1.0 / 3.0 + MU / SHARE, rel=1e-9)
+
+
+@pytest.mark.parametrize("force", [1.0, 8.0])
+def test_a_large_force_bends_it_as_reissner_says(force):
+    assert bent_at_rest(force) == pytest.approx(reissners_cantilever(force), abs=1e-10)
+
+
+def test_an_orbit_makes_the_action_of_reissners_beam_stationary():
+    """δ∫(T - V)dt = 0 with T and V written in u, v and the section's angle, for any variation.
+
+    Shares nothing with the solver but the orbit.
+    """
+    omega = 3.0
+    orbits = periodic_orbits(STUBBY, omega, [0.3], rotary_inertia=True, shear_share=SHARE)
+    period = 2.0 * np.pi / orbits.frequency[0] * STUBBY.frequency_scale
+    phases = 2.0 * np.pi * np.arange(64) / 64
+    x, weights = gauss_points(40)
+    states = [orbits.state(0, x, phase) for phase in phases]
+    z = np.array([x + s.u + 1j * s.v for s in states])
+    z_dot = np.array([s.u_dot + 1j * s.v_dot for s in states])
+    tangent = np.array([np.arctan2(s.v_slope, 1.0 + s.u_slope) for s in states])
+    turning = np.array(
+        [
+            ((1.0 + s.u_slope) * s.v_slope_dot - s.v_slope * s.u_slope_dot)
+            / ((1.0 + s.u_slope) ** 2 + s.v_slope**2)
+            for s in states
+        ]
+    )
+    phi = tangent - np.array([s.shear_angle for s in states])
+    phi_dot = turning - np.array([s.shear_angle_dot for s in states])
+    basis = axial_basis(x.size, x)
+    derivative = basis.curvature @ (basis.slope * weights[:, None]).T
+    slope = np.array([1.0 + s.u_slope + 1j * s.v_slope for s in states])
+
+    def lagrangian(z, z_dot, slope, phi, phi_dot):
+        strain = slope * np.exp(-1j * phi) - 1.0
+        curvature = phi @ derivative.T
+        kinetic = 0.5 * np.abs(z_dot + 1j * omega * z) ** 2 + 0.5 * MU * (phi_dot + omega) ** 2
+        elastic = 0.5 * (strain.real**2 + SHARE * strain.imag**2) / MU + 0.5 * curvature**2
+        return (kinetic - elastic) @ weights, elastic @ weights
+
+    rng = np.random.default_rng(3)
+    for _ in range(4):
+        of_z = Legendre(rng.normal(size=5) + 1j * rng.normal(size=5), domain=[0, 1])
+        of_phi = Legendre(rng.normal(size=5), domain=[0, 1])
+        k, start = rng.integers(1, 4), rng.uniform(0.0, 2.0 * np.pi)
+        wave = np.cos(k * phases + start)[:, None]
+        wave_rate = -k * 2.0 * np.pi / period * np.sin(k * phases + start)[:, None]
+        h = 1e-5
+        plus, minus = (
+            lagrangian(
+                z + s * h * wave * x * of_z(x),
+                z_dot + s * h * wave_rate * x * of_z(x),
+                slope + s * h * wave * (of_z(x) + x * of_z.deriv()(x)),
+                phi + s * h * wave * x * of_phi(x),
+                phi_dot + s * h * wave_rate * x * of_phi(x),
+            )
+            for s in (1.0, -1.0)
+        )
+        action = np.mean(plus[0] - minus[0])
+        # The elastic part alone, without its cancellation over time, sets the scale.
+        scale = np.mean(np.abs(plus[1] - minus[1]))
+        assert abs(action) < 1e-6 * scale
+
+
+@pytest.mark.parametrize("rotary_inertia", [False, True])
+def test_an_orbit_returns_and_keeps_its_integral(rotary_inertia):
+    """By Radau's rule, where shear without rotary inertia has no mass."""
+    orbits = periodic_orbits(STUBBY, 3.0, [0.3], rotary_inertia=rotary_inertia, shear_share=SHARE)
+    assert orbits.jacobi_drift[0] < 1e-10
+    orbit = orbits._orbits[0]
+    system, method, steps = orbit.system, radau(8), 40
+    h = 2.0 * np.pi / orbit.frequency / steps
+    start = [part[0] for part in orbit.coordinates(np.zeros(1))]
+    q, q_dot = start[:2]
+    acceleration = np.tile(start[2], (8, 1))
+    for _ in range(steps):
+        acceleration = method.step(
+            h, q, q_dot, acceleration, residual=system.residual, tangent=system.tangent
+        )
+        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
+        q, q_dot = positions[-1], velocities[-1]
+    # The orbit's own functions meet the equations to its residual.
+    assert system.model.tip(q) == pytest.approx(system.model.tip(start[0]), abs=1e-7)
+    assert system.model.tip_rate(q, q_dot) == pytest.approx(
+        system.model.tip_rate(*start[:2]), abs=1e-6
+    )
+
+
+def test_shear_vanishes_with_its_compliance(fitted_order):
+    """Of orbits and of histories: to first order, and what is left is the beam without shear."""
+    shares = np.array([1e1, 1e2, 1e3])
+    times = np.linspace(0.0, 3.0, 31)
+    spin = partial(
+        spin_up_response, STUBBY, SpinUp(omega=3.0, ramp_time=1.0), times, tolerance=1e-8
+    )
+    orbits = partial(periodic_orbits, STUBBY, 3.0, [0.3])
+    rigid_q, rigid = spin().q, orbits()
+    drops = [rigid.frequency[0] - orbits(shear_share=s).frequency[0] for s in shares]
+    # The frequency falls; the second order in the compliance is a thousandth of the first.
+    assert min(drops) > 0.0
+    assert fitted_order(shares, drops) == pytest.approx(-1.0, abs=0.01)
+    apart = [np.abs(spin(shear_share=s).q - rigid_q).max() for s in shares]
+    assert fitted_order(shares, apart) == pytest.approx(-1.0, abs=0.01)
+
+
+def test_the_section_at_the_clamp_does_not_turn():
+    """There the tangent turns by shear alone, and so do its rates."""
+    orbits = periodic_orbits(STUBBY, 3.0, [0.3], rotary_inertia=True, shear_share=SHARE)
+    at = orbits.state(0, [0.0], phase=1.0)
+    along, across = 1.0 + at.u_slope, at.v_slope
+    assert abs(across[0]) > 1e-3
+    assert at.shear_angle == pytest.approx(np.arctan2(across, along), abs=1e-13)
+    turning = (along * at.v_slope_dot - across * at.u_slope_dot) / (along**2 + across**2)
+    assert at.shear_angle_dot == pytest.approx(turning, abs=1e-12)
+
+
+def test_more_functions_hold_the_same_shape():
+    model = continuum(MU, 6, 4, shear_share=SHARE)
+    finer = finer_model(model)
+    assert (finer.bending, finer.axial, finer.shear) == (9, 6, 6)
+    q = 0.2 * np.random.default_rng(2).normal(size=model.size)
+    x = np.linspace(0.0, 1.0, 7)
+    assert finer.slope(model.padded(q, finer), x) == pytest.approx(model.slope(q, x), abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"shear_share": 0.0}, "shear_share must be positive"),
+        ({"shear_share": float("inf")}, "shear_share"),
+        ({"shear_share": 0.3, "inextensible": True}, "leave shear_share out, or inextensible"),
+    ],
+)
+def test_bad_input(options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        linear_modes(STUBBY, 1.0, **options)
+    with pytest.raises(ValueError, match=sentence):
+        periodic_orbits(STUBBY, 1.0, [0.1], **options)
+    if "inextensible" not in options:
+        with pytest.raises(ValueError, match=sentence):
+            spin_up_response(STUBBY, SpinUp(omega=1.0, ramp_time=1.0), [1.0], **options)

@@ -1,0 +1,208 @@
+"""Each of the usual mistakes, planted into the exact answer, is named; what is right has none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+
+from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
+from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.judgement import judged
+from rotbeam_exu.verification.mistakes.histories import mistake_in_history
+from rotbeam_exu.verification.mistakes.ramps import RAMPS
+from rotbeam_exu.verification.mistakes.search import mistakes_in
+from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import (
+    BackbonePoint,
+    Declaration,
+    Frequency,
+    Run,
+    Submission,
+)
+from rotbeam_exu.verification.theory import BERNOULLI_EULER
+
+S1 = replace(CASES["S1"], duration=6.0)
+TIME = np.arange(0.0, 6.0, 0.02)
+LENGTH = S1.blade.length
+
+
+def response(motion, time=TIME):
+    return spin_up_response(S1.blade, motion, time, tolerance=1e-4)
+
+
+@pytest.fixture(scope="module")
+def exact():
+    return response(S1.motion)
+
+
+@pytest.fixture(scope="module")
+def spline(exact):
+    return CubicHermiteSpline(TIME, exact.q, exact.q_dot)
+
+
+@pytest.fixture
+def named(spline):
+    """Return a function that names the mistake in a history; its mesh has errors of its own."""
+
+    def name(q, time=TIME, **options):
+        q = q * (1.0 + 2e-3 * np.sin(5.0 * time))
+        found = mistake_in_history(S1, time, q, spline, **options)
+        return None if found is None else found.name
+
+    return name
+
+
+def test_a_right_history_has_none(named, exact):
+    assert named(exact.q) is None
+
+
+def test_factors(named, exact):
+    assert named(-exact.q) == "sign of q"
+    assert named(exact.q / LENGTH) == "q over L"
+    assert named(1e3 * exact.q) == "millimetres"
+    assert named(1.3 * exact.q) == "factor"
+
+
+@pytest.mark.parametrize("offset", [0.03, 0.5, -0.4])
+def test_an_offset_of_time(named, spline, offset):
+    moved = TIME - offset
+    q = np.where(moved < 0.0, 0.0, spline(np.clip(moved, 0.0, 6.0)))
+    assert named(q[moved < 5.9], TIME[moved < 5.9]) == "time offset"
+
+
+def test_an_axis_that_does_not_turn(named, exact):
+    """The tip's height in the inertial frame, and its displacement across the turned beam there."""
+    assert named(exact.tip[:, 1]) == "inertial axis"
+    assert named(exact.tip[:, 1] - LENGTH * np.sin(S1.motion.angle(TIME))) == "inertial axis"
+
+
+@pytest.mark.parametrize("name", RAMPS)
+def test_another_ramp(named, name):
+    time = TIME[TIME <= 3.0]
+    wrong = RAMPS[name](omega=6.0, ramp_time=3.0)
+    q = spin_up_response(S1.blade, wrong, time, tolerance=1e-2).q
+    assert named(q, time) == name
+    assert named(q, time, ramps=()) is None
+
+
+@pytest.mark.parametrize("ramp", RAMPS.values())
+def test_the_other_ramps_are_rotations_to_the_same_speed(ramp):
+    """Angle, rate and acceleration are each other's derivatives; θ̇ goes from 0 to ω in T."""
+    motion, time = ramp(omega=6.0, ramp_time=3.0), np.linspace(0.1, 2.9, 50)
+    h = 1e-5
+    for value, rate in ((motion.angle, motion.rate), (motion.rate, motion.acceleration)):
+        difference = (value(time + h) - value(time - h)) / (2.0 * h)
+        assert difference == pytest.approx(rate(time), rel=1e-8, abs=1e-9)
+    assert motion.rate(0.0) == 0.0
+    assert motion.rate(3.5) == pytest.approx(6.0)
+    assert motion.angle(4.0) == pytest.approx(9.0 + 6.0)
+    assert motion.acceleration(3.5) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("factor", "name"),
+    [
+        (np.pi / 180.0, "degrees"),
+        (np.pi / 30.0, "revolutions per minute"),
+        (2.0 * np.pi, "hertz"),
+        (30.0 / np.pi, "revolutions per minute"),
+        (180.0 / np.pi, "degrees"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:.*rpm")
+def test_units_of_the_speed(named, factor, name):
+    """A ramp to ω × factor; of the fast ones the beginning, then what a broken code hands in."""
+    time = TIME if factor < 1.0 else TIME[TIME < 0.4]
+    q = response(SpinUp(omega=6.0 * factor, ramp_time=3.0), time).q
+    rest = LENGTH * np.sin(50.0 * TIME[time.size :])
+    assert named(np.concatenate((q, rest))) == name
+
+
+def test_what_none_of_them_explains_is_left_alone(named, exact):
+    """A frequency that is off by a fiftieth, a coarse mesh: no mistake of these."""
+    frequency = np.interp(TIME * 1.02, TIME, exact.q)
+    assert named(frequency) is None
+    assert named(exact.q * (1.0 + 0.3 * np.sin(7.0 * TIME))) is None
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        (lambda w, speed: w, None),
+        (lambda w, speed: w / (2.0 * np.pi), "hertz"),
+        (lambda w, speed: w * 30.0 / np.pi, "revolutions per minute"),
+        (lambda w, speed: w**2, "eigenvalues"),
+        (lambda w, speed: first(0.0), "no rotation"),
+        (lambda w, speed: first(speed * np.pi / 30.0), "revolutions per minute"),
+        (lambda w, speed: w * 1.01, None),
+    ],
+)
+def test_linear_frequencies(change, name):
+    rows = [
+        Frequency(
+            elements=n, speed=speed, frequency=change(first(speed), speed) * (1 + 1e-3 / n**2)
+        )
+        for n in (8, 16)
+        for speed in CASES["L"].speeds
+    ]
+    found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
+    assert (found and found.name) == name
+
+
+def first(speed):
+    return float(linear_modes(S1.blade, speed, 1).frequencies[0])
+
+
+@pytest.fixture(scope="module")
+def orbits():
+    return periodic_orbits(S1.blade, 8.0, np.linspace(0.05, 0.62, 12))
+
+
+@pytest.fixture(scope="module")
+def backbone_reference(orbits):
+    """The same orbits as the reference, which would find each point anew."""
+
+    class Reference:
+        def first_frequency(self, speed):
+            return orbits.omega_n
+
+        def frequency_at(self, a, speed):
+            return np.interp(a**2, orbits.amplitude**2, orbits.frequency)
+
+    return Reference()
+
+
+@pytest.mark.parametrize(
+    "name", [None, "first harmonic", "peak to peak", "hertz", "linear frequency"]
+)
+def test_backbones(orbits, backbone_reference, name):
+    """Orbits found by one amplitude and handed in as another's."""
+    sizes = {
+        "first harmonic": orbits.first_harmonic, "peak to peak": 2.0 * orbits.amplitude
+    }.get(name, orbits.amplitude)  # fmt: skip
+    rows = []
+    for a in (0.1, 0.3, 0.6):
+        w = np.interp(a**2, sizes**2, orbits.frequency)
+        w = {"hertz": w / 2.0 / np.pi, "linear frequency": orbits.omega_n}.get(name, w)
+        rows.append(BackbonePoint(elements=16, speed=8.0, amplitude=a, frequency=w))
+    found = mistake_in_backbone(CASES["B"], rows, backbone_reference)
+    assert (found and found.name) == name
+
+
+def test_all_that_was_handed_in_is_searched(exact):
+    """Frequencies in Hz and the sign of q, each named in its case with what is left."""
+    rows = tuple(
+        Frequency(elements=n, speed=2.0, frequency=first(2.0) / (2.0 * np.pi)) for n in (8, 16)
+    )
+    runs = tuple(
+        Run(case="S1", elements=n, step=h, time=TIME, q=-exact.q * (1.0 + 0.1 / n**2))
+        for n, h in ((8, 1e-3), (16, 1e-3), (16, 5e-4))
+    )
+    submission = Submission(declaration=Declaration(code="mine"), frequencies=rows, runs=runs)
+    found = mistakes_in(submission, judged(submission))
+    assert [(one.case, one.name) for one in found] == [("L", "hertz"), ("S1", "sign of q")]
+    assert "hand in rad/s" in str(found[0])
+    assert found[1].before == pytest.approx(2.0, abs=1e-2)
+    assert found[1].after < 1e-2
