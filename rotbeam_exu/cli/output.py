@@ -8,15 +8,28 @@ import io
 import sys
 import unicodedata
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import Annotated, Any, Literal, get_args
 
+from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-Format = Literal["table", "csv"]
+
+
+def choice(kind: Any, tokens: Sequence[Token]) -> str:
+    """Read one of the texts of a Literal, in upper or lower case: a converter."""
+    inner = next((one for one in get_args(kind) if get_args(one)), kind)  # Literal[...] | None
+    text, known = tokens[0].value, get_args(inner)
+    found = {str(one).lower(): str(one) for one in known}.get(text.lower())
+    if found is None:
+        raise ValueError(f"it must be {' or '.join(map(str, known))}, got {text!r}")
+    return found
+
+
+Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
 
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
