@@ -5,9 +5,11 @@ from __future__ import annotations
 import codecs
 import csv
 import io
+import math
 import sys
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
 from cyclopts import Parameter, Token
@@ -16,7 +18,6 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
-
 
 
 def choice(kind: Any, tokens: Sequence[Token]) -> str:
@@ -116,7 +117,15 @@ def print_columns(
         console.print(table, soft_wrap=False)
 
 
+def print_written(console: Console, paths: Iterable[Path]) -> None:
+    """Print what was written, one path a line."""
+    for path in paths:
+        console.print(f"written {path}")
+
+
 def _cell(cell: str | float) -> str:
+    if isinstance(cell, float) and math.isnan(cell):
+        return "-"
     return f"{cell:.7g}" if isinstance(cell, float) else str(cell)
 
 

@@ -137,6 +137,20 @@ def failures(result: xr.Dataset) -> dict[str, int]:
     return dict(causes.most_common())
 
 
+def failed_cases(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
+    """Return (omega, ramp_time) of the failed cases of a sweep, by their whole sentence."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for point in product(range(result.sizes["omega"]), range(result.sizes["ramp_time"])):
+        sentence = str(result["failure"].to_numpy()[point])
+        if sentence:
+            omega, time = (
+                float(result[name][i])
+                for name, i in zip(("omega", "ramp_time"), point, strict=True)
+            )
+            found.setdefault(sentence, []).append((omega, time))
+    return found
+
+
 def _values(name: str, values: Sequence[float], unit: str) -> list[float]:
     if np.size(np.asarray(values)) == 0:
         raise ValueError(f"{name} is empty; give at least one value")
