@@ -31,7 +31,7 @@ def motion_of(
 
 def omega_of(file: RunFile, omega: float | None) -> float:
     """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
-    known = {**file.motion, **given(omega=omega)}.get("omega")
+    known: float | None = {**file.motion, **given(omega=omega)}.get("omega")
     if known is None:
         raise ValueError(
             "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"

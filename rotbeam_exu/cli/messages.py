@@ -16,7 +16,7 @@ _LONGEST = 60
 
 @lru_cache
 def _varies() -> re.Pattern[str]:
-    """Return what may differ between two warnings that say the same: numbers, and names of models."""
+    """Return what may differ between two warnings of a kind: numbers, and names of models."""
     from analytic import VARIANTS  # noqa: PLC0415  (most commands warn of nothing)
 
     names = "|".join(sorted(VARIANTS, key=len, reverse=True))

@@ -22,7 +22,7 @@ from ..verdict import SimulationError
 from .assessment import assess
 from .configuration import configured, motion_of
 from .motion import refuse_rest
-from .options import Discretization, NoFigure, Results
+from .options import Discretization, NoFigure, Results, given
 from .output import new_console, print_written
 from .repeat import likeness, recorded_case, recorded_title
 from .summary import line, print_inputs, print_results
@@ -65,12 +65,8 @@ def run(
     $ rotbeam run --from results/cable-16-omega-6-ramp-3.nc
     """
     if recorded is not None:
-        if (
-            config
-            or omega is not None
-            or ramp_time is not None
-            or discretization != _DISCRETIZATION
-        ):
+        others = given(omega=omega, ramp_time=ramp_time, config=config)
+        if others or discretization != _DISCRETIZATION:
             raise ValueError(
                 "--from repeats a run exactly: leave --config and the options of motion and "
                 "discretization out"

@@ -12,10 +12,12 @@ from .assessment import Assessment
 
 
 def line(console: Console, title: str, text: str) -> None:
+    """Print a title and its text."""
     console.print(f"{title:<22}{text}")
 
 
 def print_inputs(console: Console, case: Case, element: str) -> None:
+    """Print what is run, before its results."""
     beam = case.beam
     line(
         console,
@@ -41,6 +43,7 @@ def print_inputs(console: Console, case: Case, element: str) -> None:
 def print_results(
     console: Console, data: xr.Dataset, steady: SteadyOscillation, found: Assessment
 ) -> None:
+    """Print what was measured, beside the exact beam, and what the checks found."""
     line(console, "natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)")
     line(
         console,

@@ -140,14 +140,10 @@ def failures(result: xr.Dataset) -> dict[str, int]:
 def failed_cases(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
     """Return (omega, ramp_time) of the failed cases of a sweep, by their whole sentence."""
     found: dict[str, list[tuple[float, float]]] = {}
-    for point in product(range(result.sizes["omega"]), range(result.sizes["ramp_time"])):
-        sentence = str(result["failure"].to_numpy()[point])
+    omegas, times = (result[name].to_numpy().tolist() for name in ("omega", "ramp_time"))
+    for (i, j), sentence in np.ndenumerate(result["failure"].to_numpy()):
         if sentence:
-            omega, time = (
-                float(result[name][i])
-                for name, i in zip(("omega", "ramp_time"), point, strict=True)
-            )
-            found.setdefault(sentence, []).append((omega, time))
+            found.setdefault(str(sentence), []).append((omegas[i], times[j]))
     return found
 
 
