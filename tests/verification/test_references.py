@@ -143,9 +143,7 @@ def test_a_beam_with_rotary_inertia_has_a_truth_of_its_own():
     assert rotary.first_frequency(0.0) / plain.first_frequency(0.0) - 1.0 == pytest.approx(
         -fall, rel=0.01
     )
-    assert rotary.frequency_at(0.1) / plain.frequency_at(0.1) - 1.0 == pytest.approx(
-        -fall, rel=0.2
-    )
+    assert rotary.frequency_at(0.1) / plain.frequency_at(0.1) - 1.0 == pytest.approx(-fall, rel=0.2)
 
 
 def test_what_is_not_asked_is_refused():
