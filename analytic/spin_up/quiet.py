@@ -113,7 +113,7 @@ def _refined(
         here = complex(residuals(beam, ramp, modes, np.array([T]))[0, 0])
         exact = exact_residual_vector(beam, SpinUp(omega=ramp.omega, ramp_time=T), tolerance)
         times, lacks = [*times[-1:], T], [*lacks[-1:], exact - here]
-        slope = (lacks[-1] - lacks[0]) / (T - times[0]) if T != times[0] else 0.0
+        slope = (lacks[-1] - lacks[0]) / (T - times[0]) if times[0] != T else 0.0
 
         def left(at: float, T: float = T, slope: complex = slope) -> float:
             form = complex(residuals(beam, ramp, modes, np.array([at]))[0, 0])
