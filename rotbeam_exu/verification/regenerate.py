@@ -1,6 +1,6 @@
 """Make the shipped reference data anew: `python -m rotbeam_exu.verification.regenerate`.
 
-Takes ten minutes. Look at what moved, and by how much against the bounds, before committing it.
+Takes four minutes. Look at what moved, and by how much against the bounds, before committing it.
 """
 
 from __future__ import annotations
@@ -21,15 +21,22 @@ from analytic.input_checks import RotbeamWarning
 
 from .cases import CASES, VERSION, Case
 from .sampled import Sampled, sampled_history
-from .shipped import DURATION, FILE, amplitudes, shipped_backbones, shipped_histories
+from .shipped import (
+    DURATION,
+    FILE,
+    amplitudes,
+    key,
+    said,
+    shipped_backbones,
+    shipped_histories,
+)
 from .theory import BERNOULLI_EULER
 
 SPACING = 5e-3
 """Of the shipped samples [s]."""
 
-TOLERANCES = {"S1+m": 4e-7, "S1+g": 1e-6}
-"""Of histories over max|q|, 1e-8 of others: gravity that sets in at once, and the tip mass, move
-the highest modes too."""
+TOLERANCES = {"S1+g": 1e-6}
+"""Of histories over max|q|, 1e-8 of others: gravity sets in at once and moves the highest modes."""
 
 _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress
 
@@ -47,6 +54,8 @@ def dataset(commit: str) -> xr.Dataset:
     described = {
         "q": ("deflection of the tip across the turning line of the clamp", "m"),
         "bound": ("error of q over max|q|, interpolation by a quintic spline included", "1"),
+        "history_of": ("blade, motion, loads and orbit", ""),
+        "backbone_of": ("blade and speed", ""),
         "omega_n": ("natural frequency", "rad/s"),
         "curvature": ("(1 - ω_NL/ω_n)/a², a cubic spline over a²", "1"),
         "first_frequency": ("first natural frequency in steady rotation", "rad/s"),
@@ -58,7 +67,9 @@ def dataset(commit: str) -> xr.Dataset:
         {
             "q": (("history", "time"), [one.q for one in found.values()]),
             "bound": ("history", [one.error for one in found.values()]),
+            "history_of": ("history", [said(key(cases[name])) for name in found]),
             "omega_n": ("backbone", [one[0] for one in curves.values()]),
+            "backbone_of": ("backbone", [said(places[name]) for name in curves]),
             "curvature": (("backbone", "amplitude"), [one[1] for one in curves.values()]),
             "first_frequency": ("speed", frequencies),
         },

@@ -34,9 +34,9 @@ def shipped_histories() -> dict[str, Case]:
         spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
         for one in spin_ups
     ]
-    known = {_key(case) for case in found}
+    known = {key(case) for case in found}
     own = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    return {case.name: case for case in (*found, *(one for one in own if _key(one) not in known))}
+    return {case.name: case for case in (*found, *(one for one in own if key(one) not in known))}
 
 
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
@@ -48,9 +48,14 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def _key(case: Case) -> tuple[Any, ...]:
+def key(case: Case) -> tuple[Any, ...]:
     """Return what makes a history."""
     return case.blade, case.motion, case.loads, case.amplitudes
+
+
+def said(values: tuple[Any, ...]) -> str:
+    """Return all the numbers behind a history or a backbone, by which the file knows it."""
+    return repr(values)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -80,12 +85,22 @@ class Shipped:
 
     @cached_property
     def _places(self) -> dict[tuple[Any, ...], str]:
-        names = set(self.data["history"].to_numpy().tolist())
-        return {_key(case): name for name, case in shipped_histories().items() if name in names}
+        of = dict(zip(*self._listed("history"), strict=True))
+        return {
+            key(case): name
+            for name, case in shipped_histories().items()
+            if of.get(name) == said(key(case))
+        }
+
+    def _listed(self, dimension: str) -> tuple[list[str], list[str]]:
+        """Return the names along a dimension, and what each was made of."""
+        return self.data[dimension].to_numpy().tolist(), self.data[
+            f"{dimension}_of"
+        ].to_numpy().tolist()
 
     def history(self, case: Case) -> tuple[BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._places.get(_key(case))
+        name = self._places.get(key(case))
         if name is None or case.duration > DURATION:
             return None
         here = self.data.sel(history=name)
@@ -104,13 +119,14 @@ class Shipped:
 
     @cached_property
     def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, CubicSpline]]:
-        a = self.data["amplitude"].to_numpy()
+        a, of = self.data["amplitude"].to_numpy(), dict(zip(*self._listed("backbone"), strict=True))
         return {
             place: (
                 float(self.data["omega_n"].sel(backbone=name)),
                 CubicSpline(a**2, self.data["curvature"].sel(backbone=name).to_numpy()),
             )
             for name, place in shipped_backbones().items()
+            if of.get(name) == said(place)
         }
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:

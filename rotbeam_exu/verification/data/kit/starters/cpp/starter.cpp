@@ -177,7 +177,7 @@ void advance(const Chain& chain, const Drive& drive, double t, double h, Vector&
   Vector middle(n), rate = v, F(n);
   for (int i = 0; i < n; ++i) middle[i] = x[i] + h / 2 * v[i];
   for (int iteration = 0;; ++iteration) {
-    if (iteration == 30) throw std::runtime_error("Newton's method fails at t = " + std::to_string(t));
+    if (iteration == 30) throw std::runtime_error("Newton's method fails at t = " + std::to_string(t) + ": halve the step");
     Band A(n, std::array<double, 2 * WIDTH + 1>{});
     std::fill(F.begin(), F.end(), 0.0);
     chain.springs(middle, rate, 2 / h, F, A);
