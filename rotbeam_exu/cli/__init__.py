@@ -30,7 +30,7 @@ app = cyclopts.App(
 )
 _COMMANDS = (
     "run", "backbone", "campbell", "respond", "sweep", "compare", "figure", "table", "explore",
-    "animate", "verify", "judge", "doctor",
+    "animate", "verify", "kit", "judge", "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
