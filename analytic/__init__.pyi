@@ -8,6 +8,8 @@ from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
+from .exact.curve import BackboneCurve as BackboneCurve
+from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
 from .exact.forced import forced_response as forced_response
 from .exact.forced import gravity_response as gravity_response
@@ -17,6 +19,7 @@ from .exact.forced_orbits import ResponsePoint as ResponsePoint
 from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
+from .exact.out_of_plane_modes import TorsionModes as TorsionModes
 from .exact.periodic import periodic_orbits as periodic_orbits
 from .exact.planarity import PlanarStability as PlanarStability
 from .exact.planarity import planar_stability as planar_stability

@@ -14,7 +14,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
-from .motion import Rotation, SpinUp, SteadyRotation
+from .motion import SpinUp, SteadyRotation
 
 _MOST_WAVES = 100
 _ROUND_OFF = 1e-9
@@ -258,9 +258,13 @@ AnyRamp = SpinUp | SmoothRamp | Table
 """A motion with a beginning and an end, between two steady speeds."""
 
 
-def start_of(motion: Rotation) -> float:
-    """Return the speed at t = 0 [rad/s]: of a spin-up, zero."""
-    return float(getattr(motion, "start", 0.0))
+def require_ramp(motion: object) -> None:
+    """Refuse what is no change of the speed, a steady rotation for one."""
+    if not isinstance(motion, AnyRamp):
+        raise TypeError(
+            f"spin_up must be a SpinUp, a SmoothRamp or a Table, got {motion!r}; for a beam that "
+            f"turns steadily take periodic_orbits"
+        )
 
 
 def fastest(motion: AnyRamp | SteadyRotation) -> float:

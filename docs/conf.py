@@ -31,6 +31,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
+    "sphinx-mathjax-offline",  # puts MathJax into the site: it needs no network
     "sphinxcontrib.bibtex",
 ]
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]

@@ -1,9 +1,11 @@
-"""Campbell diagram of the rotating beam: in-plane frequencies over the speed, tracked by shape."""
+"""Campbell diagram of the rotating beam: frequencies over the speed, tracked by shape."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +15,8 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
 from .continuum import Continuum
-from .modes import LinearModes, linear_modes, modes_on
+from .modes import LinearModes, Plane, linear_modes, modes_on
+from .out_of_plane_modes import flap_blade
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
@@ -25,24 +28,27 @@ class Crossing:
     Attributes
     ----------
     mode : int
-        Mode, from 1, in the order of the frequencies at the lowest speed.
+        Mode, from 1, in the order of its family's frequencies at the lowest speed.
     order : int
         Engine order k.
     omega : float
         Speed [rad/s].
     frequency : float
         Frequency kω [rad/s].
+    plane : str
+        Its family: "lag", "flap" or "torsion".
     """
 
     mode: int
     order: int
     omega: float
     frequency: float
+    plane: Plane = "lag"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Campbell:
-    """In-plane frequencies against the speed; made by `campbell`.
+    """Frequencies against the speed; made by `campbell`.
 
     Attributes
     ----------
@@ -50,12 +56,15 @@ class Campbell:
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
-        Frequencies in the rotating frame [rad/s], one column for each tracked mode.
+        Frequencies in the rotating frame [rad/s], one column for each tracked mode, family by
+        family.
     mac : ndarray (speeds - 1, count)
         Modal assurance criterion of each mode from one speed to the next; well below 1 the
         tracking is in doubt and the speeds are too far apart.
     crossings : tuple of Crossing
         Where frequencies cross the lines kω, k from 1, within the speeds.
+    planes : tuple of str
+        The family of each column.
     """
 
     beam: AnyBlade
@@ -63,10 +72,18 @@ class Campbell:
     frequencies: FloatArray
     mac: FloatArray
     crossings: tuple[Crossing, ...]
+    planes: tuple[Plane, ...]
 
 
-def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10) -> Campbell:
-    """Return the Campbell diagram of the first `count` in-plane modes.
+def campbell(
+    beam: AnyBlade,
+    omegas: ArrayLike,
+    count: int = 3,
+    orders: int = 10,
+    *,
+    planes: Sequence[Plane] = ("lag",),
+) -> Campbell:
+    """Return the Campbell diagram of the first `count` modes, by default of those in the plane.
 
     Parameters
     ----------
@@ -74,9 +91,11 @@ def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int
-        Number of modes, those lowest at the first speed.
+        Number of modes of each family, those lowest at the first speed.
     orders : int
         Lines kω up to this k.
+    planes : sequence of str
+        Families: "lag", "flap" and "torsion", as in `linear_modes`.
 
     Raises
     ------
@@ -89,12 +108,57 @@ def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10
     if np.any(np.diff(speeds) <= 0.0):
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
+    if not planes or len(set(planes)) < len(planes):
+        raise ValueError(f"planes must name families once each, got {list(planes)}")
+    families = [
+        _twisting(beam, speeds, count, orders)
+        if plane == "torsion"
+        else _bending(beam, speeds, count, orders, plane)
+        for plane in planes
+    ]
+    crossings = [
+        replace(crossing, plane=plane)
+        for plane, family in zip(planes, families, strict=True)
+        for crossing in sorted(family.crossings, key=lambda c: (c.mode, c.order))
+    ]
+    return Campbell(
+        beam=beam,
+        omegas=speeds,
+        frequencies=np.hstack([family.frequencies for family in families]),
+        mac=np.hstack([family.mac for family in families]),
+        crossings=tuple(crossings),
+        planes=tuple(plane for plane in planes for _ in range(count)),
+    )
 
+
+class _Family(NamedTuple):
+    frequencies: FloatArray
+    mac: FloatArray
+    crossings: list[Crossing]
+
+
+def _twisting(beam: AnyBlade, speeds: FloatArray, count: int, orders: int) -> _Family:
+    """Return the torsional modes, which know nothing of the speed."""
+    modes = linear_modes(beam, float(speeds[0]), count, plane="torsion")
+    crossings = [
+        Crossing(mode=mode, order=order, omega=frequency / order, frequency=frequency)
+        for mode, frequency in enumerate(modes.frequencies.tolist(), start=1)
+        for order in range(1, orders + 1)
+        if speeds[0] <= frequency / order <= speeds[-1]
+    ]
+    ones = np.ones((speeds.size, count))
+    return _Family(ones * modes.frequencies, ones[1:], crossings)
+
+
+def _bending(
+    beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Literal["lag", "flap"]
+) -> _Family:
     wanted = count + _SPARE_MODES
 
     def modes_at(omega: float) -> LinearModes:
-        return linear_modes(beam, omega, wanted, functions=max(20, 2 * wanted))
+        return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
 
+    bent = flap_blade(beam) if plane == "flap" else beam
     here = modes_at(float(speeds[0]))
     tracked = np.arange(count)
     frequencies, assurances = [here.frequencies[:count]], []
@@ -117,7 +181,7 @@ def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10
             rows: NDArray[np.intp] = tracked,
             model: Continuum = finer,
         ) -> float:
-            modes = modes_on(model, beam, omega, wanted)
+            modes = modes_on(model, bent, omega, wanted)
             same = _followed(_assurance(start, modes)[rows])[mode]
             return float(modes.frequencies[same] - order * omega)
 
@@ -133,13 +197,7 @@ def campbell(beam: AnyBlade, omegas: ArrayLike, count: int = 3, orders: int = 10
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
                     )
         here, tracked = there, following
-    return Campbell(
-        beam=beam,
-        omegas=speeds,
-        frequencies=np.array(frequencies),
-        mac=np.array(assurances).reshape(-1, count),
-        crossings=tuple(sorted(crossings, key=lambda c: (c.mode, c.order))),
-    )
+    return _Family(np.array(frequencies), np.array(assurances).reshape(-1, count), crossings)
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:

@@ -145,7 +145,8 @@ def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int)
     others, ratios = frequency_ratios(orbits, modes, mode)
     # Slower modes have no harmonic to meet.
     distance = np.where(ratios[-1] > 1.5, np.abs(np.round(ratios[-1]) / ratios[-1] - 1.0), np.inf)
-    nearest = int(np.argmin(distance))
+    # The higher a harmonic, the less it is felt.
+    nearest = int(np.argmin(distance * ratios[-1] ** 2))
     return (
         f" (harmonic {round(float(ratios[-1, nearest]))} is {100.0 * distance[nearest]:.1f} % from "
         f"mode {others[nearest]} there)"

@@ -1,9 +1,9 @@
-"""Linear modes of the exact beam about its rotating steady state, in the plane of rotation."""
+"""Linear modes of the exact beam about its rotating steady state, in its plane and out of it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from ..input_checks import points_of_beam, rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from .continuum import Continuum
 from .discretization import blade_continuum
+from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
 from .steady import SteadyBeam, checked_share, section_inertia, steady_rotation
 
 MOST_FUNCTIONS = 256
@@ -23,7 +24,7 @@ _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next
 
 @dataclass(frozen=True, kw_only=True)
 class LinearModes:
-    """In-plane modes about the rotating steady state; made by `linear_modes`.
+    """Modes of bending about the rotating steady state; made by `linear_modes`.
 
     Attributes
     ----------
@@ -62,17 +63,42 @@ class LinearModes:
         return self.model.integrated(self._slopes, at).T
 
 
+Plane = Literal["lag", "flap", "torsion"]
+"""A family of modes: in the blade's plane of bending, out of it, or of its twist."""
+
+
+@overload
 def linear_modes(
     beam: AnyBlade,
     omega: float,
     count: int = 3,
     *,
+    plane: Literal["lag", "flap"] = "lag",
     inextensible: bool = False,
     rotary_inertia: bool = False,
     shear_share: float | None = None,
     functions: int = 20,
-) -> LinearModes:
-    """Return the in-plane modes of the beam in steady rotation at `omega`.
+) -> LinearModes: ...
+
+
+@overload
+def linear_modes(
+    beam: AnyBlade, omega: float, count: int = 3, *, plane: Literal["torsion"], functions: int = 20
+) -> TorsionModes: ...
+
+
+def linear_modes(
+    beam: AnyBlade,
+    omega: float,
+    count: int = 3,
+    *,
+    plane: Plane = "lag",
+    inextensible: bool = False,
+    rotary_inertia: bool = False,
+    shear_share: float | None = None,
+    functions: int = 20,
+) -> LinearModes | TorsionModes:
+    """Return the modes of the beam in steady rotation at `omega`, by default in its plane.
 
     Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
     bending and axial motion. Without extension (`inextensible`) they are the modes of
@@ -85,13 +111,17 @@ def linear_modes(
         Rotation speed ω [rad/s].
     count : int
         Number of modes.
+    plane : str
+        "lag", the blade's own plane of bending; "flap", the plane normal to the rotation's, and
+        "torsion", both of a blade that bends in the plane of rotation and has a known section out
+        of it. To this order they are independent of each other.
     inextensible : bool
         Leave the axial motion out, the limit of the slenderness μ → 0.
     rotary_inertia : bool
-        Give the cross-sections their inertia against rotation.
+        Give the cross-sections their inertia against rotation, in the plane.
     shear_share : float, optional
         Let them shear, as in Reissner's beam: shear stiffness over axial stiffness,
-        k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the blade.
+        k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the blade; in the plane.
     functions : int
         Least number of functions for the tangent's angle, at most 256; half as many modes are
         resolved. They grow by half until half as many again change no frequency by 1e-9.
@@ -99,7 +129,8 @@ def linear_modes(
     Raises
     ------
     ValueError
-        If `omega` is negative, not finite, or tears the beam; if `count` is beyond what the
+        If what the section is out of the plane is asked for and unknown; if `omega` is negative,
+        not finite, or tears the beam; if `count` is beyond what the
         functions resolve; if 256 functions do not settle the frequencies, as beyond about
         w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp becomes too thin, and within 1 % of
         the burst.
@@ -107,9 +138,19 @@ def linear_modes(
     omega = rotation_speed(omega)
     count = whole_number("count", count)
     warn_if_rpm(beam, omega)
-    model = resolved_model(beam, count, inextensible, rotary_inertia, functions, shear_share)
-    model, modes = _settled_modes(beam, omega, count, model)
-    return _in_units(beam, omega, count, model, modes)
+    if plane not in ("lag", "flap", "torsion"):
+        raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
+    if plane != "lag" and (rotary_inertia or shear_share is not None):
+        raise ValueError(
+            f"rotary_inertia and shear_share are those of slices in the plane, and plane is "
+            f"{plane!r}: leave them out"
+        )
+    if plane == "torsion":
+        return torsion_modes(beam, omega, count, functions)
+    bent = flap_blade(beam) if plane == "flap" else beam
+    model = resolved_model(bent, count, inextensible, rotary_inertia, functions, shear_share)
+    model, modes = _settled_modes(bent, omega, count, model)
+    return replace(_in_units(bent, omega, count, model, modes), beam=beam)
 
 
 def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:

@@ -11,12 +11,13 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
+    DRIFT_BOUND,
     MOST_FUNCTIONS,
     Path,
     linear_orbit,
     meets_the_equations,
 )
-from ..methods.harmonic_balance import NoOrbitError, solve
+from ..methods.harmonic_balance import LastTangent, NoOrbitError, solve
 from .backbone import AmplitudeNotReachedError, Backbone
 from .continuum import Continuum
 from .internal_resonance import nearest_resonance, warn_of_resonances
@@ -176,21 +177,27 @@ class Branch:
         )
 
 
-def branch_of(beam: AnyBlade, omega: float, mode: int, model: Continuum) -> Branch:
-    """Return the branch of a mode, with as many functions as its smallest orbits need."""
+def branch_of(
+    beam: AnyBlade, omega: float, mode: int, model: Continuum, drift: float = DRIFT_BOUND
+) -> Branch:
+    """Return the branch of a mode, with as many functions as its smallest orbits need.
+
+    Larger orbits get harmonics until the Jacobi integral drifts by `drift` at most.
+    """
     steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:
         modes = solve_modes(steady)
         shape, linear = modes.coordinates[mode - 1], float(modes.frequencies[mode - 1])
         try:
-            seed = solve(linear_orbit(steady, shape, linear, small), small)
-            double = solve(seed.scaled(2.0 * small), 2.0 * small)
+            tangent = LastTangent()
+            seed = solve(linear_orbit(steady, shape, linear, small), small, tangent)
+            double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
         except NoOrbitError as failed:
             reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
         else:
             if meets_the_equations(double):
                 resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(seed=seed, double=double, longest=_LONGEST_STEP)
+                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, drift=drift)
                 return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
             reason = (
                 f"{steady.functions} functions meet the equations of motion to "

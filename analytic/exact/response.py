@@ -14,7 +14,7 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
-from ..ramps import AnyRamp, fastest
+from ..ramps import AnyRamp, fastest, require_ramp
 from .discretization import blade_continuum
 from .steady import checked_share, section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
@@ -111,11 +111,7 @@ def spin_up_response(
         If the tolerance is not reached.
     """
     time, tolerance = _checked(times, tolerance)
-    if not isinstance(spin_up, AnyRamp):
-        raise TypeError(
-            f"spin_up must be a SpinUp, a SmoothRamp or a Table, got {spin_up!r}; for a beam that "
-            f"turns steadily take periodic_orbits"
-        )
+    require_ramp(spin_up)
     highest = fastest(spin_up)
     warn_if_rpm(beam, highest)
     loads = loads_in_time(loads)

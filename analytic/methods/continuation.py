@@ -17,7 +17,8 @@ from .periodic_orbit import PeriodicOrbit, S
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
 
-_DRIFT_BOUND = 2e-11  # the drift of the invariant at which the harmonics suffice
+DRIFT_BOUND = 2e-11
+"""Drift of the invariant at which the harmonics suffice."""
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
 _FEWEST_HARMONICS, _MOST_HARMONICS = 6, 64
 MOST_FUNCTIONS = 128
@@ -26,6 +27,7 @@ _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _HALVINGS = 5
 _SAME_AMPLITUDE = 1e-14  # steps add up to 0.3 within round-off
+_GUESSED_FROM = 4  # nodes
 _FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the amplitudes
 
 
@@ -59,6 +61,8 @@ class Path(Generic[S]):
         The smallest orbits.
     longest : float
         Longest step of the amplitude.
+    drift : float
+        Drift of the invariant at which the harmonics suffice.
     nodes : list of PeriodicOrbit
         Those found so far, ascending.
     """
@@ -66,6 +70,7 @@ class Path(Generic[S]):
     seed: PeriodicOrbit[S]
     double: PeriodicOrbit[S]
     longest: float
+    drift: float = DRIFT_BOUND
     nodes: list[PeriodicOrbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
@@ -96,17 +101,32 @@ class Path(Generic[S]):
         reasons = []
         for guess in guesses:
             try:
-                return _resolved(guess.scaled(amplitude), amplitude, self._tangent)
+                return self._resolved(guess.scaled(amplitude), amplitude)
             except NoOrbitError as reason:
                 reasons.append(str(reason))
         raise NoOrbitError(reasons[0], below)
 
-    def _extend(self) -> None:
-        """Add the next node."""
+    def laid(self, amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit of the peak `amplitude`, at or beyond the last node: it becomes a node.
+
+        Raises
+        ------
+        NoOrbitError
+            As `at` does.
+        """
+        while self.nodes[-1].amplitude < amplitude:
+            self._extend(amplitude)
+        return self.at(amplitude)
+
+    def _extend(self, end: float = math.inf) -> None:
+        """Add the next node, not beyond `end`."""
         if self._end:
             raise NoOrbitError(self._end, self.nodes[-1])
         last, reason = self.nodes[-1], ""
         step = min((_LARGEST_FACTOR - 1.0) * last.amplitude, self.longest, 2.0 * self._step)
+        if last.amplitude + 1.1 * step > end:
+            step = end - last.amplitude
+        whole = step
         while step > self.longest / 2.0**_HALVINGS:
             try:
                 found = self._stepped(last.amplitude + step)
@@ -114,14 +134,26 @@ class Path(Generic[S]):
                 reason, step = reason or str(failed), 0.5 * step
                 continue
             self.nodes.append(found)
-            self._step = step
+            self._step = step if step < whole else math.inf
             return
         self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"
         raise NoOrbitError(self._end, last)
 
     def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
-        guess = _through(self.nodes[-3:], amplitude)
-        return _resolved(guess, amplitude, self._tangent)
+        last = self.nodes[-1]
+        guess = _through(self.nodes[-_GUESSED_FROM:], amplitude)
+        # Cut at harmonic H, the invariant drifts as the next one, with a^(H + 1).
+        growth = (amplitude / last.amplitude) ** (last.harmonics + 1)
+        if (last.invariant_drift - last.invariant_noise) * growth > self.drift:
+            guess = _on_more_harmonics(guess)
+        return self._resolved(guess, amplitude)
+
+    def _resolved(self, guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+        """Return the orbit near `guess` with as many harmonics and functions as it needs."""
+        orbit = solve(guess, amplitude, self._tangent)
+        while (larger := refined(orbit, self.drift)) is not None:
+            orbit = solve(larger, amplitude, self._tangent)
+        return orbit
 
 
 def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOrbit[S]:
@@ -147,30 +179,21 @@ def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOr
     )
 
 
-def _resolved(guess: PeriodicOrbit[S], amplitude: float, tangent: LastTangent) -> PeriodicOrbit[S]:
-    """Return the orbit near `guess` with as many harmonics and functions as it needs."""
-    orbit = solve(guess, amplitude, tangent)
-    while (larger := refined(orbit)) is not None:
-        orbit = solve(larger, amplitude, tangent)
-    return orbit
-
-
-def refined(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S] | None:
+def refined(orbit: PeriodicOrbit[S], drift: float = DRIFT_BOUND) -> PeriodicOrbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
-    Harmonics until the invariant is constant, functions until the residual is small.
+    Harmonics until the invariant drifts by `drift` at most, functions until the residual is small.
 
     Raises
     ------
     NoOrbitError
         If it needs more than are taken.
     """
-    if orbit.invariant_drift > _DRIFT_BOUND + orbit.invariant_noise:
+    if orbit.invariant_drift > drift + orbit.invariant_noise:
         most = orbit.harmonics >= _MOST_HARMONICS
         if most and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
             return None
-        count = orbit.harmonics + max(4, orbit.harmonics // 4)
-        larger = orbit.with_harmonics(min(count, _MOST_HARMONICS))
+        larger = _on_more_harmonics(orbit)
         if most or _too_large(larger):
             raise NoOrbitError(
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
@@ -178,6 +201,11 @@ def refined(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S] | None:
             )
         return larger
     return None if meets_the_equations(orbit) else _on_more_functions(orbit)
+
+
+def _on_more_harmonics(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+    count = orbit.harmonics + max(4, orbit.harmonics // 4)
+    return orbit.with_harmonics(min(count, _MOST_HARMONICS))
 
 
 def _on_more_functions(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:

@@ -92,7 +92,7 @@ class LastTangent:
     """
 
     def __init__(self) -> None:
-        self.factors: tuple[FloatArray, NDArray[np.int32]] | None = None
+        self.factors: Any = None
 
     def fits(self, orbit: PeriodicOrbit[Any]) -> bool:
         """Return whether it is one for as many unknowns as the orbit has."""
@@ -107,6 +107,7 @@ class LastTangent:
 
     def solve(self, defect: FloatArray) -> FloatArray:
         """Return what the defect takes to vanish."""
+        assert self.factors is not None
         return np.asarray(linalg.lu_solve(self.factors, defect, check_finite=False))
 
 

@@ -80,6 +80,20 @@ class Oscillator:
             total += np.sqrt((1.0 + self.g2 * x_square) / stiffness)
         return count / total
 
+    def action(self, a: FloatArray) -> FloatArray:
+        """Return the action (1/2π)∮ p dx, p = (1 + g2 x²) ẋ, at amplitudes `a`; ½ω_n a² if small.
+
+        It stays the same while ω_n, g1 and g2 change slowly over a period.
+        """
+        count = 64
+        total = np.zeros_like(a)
+        for psi in (np.arange(count) + 0.5) * (0.5 * np.pi / count):
+            x_square = a**2 * math.sin(psi) ** 2
+            stiffness = self.w_n**2 + 0.5 * self.g1 * (a**2 + x_square)
+            p = np.sqrt((1.0 + self.g2 * x_square) * stiffness)
+            total += (a * math.cos(psi)) ** 2 * p
+        return total / count
+
     def orbit(self, a: float, n: int) -> tuple[FloatArray, FloatArray]:
         """Return x and ẋ, each (n,), once around the orbit through (a, 0); the ends coincide."""
         psi = np.linspace(0.0, 2.0 * np.pi, n)

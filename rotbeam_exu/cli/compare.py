@@ -8,7 +8,7 @@ from .. import comparison
 from ..files.results import save, save_tables, writable_folder
 from .options import Results, Workers
 from .output import new_console, print_columns
-from .sweep import counter
+from .progress import counter
 from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()

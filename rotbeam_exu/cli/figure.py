@@ -12,7 +12,7 @@ from ..files.results import save, save_tables, whole_file, writable_folder
 from ..paper_figures import PAPER_FIGURES
 from .options import Results, Workers
 from .output import new_console
-from .sweep import counter
+from .progress import counter
 from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()

@@ -32,7 +32,7 @@ def judge(
     case: list[str] | None = None,
     run: bool = False,
 ) -> None:
-    """Judge a submission of files, from any code, by what it tends to.
+    """Judge the files that any code handed in, by what it tends to.
 
     Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
     malformed, and all their faults are told.

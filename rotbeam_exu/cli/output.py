@@ -5,18 +5,32 @@ from __future__ import annotations
 import codecs
 import csv
 import io
+import math
 import sys
 import unicodedata
-from collections.abc import Mapping, Sequence
-from typing import Literal
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
 
+from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-Format = Literal["table", "csv"]
+
+def choice(kind: Any, tokens: Sequence[Token]) -> str:
+    """Read one of the texts of a Literal, in upper or lower case: a converter."""
+    inner = next((one for one in get_args(kind) if get_args(one)), kind)  # Literal[...] | None
+    text, known = tokens[0].value, get_args(inner)
+    found = {str(one).lower(): str(one) for one in known}.get(text.lower())
+    if found is None:
+        raise ValueError(f"it must be {' or '.join(map(str, known))}, got {text!r}")
+    return found
+
+
+Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
 
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
@@ -103,7 +117,15 @@ def print_columns(
         console.print(table, soft_wrap=False)
 
 
+def print_written(console: Console, paths: Iterable[Path]) -> None:
+    """Print what was written, one path a line."""
+    for path in paths:
+        console.print(f"written {path}")
+
+
 def _cell(cell: str | float) -> str:
+    if isinstance(cell, float) and math.isnan(cell):
+        return "-"
     return f"{cell:.7g}" if isinstance(cell, float) else str(cell)
 
 

@@ -77,11 +77,12 @@ class Units:
             "rotary_inertia": self.mass * self.length,
         }
         profiles = blade.section.profiles()
+        scaled: dict[str, Any] = {
+            name: in_units(profiles[name], self.length, unit) for name, unit in per.items()
+        }
         return Blade(
             length=blade.length / self.length,
-            section=Section(
-                **{name: in_units(profiles[name], self.length, unit) for name, unit in per.items()}
-            ),
+            section=Section(**scaled),
             hub_radius=blade.hub_radius / self.length,
             setting_angle=blade.setting_angle,
             point_masses=tuple(

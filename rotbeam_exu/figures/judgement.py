@@ -91,7 +91,8 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
             runs = _of_functions(histories, steps, sizes, declared.order_in_step)
             _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
             axes[1].set(
-                xlabel=f"step [ms], {steps[0].elements} elements", ylabel="|run − limit| in the step"
+                xlabel=f"step [ms], {steps[0].elements} elements",
+                ylabel="|run − limit| in the step",
             )
         if histories and timed:
             _draw_cost(axes[-1], histories, _colors(histories))

@@ -1,0 +1,121 @@
+"""Linear modes out of the plane of rotation: flap, as that of a turned blade, and torsion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import linalg
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade
+from ..blade import Blade
+from ..input_checks import points_of_beam
+from ..profiles import in_units
+from ..quadrature import axial_basis
+from .space import Space, require_out_of_plane
+
+_SETTLED = 1e-9  # relative change of the frequencies, as in `linear_modes`
+_MOST_FUNCTIONS = 256
+
+
+@dataclass(frozen=True, kw_only=True)
+class TorsionModes:
+    """Modes of the twist; made by `linear_modes` with plane="torsion".
+
+    Attributes
+    ----------
+    beam : Blade
+    omega : float
+        Rotation speed ω [rad/s]; the frequencies do not depend on it.
+    frequencies : ndarray (count,)
+        [rad/s], ascending.
+    """
+
+    beam: AnyBlade
+    omega: float
+    frequencies: FloatArray
+    _coordinates: FloatArray = field(repr=False)
+
+    def shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the twists φ at `x` [m], (points, count), 1 at the tip."""
+        at = points_of_beam("x", x, self.beam.length)
+        panels = self.beam.unit.panels
+        a_panel = len(self._coordinates) // self.beam.unit.panel_count
+        tip = axial_basis(a_panel, np.ones(1), panels).value @ self._coordinates
+        return np.asarray(axial_basis(a_panel, at, panels).value @ self._coordinates / tip)
+
+
+def flap_blade(beam: AnyBlade) -> Blade:
+    """Return the blade whose plane of bending is the one normal to the plane of rotation.
+
+    With the bending stiffness that the section has there. The inertia of slices and of point masses
+    against rotation is known in the plane only, and left out.
+    """
+    section = require_out_of_plane(beam, torsion=False)
+    assert isinstance(beam, Blade)
+    return replace(
+        beam,
+        setting_angle=0.5 * math.pi,
+        section=replace(
+            beam.section,
+            bending_stiffness=in_units(
+                beam.section.bending_stiffness, 1.0, 1.0 / section.bending_ratio
+            ),
+            rotary_inertia=0.0,
+            out_of_plane=None,
+        ),
+        point_masses=tuple(replace(one, inertia=0.0) for one in beam.point_masses),
+    )
+
+
+def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> TorsionModes:
+    """Return the modes of ∫GJ φ'² and ∫j φ̇², which the rotation does not change.
+
+    Raises
+    ------
+    ValueError
+        If the section's torsional stiffness is unknown or infinite, or its polar inertia is zero.
+    """
+    section = require_out_of_plane(beam, torsion=False)
+    if section.torsion_ratio is None or math.isinf(section.torsion_ratio):
+        raise ValueError(
+            "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
+            "with_section_out_of_plane, .rectangle or .tube"
+        )
+    if section.polar_inertia == 0.0:
+        raise ValueError(
+            "torsion has no modes without polar inertia: leave polar_inertia out, for that of a "
+            "homogeneous section"
+        )
+    functions = max(functions, 2 * count)
+    before = _torsion(beam, functions)
+    while True:
+        functions += functions // 2
+        found = _torsion(beam, functions)
+        ratio = found[0][:count] / before[0][:count] - 1.0
+        if np.abs(ratio).max() <= _SETTLED:
+            break
+        if functions > _MOST_FUNCTIONS:
+            raise ValueError(
+                f"{count} torsional frequencies have not settled to {_SETTLED:g} with {functions} "
+                "functions: ask for fewer"
+            )
+        before = found
+    return TorsionModes(
+        beam=beam,
+        omega=omega,
+        frequencies=found[0][:count] * beam.frequency_scale,
+        _coordinates=found[1][:, :count],
+    )
+
+
+def _torsion(beam: AnyBlade, functions: int) -> tuple[FloatArray, FloatArray]:
+    """Return the nondimensional frequencies and the coordinates (n, modes)."""
+    space = Space(beam, functions)
+    # In 1/ν², for the highest would round the lowest off.
+    inverse, shapes = linalg.eigh(space.twist_mass, space.twist_stiffness)
+    kept = inverse > 0.0
+    return 1.0 / np.sqrt(inverse[kept][::-1]), shapes[:, kept][:, ::-1]

@@ -1,0 +1,113 @@
+"""The linear bending modes of any inextensible blade as smooth functions of the speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.linalg import eigh
+
+from ..arrays import FloatArray
+from ..profiles import evaluated
+from ..quadrature import gauss_points_on, integrals_from_clamp, transverse_basis
+from ..unit_blade import UnitBlade
+
+_SETTLED = 1e-8
+"""Of what is interpolated, the share of its last coefficients."""
+_FEWEST, _MOST = 17, 257
+_FUNCTIONS = 20
+"""Twice as many as the modes in use, and four √w̄ more for the layer at the clamp."""
+
+
+class ModesAt(NamedTuple):
+    """Modes of unit mass at speeds w̄, each (modes, speeds), nondimensional.
+
+    The natural frequency, the force of the Euler acceleration -θ̈ on the mode over -θ̈, the tip's
+    deflection (positive), and the rate at which damping takes the amplitude.
+    """
+
+    frequency: FloatArray
+    force: FloatArray
+    tip: FloatArray
+    decay: FloatArray
+
+
+@dataclass(frozen=True)
+class ModesOverSpeed:
+    """Chebyshev series of the modes from standstill to the speed w̄ = `top`."""
+
+    top: float
+    coefficients: FloatArray = field(repr=False)
+
+    def at(self, w: FloatArray) -> ModesAt:
+        """Return the modes at speeds `w`, (speeds,), whose sign does not matter."""
+        values = chebyshev.chebval(2.0 * np.abs(w) / self.top - 1.0, self.coefficients)
+        return ModesAt(*np.asarray(values))
+
+
+@lru_cache(maxsize=64)
+def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed:
+    """Return the first `count` modes for speeds w̄ from 0 to `top`.
+
+    Raises
+    ------
+    ValueError
+        If 257 speeds do not resolve how they change.
+    """
+    solve, points = _eigenproblem(blade, top, count), _FEWEST
+    while True:
+        nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
+        values = np.array([solve(0.5 * top * (1.0 + x)) for x in nodes])
+        flat = values.reshape(points, -1)
+        coefficients = chebyshev.chebfit(nodes, flat, points - 1)
+        size = np.abs(flat).max(axis=0) + np.finfo(float).tiny
+        rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
+        if rest < _SETTLED:
+            return ModesOverSpeed(top, coefficients.reshape(values.shape))
+        if points >= _MOST:
+            raise ValueError(
+                f"the modes up to w̄ = {top:.4g} do not settle over the speed with {points} "
+                f"speeds ({rest:.1e}): take fewer modes, or a lower speed"
+            )
+        points = 2 * points - 1
+
+
+def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float], FloatArray]:
+    """Return what finds the modes at one speed w̄, (quantities, modes) in the order of `ModesAt`."""
+    functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
+    a_panel, panels = math.ceil(functions / blade.panel_count), blade.panels
+    points = 2 * (a_panel + 4 + blade.degree)
+    x, dx = blade.quadrature(points)
+    at, dm = blade.inertia(points)
+    jx = np.append(x, [position for position, _, _ in blade.masses])
+    dj = np.append(dx * evaluated(blade.rotary, x), [inertia for *_, inertia in blade.masses])
+    lever = (blade.hub + at) * dm
+    inner, _ = gauss_points_on(points, panels)
+    tension = lever @ integrals_from_clamp(points, at, panels)  # over w̄², times the weights
+
+    phi, along = (transverse_basis(a_panel, place, panels) for place in (at, x))
+    slope, turn = (transverse_basis(a_panel, place, panels).slope for place in (inner, jx))
+    tip = transverse_basis(a_panel, np.ones(1), panels).value[0]
+    mass = phi.value.T @ (dm[:, None] * phi.value)
+    M = mass + turn.T @ (dj[:, None] * turn)
+    bending = along.curvature.T @ ((dx * evaluated(blade.bending, x))[:, None] * along.curvature)
+    centrifugal = slope.T @ (tension[:, None] * slope) - blade.setting**2 * mass
+    euler = blade.setting * (lever @ phi.value + dj @ turn)
+    viscosity, _, air = blade.damping
+    damping = viscosity * bending + air * along.value.T @ (dx[:, None] * along.value)
+
+    def solve(w: float) -> FloatArray:
+        # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
+        inverse, vectors = eigh(M, bending + w**2 * centrifugal)
+        inverse, vectors = inverse[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
+        # They have unit stiffness; unit mass is what their action is measured by.
+        vectors = vectors * np.sign(tip @ vectors) / np.sqrt(inverse)
+        decay = 0.5 * np.sum(vectors * (damping @ vectors), axis=0)
+        return np.stack([1.0 / np.sqrt(inverse), euler @ vectors, tip @ vectors, decay])
+
+    return solve

@@ -1,0 +1,162 @@
+"""The ramp times of Eq. 1 that leave almost nothing, refined on the exact transient."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from scipy.signal import argrelmin
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade
+from ..exact.modes import linear_modes
+from ..exact.response import spin_up_response
+from ..input_checks import positive, rotation_speed
+from ..motion import SpinUp
+from ..ramps import AnyRamp, require_ramp
+from .modes import ModesOverSpeed
+from .residual import modes_for, residuals
+
+_A_PERIOD = 40  # ramp times tried by the formula
+_PERIODS = 5.0
+_REFINEMENTS, _SETTLED = 6, 1e-4
+"""And the share of a period by which the last one moves the minimum at most."""
+_MOST_RAMPS = 100_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuietRamps:
+    """Ramp times of Eq. 1 at which less is left than at those around; from `quiet_ramp_times`.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Speed after the ramp [rad/s].
+    ramp_times : ndarray (count,)
+        Ascending [s].
+    left : ndarray (count,)
+        Amplitude of the first mode at the tip over L after the exact transient [-].
+    linear : ndarray (count,)
+        The same by the closed form.
+    """
+
+    beam: AnyBlade
+    omega: float
+    ramp_times: FloatArray
+    left: FloatArray
+    linear: FloatArray
+
+
+def quiet_ramp_times(
+    beam: AnyBlade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
+) -> QuietRamps:
+    """Return the ramp times of Eq. 1 up to `longest` at which the least is left.
+
+    They lie near whole numbers of periods, two at least, of the natural frequency averaged over
+    the ramp. The closed form finds them to a hundredth of a period, the exact transient the rest.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Speed after the ramp [rad/s].
+    longest : float, optional
+        Longest ramp time [s]; five periods of the blade at rest if not given.
+    tolerance : float
+        Of the exact transients, relative to the largest deflection.
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or no speed leaves anything.
+    """
+    omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
+    if omega == 0.0:
+        raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
+    longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
+    unit = SpinUp(omega=omega, ramp_time=longest)
+    modes = modes_for(beam, unit, 1)
+    frequency = modes.at(np.array([omega / beam.frequency_scale])).frequency[0, 0]
+    spacing = 2.0 * math.pi / (_A_PERIOD * frequency * beam.frequency_scale)
+    if longest > _MOST_RAMPS * spacing:
+        raise ValueError(
+            f"longest = {longest:g} s holds more than {_MOST_RAMPS // _A_PERIOD} periods of the "
+            f"first mode: take at most {0.9 * _MOST_RAMPS * spacing:.3g} s"
+        )
+    tried = np.arange(0.5 * period, longest + spacing, spacing)
+    sizes = np.abs(residuals(beam, unit, modes, tried)[0])
+    found = [_refined(beam, unit, modes, tried[k], spacing, tolerance) for k in argrelmin(sizes)[0]]
+    ramp_times, left = np.array([one for one in found if one[0] <= longest]).reshape(-1, 2).T
+    return QuietRamps(
+        beam=beam,
+        omega=omega,
+        ramp_times=ramp_times,
+        left=left,
+        linear=np.abs(residuals(beam, unit, modes, ramp_times)[0]),
+    )
+
+
+def _refined(
+    beam: AnyBlade, ramp: SpinUp, modes: ModesOverSpeed, T: float, spacing: float, tolerance: float
+) -> tuple[float, float]:
+    """Return the ramp time near `T` at which the exact transient leaves the least, and what.
+
+    What the closed form lacks changes slowly with the ramp time: a straight line through its last
+    two values is added to the form.
+    """
+    times: list[float] = []
+    lacks: list[complex] = []
+    while True:
+        here = complex(residuals(beam, ramp, modes, np.array([T]))[0, 0])
+        exact = exact_residual_vector(beam, SpinUp(omega=ramp.omega, ramp_time=T), tolerance)
+        times, lacks = [*times[-1:], T], [*lacks[-1:], exact - here]
+        slope = (lacks[-1] - lacks[0]) / (T - times[0]) if times[0] != T else 0.0
+
+        def left(at: float, T: float = T, slope: complex = slope) -> float:
+            form = complex(residuals(beam, ramp, modes, np.array([at]))[0, 0])
+            return abs(form + lacks[-1] + slope * (at - T)) ** 2
+
+        least = minimize_scalar(
+            left, bounds=(T - 2.0 * spacing, T + 2.0 * spacing), options={"xatol": 1e-8}
+        )
+        moved, T = abs(float(least.x) - T), float(least.x)
+        if moved <= _SETTLED * _A_PERIOD * spacing:
+            return T, math.sqrt(float(least.fun))
+
+
+def exact_residual_vector(beam: AnyBlade, ramp: AnyRamp, tolerance: float = 1e-6) -> complex:
+    """Return Z of the first mode over L, by the exact transient: q = -Im Z exp(iω_n(t - T)).
+
+    From place and velocity of the tip at the end of the ramp, for small oscillations: higher modes
+    hardly take part in them.
+    """
+    modes = modes_for(beam, ramp, 1)
+    end = modes.at(np.array([ramp.omega / beam.frequency_scale]))
+    decay = float(end.decay[0, 0]) * beam.frequency_scale
+    omega_n = float(linear_modes(beam, ramp.omega, 1).frequencies[0])
+    # The times before the last tell how large the motion is, of which the tolerance is a share.
+    times = np.linspace(0.0, ramp.ramp_time, 33)
+    response = spin_up_response(beam, ramp, times, tolerance=tolerance)
+    q, q_dot = response.q[-1] / beam.length, response.q_dot[-1] / beam.length
+    return complex(-(q_dot + decay * q) / omega_n, -q)
+
+
+def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6) -> float:
+    """Return half peak to peak of the tip over L in the first period after the exact transient.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    spin_up : SpinUp, SmoothRamp or Table
+    tolerance : float
+        Error of the tip's position over its largest deflection, as in `spin_up_response`.
+    """
+    require_ramp(spin_up)
+    period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
+    T = spin_up.ramp_time
+    during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
+    response = spin_up_response(beam, spin_up, np.append(during, after), tolerance=tolerance)
+    return float(np.ptp(response.q[during.size :])) / (2.0 * beam.length)

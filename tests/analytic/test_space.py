@@ -1,0 +1,201 @@
+"""Motion out of the plane: the second-order Lagrangian, its limits, and resonances of a bar."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy import optimize
+
+from analytic import Beam, OutOfPlane, linear_modes, periodic_orbits, planar_stability
+from analytic.exact.discretization import blade_continuum
+from analytic.exact.planarity import STEPS, grown
+from analytic.exact.space import Space
+from analytic.exact.steady import SteadyBeam, steady_rotation
+
+RIGID = math.inf
+BEAM = Beam.reference()
+SLENDER = OutOfPlane(bending_ratio=0.01, torsion_ratio=RIGID)
+ROUND = OutOfPlane(bending_ratio=1.0, torsion_ratio=RIGID)
+
+
+def growth(section, w_bar, a, *, inextensible=True, functions=12, steps=STEPS):
+    blade = BEAM.with_out_of_plane(section)
+    (orbit,) = periodic_orbits(
+        blade, w_bar * blade.frequency_scale, a, inextensible=inextensible
+    ).nondimensional
+    return grown(blade, orbit, functions, steps)
+
+
+def test_the_energy_is_that_of_a_rod_in_space_to_second_order():
+    """Its frame turned by ϑ in the plane, by β out of it, by φ about the tangent."""
+    x, small, g, r = sp.symbols("x epsilon g r")
+    theta, beta, phi = (sp.Function(name)(x) for name in ("theta", "beta", "phi"))
+    out, twist = small * beta, small * phi
+    frame = (
+        sp.rot_axis3(-theta) * sp.rot_axis2(out) * sp.rot_axis1(-twist)
+    )  # columns: tangent, normal in the plane, normal out of it
+    assert sp.simplify(frame[2, 0] - sp.sin(out)) == 0
+    curvature = frame.T * frame.diff(x)
+    torsion, outward, inward = curvature[2, 1], curvature[2, 0], curvature[1, 0]
+    density = inward**2 + r * outward**2 + g * torsion**2
+    exact = sp.diff(density, small, 2).subs(small, 0).doit() / 2
+    kappa, bent = theta.diff(x), beta.diff(x)
+    stated = (
+        g * (phi.diff(x) + kappa * beta) ** 2 + r * (bent - kappa * phi) ** 2
+        + 2 * kappa * bent * phi - kappa**2 * (beta**2 + phi**2)
+    )  # fmt: skip
+    assert sp.simplify(sp.expand(exact - stated)) == 0
+
+
+@pytest.mark.parametrize(
+    ("blade", "digits"),
+    # What 18 functions and the round-off of K leave; at a mass inside e jumps, and w' with it.
+    [
+        (BEAM.blade, 2e-8),
+        (BEAM.with_hub_radius(4.0).with_tip_mass(0.5), 2e-8),
+        (BEAM.with_taper(0.3, 0.3).with_point_mass(0.2, 5.0), 2e-6),
+        (
+            Beam.from_stiffness(
+                length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
+            ).blade,
+            2e-8,
+        ),
+    ],
+    ids=["paper", "hub and mass", "taper and mass inside", "stocky"],
+)
+def test_about_the_steady_state_it_has_the_flap_modes(blade, digits):
+    """Those of a blade that is turned by a right angle, by other equations: in ϑ and e, not w."""
+    blade, omega = blade.with_section_out_of_plane(0.3, 0.2), 5.0 * blade.frequency_scale
+    space = Space(blade, 18)
+    model = blade_continuum(blade.unit, blade.slenderness, 24, 16, 0.0)
+    steady = steady_rotation(blade, omega, model)
+    still = np.zeros((1, steady.size))
+    (K,) = space.stiffness(steady, steady.equilibrium[None], still, still)
+    n = space.functions
+    squares = 1.0 / np.linalg.eigvals(np.linalg.solve(K[:n, :n], space.mass[:n, :n])).real
+    found = np.sqrt(np.sort(squares)[:3]) * blade.frequency_scale
+    assert found == pytest.approx(linear_modes(blade, omega, plane="flap").frequencies, rel=digits)
+    assert np.all(K[:n, n:] == 0.0), "the straight blade does not twist as it bends"
+
+
+@pytest.mark.parametrize("rate", [0.0, 2.0, 8.0])
+def test_flap_squared_is_lag_squared_and_the_speed_squared(beam, rate):
+    lag = linear_modes(beam, rate, inextensible=True).frequencies
+    flap = linear_modes(
+        beam.tube(0.015, 0.77e-3), rate, plane="flap", inextensible=True
+    ).frequencies
+    assert np.sqrt(lag**2 + rate**2) == pytest.approx(flap, rel=1e-8)
+
+
+def test_torsional_frequencies_are_those_of_a_rod(beam):
+    blade = beam.rectangle()
+    section = blade.section.out_of_plane
+    rod = math.sqrt(section.torsion_ratio / (beam.slenderness * (1.0 + section.bending_ratio)))
+    rod *= beam.frequency_scale
+    modes = linear_modes(blade, 6.0, plane="torsion")
+    assert modes.frequencies == pytest.approx(0.5 * np.pi * rod * np.array([1, 3, 5]), rel=1e-10)
+    x = np.linspace(0.0, beam.length, 5)
+    assert modes.shapes(x)[:, 1] == pytest.approx(-np.sin(1.5 * np.pi * x / beam.length), abs=1e-9)
+    doubled = beam.with_section_out_of_plane(
+        section.bending_ratio,
+        section.torsion_ratio,
+        4.0 * beam.slenderness * (1.0 + section.bending_ratio) * beam.mass_per_length * 64.0,
+    )
+    halved = linear_modes(doubled, 6.0, plane="torsion").frequencies
+    assert halved == pytest.approx(0.5 * modes.frequencies, rel=1e-10)
+
+
+def test_a_bar_bent_by_a_force_at_its_tip_buckles_where_timoshenko_says():
+    """P L²/√(EI_out GJ) = 4.0126, in the limit of a bar that hardly bends in its plane."""
+    small = 1e-8
+    blade = BEAM.with_section_out_of_plane(small, small, 0.0)
+    model = blade_continuum(blade.unit, 0.0, 8, 1, 0.0)
+    # ϑ' = P(1 - x) in Legendre's polynomials, the first two of which it is made of.
+    shape = np.zeros(model.size)
+    shape[:2] = 0.5, -0.5 / math.sqrt(3.0)
+    still, straight = np.zeros((1, model.size)), SteadyBeam(model, 0.0)
+
+    def least(load):
+        bent = load * small * shape[None]
+        (K,) = Space(blade, 8).stiffness(straight, bent, still, still)
+        return np.linalg.eigvalsh(K / small)[0]
+
+    assert optimize.brentq(least, 3.0, 4.5) == pytest.approx(4.0126, abs=5e-5)
+
+
+@pytest.mark.parametrize("torsion_ratio", [0.1, 1.0, RIGID])
+def test_at_rest_a_round_section_has_the_multiplier_one_twice_more(torsion_ratio):
+    """The plane may be turned about the blade."""
+    blade = BEAM.with_section_out_of_plane(1.0, torsion_ratio, 0.0)
+    found = planar_stability(blade, 0.0, 0.3)
+    nearest = np.sort(np.abs(found.multipliers[0] - 1.0))[:2]
+    assert nearest == pytest.approx(0.0, abs=2e-5)  # a double one: root of the round-off
+    assert found.stable.all()
+
+
+def test_torsion_does_not_matter_to_a_round_section():
+    """In the tongue, where it grows, and with a twist that follows."""
+    exponents = [
+        growth(
+            OutOfPlane(bending_ratio=1.0, torsion_ratio=g, polar_inertia=0.0), 4.42, 0.5
+        ).exponent
+        for g in (0.2, 1.0, RIGID)
+    ]
+    exponents.append(growth(OutOfPlane(bending_ratio=1.0), 4.42, 0.5).exponent)
+    assert exponents[0] > 1e-3
+    assert exponents == pytest.approx([exponents[0]] * 4, rel=1e-6)
+
+
+def test_without_inertia_the_twist_follows(beam, fitted_order):
+    """Growth of the paper's rectangle, ever less inertia: to that of the quasi-static twist."""
+    shape = beam.rectangle().section.out_of_plane
+    (orbit,) = periodic_orbits(beam, 2.0, 0.15).nondimensional
+    shape = OutOfPlane.rectangle(6.0)
+
+    def exponent(share):
+        section = OutOfPlane(
+            bending_ratio=shape.bending_ratio,
+            torsion_ratio=shape.torsion_ratio,
+            polar_inertia=share * beam.slenderness * beam.mass_per_length * beam.length**2,
+        )
+        return grown(beam.with_out_of_plane(section), orbit, 10, 48).exponent
+
+    shares = np.array([1.0, 2.0, 4.0])
+    apart = [abs(exponent(share) - exponent(0.0)) for share in shares]
+    assert apart[0] < 0.05 * exponent(0.0)
+    assert fitted_order(shares, apart) == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("section", "a", "edge", "into"),
+    [
+        # Flap is half of lag near w̄ = 1.68284, and one and a half of it near 4.42.
+        (SLENDER, 0.2, 1.36191, 1.0),
+        (SLENDER, 0.2, 2.04929, -1.0),
+        (ROUND, 0.5, 4.40714, 1.0),
+        (ROUND, 0.5, 4.43220, -1.0),
+    ],
+)
+def test_edges_of_the_tongues(section, a, edge, into):
+    """Of the inextensible beam, to 1e-4; another code found them."""
+    inside, outside = (growth(section, edge + sign * into * 1e-4, a) for sign in (1.0, -1.0))
+    assert inside.unstable
+    assert inside.kind == "period doubling"
+    assert inside.modes[0] == "flap 1"
+    assert not outside.unstable
+
+
+def test_the_stretch_moves_the_narrow_tongue(beam):
+    """By 3.3e-4 of w̄ in 4.4: what is unstable without extension is not with it."""
+    inside = 4.43220 - 1e-4
+    assert growth(ROUND, inside, 0.5).unstable
+    assert not growth(ROUND, inside, 0.5, inextensible=False).unstable
+    assert growth(ROUND, inside - 3.3e-4, 0.5, inextensible=False).unstable
+
+
+def test_onset_of_a_section_that_does_not_twist():
+    at_two = 2.0 / BEAM.frequency_scale
+    for sign in (-1.0, 1.0):
+        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, inextensible=False)
+        assert found.unstable == (sign > 0.0)

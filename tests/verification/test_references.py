@@ -1,0 +1,163 @@
+"""The shipped truth against what is computed anew, and the truth of what is not shipped."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from rotbeam_exu.verification import shipped as room
+from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.sampled import sampled_history
+from rotbeam_exu.verification.shipped import DURATION, shipped, shipped_backbones, shipped_histories
+from rotbeam_exu.verification.theory import BERNOULLI_EULER, Theory
+
+BEAM = Beam.reference()
+
+
+@pytest.mark.parametrize("name", ["S1", "V", "S1+h", "S1+d"])
+def test_a_shipped_history_is_what_theory_says_between_its_samples(name):
+    case = CASES[name]
+    found = reference(case)
+    assert found.source.startswith("shipped")
+    times = np.sort(np.random.default_rng(1).uniform(0.0, 5.0, 200))
+    exact = spin_up_response(case.blade, case.motion, times, tolerance=1e-8)
+    size = np.abs(found.history(np.linspace(0.0, case.duration, 1000))).max()
+    # 1e-8 is of the largest deflection until 5 s.
+    assert np.abs(found.history(times) - exact.q).max() <= (found.bound + 1e-8) * size
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", shipped_histories())
+def test_every_shipped_history_is_what_another_computation_says(name):
+    case = replace(shipped_histories()[name], duration=DURATION)
+    again = sampled_history(case, BERNOULLI_EULER, tolerance=1e-5, spacing=7e-3)
+    spline, bound = shipped().history(case)
+    within = again.time <= DURATION
+    difference = np.abs(spline(again.time) - again.q)[within].max() / np.abs(again.q).max()
+    assert difference <= bound + again.error
+
+
+def test_the_history_on_an_orbit_is_periodic_and_that_of_more_functions():
+    case = CASES["O"]
+    found = reference(case)
+    orbit = periodic_orbits(BEAM, 2.0, case.amplitudes, functions=28)
+    times = np.linspace(0.0, 20.0, 333)
+    period = 2.0 * np.pi / orbit.frequency[0]
+    size = 4.0
+    assert np.abs(found.history(times) - 10.0 * orbit.response(times, 0)).max() < found.bound * size
+    late = times[times < 20.0 - 3.0 * period]
+    assert found.history(late + 3.0 * period) == pytest.approx(
+        found.history(late), abs=2.0 * found.bound * size
+    )
+    assert np.abs(found.history(np.linspace(0.0, period, 2001))).max() == pytest.approx(size, 1e-6)
+
+
+def test_rates_are_those_of_theory():
+    times = np.linspace(0.0, 5.0, 77)
+    exact = spin_up_response(BEAM, CASES["S1"].motion, times, tolerance=1e-7)
+    # A derivative of a quintic spline has one order less: the bound over the spacing of 5 ms.
+    assert reference(CASES["S1"]).rate(times) == pytest.approx(exact.q_dot, abs=1e-5)
+
+
+@pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.513), ("S1", 0.333), ("S1+m", 0.251)])
+def test_a_shipped_backbone_is_exact_between_its_points(name, amplitude):
+    blade, speed = shipped_backbones()[name]
+    exact = periodic_orbits(blade, speed, amplitude, functions=20).frequency[0]
+    assert reference(CASES[name]).frequency_at(amplitude) == pytest.approx(
+        exact, rel=shipped().frequency_bound
+    )
+
+
+def test_small_amplitudes_have_the_shift_of_the_limit():
+    """ω_NL = ω_n (1 - λ a²), to terms in a⁴."""
+    found, exact = reference(CASES["S4"]), periodic_orbits(BEAM, 8.0, 0.1)
+    linear = found.first_frequency(8.0)
+    shift = found.frequency_at(1e-3) / linear - 1.0
+    assert shift == pytest.approx(-exact.lambda_omega * 1e-6, rel=1e-3)
+    assert found.frequency_at(0.0) == pytest.approx(linear, rel=1e-10)
+
+
+@pytest.mark.parametrize("speed", CASES["B"].speeds)
+def test_the_points_of_the_case_of_backbones_are_shipped(speed):
+    case = CASES["B"]
+    for a in (case.amplitudes[0], case.amplitudes[-1]):
+        assert shipped().frequency_at(case.blade, speed, a) is not None
+    assert reference(case).bound < 1e-8
+
+
+def test_beyond_the_table_orbits_are_computed():
+    # The table ends at 0.6; its spline would go on, and err.
+    exact = periodic_orbits(BEAM, 6.0, 0.7).frequency[0]
+    assert reference(CASES["S1"]).frequency_at(0.7) == pytest.approx(exact, rel=1e-12)
+    assert shipped().frequency_at(BEAM, 6.0, 0.7) is None
+    assert shipped().frequency_at(BEAM, 5.0, 0.3) is None
+
+
+def test_shipped_frequencies_are_those_of_more_functions():
+    found = reference(CASES["L"])
+    for speed in CASES["L"].speeds:
+        exact = linear_modes(BEAM, speed, 1, functions=40).frequencies[0]
+        assert found.first_frequency(speed) == pytest.approx(exact, rel=1e-10)
+    assert found.bound < 1e-8
+
+
+def test_all_of_the_paper_is_shipped_and_starts_at_rest():
+    spin_ups = [case.motion for case in shipped_histories().values() if case.blade == BEAM]
+    assert len([one for one in spin_ups if isinstance(one, SpinUp)]) == 24 + 1  # under gravity
+    q, bounds = shipped().data["q"], shipped().data["bound"]
+    assert np.abs(q.isel(time=0)).max() == 0.0
+    assert float(bounds.max()) < 1e-5
+    assert float(bounds.sel(history="6-3")) < 2e-8
+
+
+def test_what_is_judged_by_is_named():
+    said = reference(CASES["S1"]).source
+    assert f"benchmark {VERSION}: references.nc (SHA-256 " in said
+    assert "Radau collocation" in said
+    assert shipped().data.attrs["commit"] in said
+    assert "dirty" not in said
+
+
+def test_a_case_that_is_not_shipped_is_computed():
+    case = spin_up_case(BEAM, SpinUp(omega=3.0, ramp_time=1.5), 4.0)
+    found = reference(case)
+    assert found.source == "computed from the exact beam, Bernoulli-Euler"
+    times = np.linspace(0.0, 4.05, 99)  # the last step of a run may end later
+    exact = spin_up_response(BEAM, case.motion, times, tolerance=1e-8).q
+    assert found.history(times) == pytest.approx(exact, abs=found.bound * np.abs(exact).max())
+    assert found.bound < 2e-6
+
+
+def test_a_beam_with_rotary_inertia_has_a_truth_of_its_own():
+    theory = Theory(rotary_inertia=True)
+    beam = Beam.from_stiffness(
+        length=10.0, axial_stiffness=2.8e5, bending_stiffness=1.4e4, mass_per_length=1.2
+    )
+    case = spin_up_case(beam, SpinUp(omega=2.0, ramp_time=2.0), 3.0)
+    plain, rotary = reference(case), reference(case, theory)
+    assert rotary.source == "computed from the exact beam, with rotary inertia"
+    # Rayleigh: the frequency falls by half of I ∫φ'² / ∫φ², 4.65 EI/(EA L²), at rest.
+    fall = 0.5 * 4.648 * 1.4e4 / (2.8e5 * 100.0)
+    assert rotary.first_frequency(0.0) / plain.first_frequency(0.0) - 1.0 == pytest.approx(
+        -fall, rel=0.01
+    )
+    assert rotary.frequency_at(0.1) / plain.frequency_at(0.1) - 1.0 == pytest.approx(-fall, rel=0.2)
+
+
+def test_what_is_not_asked_is_refused():
+    with pytest.raises(ValueError, match="case L asks for no history, but for first natural"):
+        reference(CASES["L"]).history([0.0])
+    with pytest.raises(ValueError, match=r"goes from 0 to 15 s, got 30 s: leave out"):
+        reference(CASES["S1"]).history([1.0, 30.0])
+    with pytest.raises(ValueError, match=r"goes from 0 to 15 s, got -1 s"):
+        reference(CASES["S1"]).history(-1.0)
+    with pytest.raises(ValueError, match="case B has several speeds: say which"):
+        reference(CASES["B"]).frequency_at(0.1)
+
+
+def test_missing_data_say_how_to_make_them(tmp_path, monkeypatch):
+    monkeypatch.setattr(room, "FILE", tmp_path / "references.nc")
+    with pytest.raises(RuntimeError, match=r"python -m rotbeam_exu\.verification\.regenerate"):
+        shipped.__wrapped__()
