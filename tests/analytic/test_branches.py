@@ -8,7 +8,7 @@ import pytest
 from analytic import Beam, Damping, backbone_branch, periodic_orbits
 from analytic.exact.internal_resonance import frequency_ratios
 from analytic.exact.modes import resolved_model
-from analytic.exact.periodic import branch_of
+from analytic.exact.branch import branch_of
 from analytic.input_checks import RotbeamWarning
 
 
