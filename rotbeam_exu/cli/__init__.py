@@ -31,6 +31,7 @@ for _command in (
     "compare",
     "campbell",
     "respond",
+    "stability",
     "figure",
     "table",
     "verify",

@@ -172,4 +172,6 @@ def _print_results(
         f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy",
     )
     _line(console, "wall time", f"{data.attrs['wall_time']:.2f} s")
+    if "out_of_plane" in data.attrs:
+        _line(console, "plane", data.attrs["out_of_plane"])
     _line(console, "verdict", f"checks {data.attrs['verdict']}")
