@@ -1,8 +1,8 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
-from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
@@ -28,6 +28,7 @@ from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
 from .exact.stability_limit import growth_map as growth_map
 from .exact.stability_limit import limit_map as limit_map
+from .exact.stability_limit import planar_note as planar_note
 from .exact.stability_limit import stability_limit as stability_limit
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping

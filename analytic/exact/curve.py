@@ -21,10 +21,9 @@ from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import RotbeamWarning, finite_array, positive, rotation_speed, whole_number
 from ..methods.continuation import DRIFT_BOUND
 from ..methods.harmonic_balance import NoOrbitError
-from .backbone import AmplitudeNotReachedError
+from .branch import AmplitudeNotReachedError, Branch, branch_of
 from .internal_resonance import nearest_resonance
 from .modes import resolved_model
-from .periodic import Branch, branch_of
 from .steady import BeamOrbit
 
 _SHORTER = 0.96  # of the range, where the series has not converged on it

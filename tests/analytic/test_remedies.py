@@ -146,7 +146,7 @@ def test_orbit_too_small(beam):
 
 
 def test_orbits_too_fast(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.periodic.MOST_FUNCTIONS", 16)
+    monkeypatch.setattr("analytic.exact.branch.MOST_FUNCTIONS", 16)
     assert complaint(periodic_orbits, beam, 80.0, [0.05]).endswith("rotate slower")
     assert complaint(periodic_orbits, beam, 8.0, [0.05]) == ""
 
