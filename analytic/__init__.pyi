@@ -4,12 +4,12 @@ from .blade import Blade as Blade
 from .blade import PointMass as PointMass
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.backbone_series import BackboneCurve as BackboneCurve
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
-from .exact.curve import BackboneCurve as BackboneCurve
 from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
 from .exact.forced import forced_response as forced_response

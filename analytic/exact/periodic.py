@@ -11,8 +11,9 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..methods.continuation import (
-    DRIFT_BOUND,
     MOST_FUNCTIONS,
+    THOROUGH,
+    Care,
     Path,
     linear_orbit,
     meets_the_equations,
@@ -177,12 +178,9 @@ class Branch:
 
 
 def branch_of(
-    beam: AnyBlade, omega: float, mode: int, model: Continuum, drift: float = DRIFT_BOUND
+    beam: AnyBlade, omega: float, mode: int, model: Continuum, care: Care | None = None
 ) -> Branch:
-    """Return the branch of a mode, with as many functions as its smallest orbits need.
-
-    Larger orbits get harmonics until the Jacobi integral drifts by `drift` at most.
-    """
+    """Return the branch of a mode, with as many functions as its smallest orbits need."""
     steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:
         modes = solve_modes(steady)
@@ -196,7 +194,7 @@ def branch_of(
         else:
             if meets_the_equations(double):
                 resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, drift=drift)
+                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, care=care or THOROUGH)
                 return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
             reason = (
                 f"{steady.functions} functions meet the equations of motion to "
