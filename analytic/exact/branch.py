@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..methods.continuation import (
-    DRIFT_BOUND,
     MOST_FUNCTIONS,
+    THOROUGH,
+    Care,
     Path,
     linear_orbit,
     meets_the_equations,
@@ -63,12 +64,9 @@ class Branch:
 
 
 def branch_of(
-    beam: AnyBlade, omega: float, mode: int, model: Continuum, drift: float = DRIFT_BOUND
+    beam: AnyBlade, omega: float, mode: int, model: Continuum, care: Care | None = None
 ) -> Branch:
-    """Return the branch of a mode, with as many functions as its smallest orbits need.
-
-    Larger orbits get harmonics until the Jacobi integral drifts by `drift` at most.
-    """
+    """Return the branch of a mode, with as many functions as its smallest orbits need."""
     steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
     while True:
         modes = solve_modes(steady)
@@ -82,7 +80,7 @@ def branch_of(
         else:
             if meets_the_equations(double):
                 resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, drift=drift)
+                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, care=care or THOROUGH)
                 return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
             reason = (
                 f"{steady.functions} functions meet the equations of motion to "
