@@ -138,8 +138,8 @@ def _cable_energy(mesh: Mesh, coordinates: FloatArray) -> FloatArray:
 class SpaceExact(FrameNodes, NoDivergence):
     """ObjectBeamGeometricallyExact: two nodes that carry r and the section, shear-deformable.
 
-    The screw from one node to the other is the strain, constant in the element; masses and
-    inertias are lumped at the nodes. Exudyn ignores its damping.
+    The screw from one node to the other is the strain, constant in the element; velocities and
+    turning rates are linear. Exudyn ignores its damping.
 
     Parameters
     ----------
@@ -195,20 +195,18 @@ class SpaceExact(FrameNodes, NoDivergence):
     def energy_and_momentum(
         self, built: RotatingBeam, blade: AnyBlade, coordinates: FloatArray, velocities: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return those of the masses and inertias at the nodes."""
+        """Return those of velocities and turning rates linear over the elements."""
         mesh = Mesh(blade=blade, elements=coordinates.shape[-2] - 1)
-        lumps = [
-            0.5 * mesh.length * np.array([s.mass_per_length, *_inertia(blade, s)])
-            for s in mesh.sections()
-        ]
-        of_node = np.pad(lumps, ((1, 0), (0, 0))) + np.pad(lumps, ((0, 1), (0, 0)))
-        m, inertia = of_node[:, 0], of_node[:, 1:]
+        sections = list(mesh.sections())
+        m = np.array([section.mass_per_length for section in sections])[:, None]
+        inertia = np.array([_inertia(blade, section) for section in sections])
         r, v = coordinates[..., :3], velocities[..., :3]
         spin = turning_rate(coordinates[..., 3:], velocities[..., 3:])
         axis = directors(coordinates[..., 3:])[..., 2, :]  # z by the axes of the section
-        kinetic = 0.5 * (np.sum(v**2, axis=-1) @ m + np.sum(inertia * spin**2, axis=(1, 2)))
-        around = (r[..., 0] * v[..., 1] - r[..., 1] * v[..., 0]) @ m
-        return kinetic, around + np.sum(axis * inertia * spin, axis=(1, 2))
+        around = np.stack((-r[..., 1], r[..., 0]), axis=-1)
+        kinetic = 0.5 * (_linear(v, m, v) + _linear(spin, inertia, spin))
+        momentum = _linear(around, m, v[..., :2]) + _linear(axis, inertia, spin)
+        return mesh.length * kinetic, mesh.length * momentum
 
     def twist(self, coordinates: FloatArray) -> FloatArray:
         """Return how far the section has turned from upright."""
@@ -227,6 +225,15 @@ class SpaceExact(FrameNodes, NoDivergence):
         stiffness = np.array([self._stiffness(mesh.blade, s) for s in mesh.sections()])
         strains = _strains(mesh.length, coordinates)
         return 0.5 * mesh.length * np.sum(stiffness * strains**2, axis=(1, 2))
+
+
+def _linear(left: FloatArray, density: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the sums (samples,) over elements of unit length of ∫ left·density right.
+
+    Of vectors (samples, nodes, 3) linear in between, with a density (elements, 3 or 1).
+    """
+    a, b, c, d = left[:, :-1], left[:, 1:], right[:, :-1], right[:, 1:]
+    return np.asarray(np.sum(density * ((a + b) * (c + d) + a * c + b * d), axis=(1, 2)) / 6.0)
 
 
 def _inertia(blade: AnyBlade, section: ElementSection) -> tuple[float, float, float]:
