@@ -185,7 +185,10 @@ def _settings(
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     steps, every = case.steps_and_sampling
     floor = round_off(beam, case.elements)
-    return solver_settings(steps, case.step / units.time, every, case.frame, round_off=floor)
+    return solver_settings(
+        steps, case.step / units.time, every, case.frame, round_off=floor,
+        new_jacobians=getattr(case.model, "new_jacobians", False),
+    )  # fmt: skip
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:

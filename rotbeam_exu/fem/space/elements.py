@@ -153,6 +153,7 @@ class SpaceExact(FrameNodes, NoDivergence):
     name: ClassVar[str] = "exact"
     takes_blades: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial",)
+    new_jacobians: ClassVar[bool] = True  # half the time
     summary: ClassVar[str] = "geometrically exact beam in space, two nodes, shear and torsion"
 
     def __post_init__(self) -> None:
