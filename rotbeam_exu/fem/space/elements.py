@@ -67,6 +67,7 @@ class SpaceCable(SpaceSlopeNodes, NoDivergence):
     name: ClassVar[str] = "cable"
     takes_blades: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial", "rotating")
+    new_jacobians: ClassVar[bool] = True  # half the time
     summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
 
     def require_section(self, blade: AnyBlade) -> None:
