@@ -122,8 +122,9 @@ def run_case(
     *,
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
+    pack: Callable[..., xr.Dataset] = columns,
 ) -> xr.Dataset:
-    """Return what `simulate` does, of a case."""
+    """Return what `simulate` does, of a case; `pack` makes the columns of what was sampled."""
     warn_if_rpm(case.beam, case.fastest)
     units = Units.of(case.beam, case.step)
     beam = units.beam(case.beam)
@@ -134,7 +135,7 @@ def run_case(
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = built.sensors.read()
-    run = columns(case, units, beam, built.beam, trajectory)
+    run = pack(case, units, beam, built.beam, trajectory)
     run.attrs = {
         **case.describe(),
         "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
@@ -189,7 +190,10 @@ def _settings(
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     steps, every = case.steps_and_sampling
     floor = round_off(beam, case.elements)
-    return solver_settings(steps, case.step / units.time, every, case.frame, round_off=floor)
+    return solver_settings(
+        steps, case.step / units.time, every, case.frame, round_off=floor,
+        new_jacobians=getattr(case.model, "new_jacobians", False),
+    )  # fmt: skip
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
