@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
@@ -20,18 +20,13 @@ from .continuum import Continuum
 from .modes import solve_modes
 from .steady import SteadyBeam, steady_rotation
 
-if TYPE_CHECKING:
-    from .backbone import Backbone
-
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
 
 class AmplitudeNotReachedError(RuntimeError):
     """An amplitude was not reached; `backbone` is the Backbone of those that were, or None."""
 
-    backbone: Backbone | None
-
-    def __init__(self, message: str, backbone: Backbone | None = None) -> None:
+    def __init__(self, message: str, backbone: Any = None) -> None:
         super().__init__(message)
         self.backbone = backbone
 
