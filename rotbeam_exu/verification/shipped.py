@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import BSpline, CubicSpline
 
 from analytic import AnyBlade, Beam, SpinUp
+from analytic.arrays import FloatArray
 
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
@@ -119,22 +120,25 @@ class Shipped:
 
     @cached_property
     def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, CubicSpline]]:
+        """ω_n and the curvature over a², by blade and speed."""
         a, of = self.data["amplitude"].to_numpy(), dict(zip(*self._listed("backbone"), strict=True))
-        return {
-            place: (
-                float(self.data["omega_n"].sel(backbone=name)),
-                CubicSpline(a**2, self.data["curvature"].sel(backbone=name).to_numpy()),
-            )
-            for name, place in shipped_backbones().items()
-            if of.get(name) == said(place)
-        }
+        found = {}
+        for name, place in shipped_backbones().items():
+            if of.get(name) == said(place):
+                here = self.data.sel(backbone=name)
+                curvature = here["curvature"].to_numpy()
+                known = np.isfinite(curvature)
+                found[place] = float(here["omega_n"]), CubicSpline(a[known] ** 2, curvature[known])
+        return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
         found = self._backbones.get((blade, speed))
-        if found is None or not 0.0 <= amplitude <= float(self.data["amplitude"][-1]):
+        if found is None:
             return None
         omega_n, curvature = found
+        if not 0.0 <= amplitude**2 <= curvature.x[-1]:
+            return None
         return omega_n * (1.0 - float(curvature(amplitude**2)) * amplitude**2)
 
     @property
@@ -164,10 +168,10 @@ def shipped() -> Shipped:
     return Shipped(data=data, digest=hashlib.sha256(raw).hexdigest())
 
 
-def amplitudes() -> np.ndarray:
-    """Return the peak |q|/L of shipped backbones: 0, and closer where a resonance is near.
+def amplitudes() -> FloatArray:
+    """Return the peak |q|/L of shipped backbones: 0, and closer where resonances bend them.
 
-    At 2 rad/s one begins to bend the backbone beyond 0.5; those of case B are among them.
+    Each ends where a resonance bends it too sharply; those of case B are among them.
     """
-    parts = np.arange(20) * 0.02, 0.4 + np.arange(20) * 0.005, 0.5 + np.arange(41) * 0.0025
-    return np.concatenate(parts)
+    parts = (0.0, 0.4, 0.02), (0.4, 0.5, 0.005), (0.5, 0.6, 0.0025), (0.6, 0.885, 0.005)
+    return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])
