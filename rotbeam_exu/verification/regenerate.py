@@ -140,15 +140,19 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     return found.omega_n, known, float(errors.max() + by_functions.max())
 
 
-def main() -> None:
+def write(data: xr.Dataset) -> None:
     """Write the file of the package."""
-    root = Path(__file__).parents[2]
-    described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
-    commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()
-    data = dataset(commit)
     packed = {name: {"zlib": True, "complevel": 9, "shuffle": True} for name in ("q", "curvature")}
     FILE.parent.mkdir(exist_ok=True)
     data.to_netcdf(FILE, engine="h5netcdf", encoding=packed)
+
+
+def main() -> None:
+    """Compute and write all data; their commit is said to be dirty if something is not in it."""
+    root = Path(__file__).parents[2]
+    described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
+    commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()
+    write(dataset(commit))
 
 
 if __name__ == "__main__":

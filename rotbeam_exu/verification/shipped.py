@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,9 +54,18 @@ def key(case: Case) -> tuple[Any, ...]:
     return case.blade, case.motion, case.loads, case.amplitudes
 
 
-def said(values: tuple[Any, ...]) -> str:
-    """Return all the numbers behind a history or a backbone, by which the file knows it."""
-    return repr(values)
+def said(value: Any) -> str:
+    """Return all numbers behind a history or a backbone, by which the file knows it.
+
+    What has its default is left out, so that a blade that learns to have more stays the same.
+    """
+    if isinstance(value, tuple):
+        return f"({', '.join(map(said, value))})"
+    if not is_dataclass(value):
+        return repr(value)
+    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
+    stated = [f"{name}={said(part)}" for name, part, default in parts if part != default]
+    return f"{type(value).__name__}({', '.join(stated)})"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
