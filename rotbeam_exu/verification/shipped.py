@@ -57,14 +57,14 @@ def key(case: Case) -> tuple[Any, ...]:
 def said(value: Any) -> str:
     """Return all numbers behind a history or a backbone, by which the file knows it.
 
-    What has its default is left out, so that a blade that learns to have more stays the same.
+    What is nothing by default is left out: a blade that learns to have more stays the same.
     """
     if isinstance(value, tuple):
         return f"({', '.join(map(said, value))})"
     if not is_dataclass(value):
         return repr(value)
     parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
-    stated = [f"{name}={said(part)}" for name, part, default in parts if part != default]
+    stated = [f"{name}={said(part)}" for name, part, default in parts if part or part != default]
     return f"{type(value).__name__}({', '.join(stated)})"
 
 
