@@ -27,6 +27,8 @@ STATIC = Path(__file__).parent / "data" / "kit"
 MESHES = (8, 16, 32, 64)
 """Numbers of elements at whose nodes an orbit is written."""
 
+_SOURCES = {"problem.typ", "PROBLEM.sha256"}  # of the PDF, which is what an author wants
+
 SPACING = 0.01
 """Of drives and of the history for self-check [s]."""
 
@@ -77,7 +79,7 @@ def kit_files() -> dict[str, bytes]:
     files = {
         path.relative_to(STATIC).as_posix(): path.read_bytes()
         for path in sorted(STATIC.rglob("*"))
-        if path.is_file() and not path.name.endswith(".pyc") and path.name != "PROBLEM.sha256"
+        if path.is_file() and path.suffix != ".pyc" and path.name not in _SOURCES
     }
     histories = [case for case in CASES.values() if case.asked is Asked.HISTORY]
     texts = {"VERSION": f"{VERSION}\n", "cases.csv": _cases_csv(), "cases.json": _cases_json()}

@@ -9,9 +9,12 @@ import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
+
 from .cases import CASES, VERSION
 from .judgement import THRESHOLDS
 from .kit import STATIC, row_of
+from .references import reference
 from .submission_files.histories import DIGITS, FARTHEST
 
 SOURCE = STATIC / "problem.typ"
@@ -21,13 +24,16 @@ DIGEST = STATIC / "PROBLEM.sha256"
 
 
 def numbers() -> str:
-    """Return what the source takes from the package, as JSON: cases, thresholds, the format."""
+    """Return what the source takes from the package, as JSON: cases, thresholds, the format, S1."""
+    case = CASES["S1"]
+    times = np.linspace(0.0, case.duration, 601)
     document = {
         "version": VERSION,
         "cases": [row_of(case) for case in CASES.values()],
         "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
         "farthest": FARTHEST,
         "digits": DIGITS,
+        "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
     }
     return json.dumps(document)
 
