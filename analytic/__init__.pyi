@@ -1,14 +1,14 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
-from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.backbone_series import BackboneCurve as BackboneCurve
+from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
-from .exact.curve import BackboneCurve as BackboneCurve
 from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
 from .exact.forced import forced_response as forced_response
@@ -28,6 +28,7 @@ from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
 from .exact.stability_limit import growth_map as growth_map
 from .exact.stability_limit import limit_map as limit_map
+from .exact.stability_limit import planar_note as planar_note
 from .exact.stability_limit import stability_limit as stability_limit
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping

@@ -174,6 +174,8 @@ def _reach(run: xr.Dataset) -> NDArray[np.float64]:
     tip = run["tip_x"].to_numpy() + 1j * run["tip_y"].to_numpy()
     in_plane = np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy()))
     out_of_plane = math.sqrt(1.0 - unit.setting**2) * run["q"].to_numpy()
+    if "w" in run:
+        out_of_plane = run["w"].to_numpy()
     return np.asarray(np.hypot(in_plane, out_of_plane))
 
 

@@ -12,16 +12,9 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
+from .stability_limit import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
-
-
-class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `backbone` holds the orbits that were, None if none was."""
-
-    def __init__(self, message: str, backbone: Backbone | None = None) -> None:
-        super().__init__(message)
-        self.backbone = backbone
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,8 +134,8 @@ class Backbone:
         """Whether the orbits are stable against small disturbances in the plane, (orbits,).
 
         No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
-        says: those that the integration over a period resolves. Motion out of the plane is not
-        considered.
+        says: those that the integration over a period resolves. Of motion out of the plane
+        `out_of_plane` and `planar_stability` tell.
         """
         return np.array([found.stable() for found in self._stability])
 
@@ -151,10 +144,19 @@ class Backbone:
         """How many modes `stable` covers, the lowest, (orbits,)."""
         return np.array([found.modes for found in self._stability])
 
+    @cached_property
+    def out_of_plane(self) -> str:
+        """One sentence if the largest orbit leaves the plane of rotation, "" if not.
+
+        "" too of a blade whose section out of the plane is unknown; computed when first asked for.
+        """
+        return planar_note(self.beam, self.omega, float(self.amplitude.max()), self.mode)
+
     def __str__(self) -> str:
+        note = f"; {self.out_of_plane}" if self.out_of_plane else ""
         return (
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
             f"omega_n = {self.omega_n:.8f} rad/s, lambda_omega = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"residual at most {self.residual.max():.1e}"
+            f"residual at most {self.residual.max():.1e}{note}"
         )

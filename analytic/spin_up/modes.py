@@ -45,8 +45,12 @@ class ModesOverSpeed:
     coefficients: FloatArray = field(repr=False)
 
     def at(self, w: FloatArray) -> ModesAt:
-        """Return the modes at speeds `w`, (speeds,), whose sign does not matter."""
-        values = chebyshev.chebval(2.0 * np.abs(w) / self.top - 1.0, self.coefficients)
+        """Return the modes at speeds `w`, (speeds,), whose sign does not matter.
+
+        Beyond the top they are those at the top.
+        """
+        inside = np.minimum(2.0 * np.abs(w) / self.top - 1.0, 1.0)
+        values = chebyshev.chebval(inside, self.coefficients)
         return ModesAt(*np.asarray(values))
 
 

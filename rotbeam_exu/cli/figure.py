@@ -65,7 +65,8 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
     written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
     caption = name.with_suffix(".txt")
     with whole_file(caption) as partial:
-        partial.write_text(f"Figure {n}. {made.caption}\n", encoding="utf-8")
+        text = " ".join(filter(None, (made.caption, data.attrs.get("out_of_plane"))))
+        partial.write_text(f"Figure {n}. {text}\n", encoding="utf-8")
     written.append(caption)
     console.print(f"figure {n}: {listed(written)}")
     return written

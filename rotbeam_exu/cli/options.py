@@ -20,7 +20,7 @@ from .output import choice
 from .targets import Force
 
 
-def _whole(_: Any, tokens: Sequence[Token]) -> int:
+def whole(_: Any, tokens: Sequence[Token]) -> int:
     """Read a whole number in decimal digits: 2.5 is none, and neither are 1e3 and 0x10."""
     text = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", text):
@@ -30,10 +30,10 @@ def _whole(_: Any, tokens: Sequence[Token]) -> int:
     return int(text)
 
 
-Whole = Annotated[int, Parameter(converter=_whole)]
+Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
 
-Jobs = Annotated[int | None, Parameter(converter=_whole)]
+Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
 

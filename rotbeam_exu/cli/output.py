@@ -32,6 +32,9 @@ def choice(kind: Any, tokens: Sequence[Token]) -> str:
 
 Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
 
+_MOST_LINES = 40
+"""Of a cell: one that needs more is given its longest word's width."""
+
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
 
@@ -78,15 +81,17 @@ def print_columns(
     form: Format,
     title: str = "",
     frame: box.Box = box.HEAVY_HEAD,
+    header: bool = True,
 ) -> None:
     """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
 
     Where a terminal is too narrow for the table, it comes in parts that repeat the first column;
-    lines are broken between words only, never in a number.
+    lines are broken between words only, never in a number. A CSV may go on without its `header`.
     """
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
-        writer.writerow(columns)
+        if header:
+            writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
         return
     console = new_console()
@@ -103,9 +108,7 @@ def print_columns(
     room = console.width
     for part in _parts(least, room):
         widths = _widths(
-            [max(map(cell_len, (names[i], *readable[names[i]]))) for i in part],
-            [least[i] for i in part],
-            room,
+            [(names[i], *readable[names[i]]) for i in part], [least[i] for i in part], room
         )
         table = Table(box=frame)
         for i, width in zip(part, widths, strict=True):
@@ -160,12 +163,30 @@ def _parts(least: Sequence[int], room: int) -> list[list[int]]:
     return parts
 
 
-def _widths(natural: Sequence[int], least: Sequence[int], room: int) -> list[int]:
-    """Return the width of each column: its longest word, and of what is left as much as it can."""
-    spare = max(room - _total(least), 0)
-    widths = []
-    for wanted, needed in zip(natural, least, strict=True):
-        more = min(wanted - needed, spare)
-        widths.append(needed + more)
-        spare -= more
-    return widths
+def _widths(columns: Sequence[Sequence[str]], least: Sequence[int], room: int) -> list[int]:
+    """Return the widths at which no cell needs more lines than it must for the table to fit."""
+    for lines in range(1, _MOST_LINES):
+        widths = [max(_narrowest(cell, lines) for cell in cells) for cells in columns]
+        if _total(widths) <= room:
+            return widths
+    return list(least)
+
+
+def _narrowest(text: str, lines: int) -> int:
+    """Return the least width at which a text, broken between words only, has so many lines."""
+    parts = [[cell_len(word) for word in part.split()] or [0] for part in text.split("\n")]
+    longest = max(sum(words) + len(words) for words in parts)
+    for width in range(max(map(max, parts)), longest):
+        if sum(_lines(words, width) for words in parts) <= lines:
+            return width
+    return longest - 1
+
+
+def _lines(words: Sequence[int], width: int) -> int:
+    """Return how many lines words of these lengths take."""
+    used, free = 0, -1
+    for word in words:
+        if word > free:
+            used, free = used + 1, width
+        free -= word + 1
+    return used

@@ -70,5 +70,7 @@ def print_results(
         "energy drift",
         f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy",
     )
+    if "out_of_plane" in data.attrs:
+        line(console, "plane", data.attrs["out_of_plane"])
     line(console, "wall time", f"{data.attrs['wall_time']:.2f} s")
     line(console, "verdict", f"checks {data.attrs['verdict']}")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
 from .budget import finite_element_budget, model_budget
 from .orbits import figure_15
+from .planar import growth_out_of_plane, modes_in_space, planar_stability, stability_limits
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_map
@@ -29,6 +30,10 @@ __all__ = [
     "finite_element_points",
     "fitted_softening",
     "forced_response",
+    "growth_out_of_plane",
     "model_budget",
+    "modes_in_space",
+    "planar_stability",
     "softening_map",
+    "stability_limits",
 ]

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, periodic_orbits, reduced_model
+from analytic import Beam, periodic_orbits, planar_note, reduced_model
 
 from ..fem.solver import Frame
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
@@ -170,7 +170,8 @@ def figure_14(
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
         (mesh, omega, ramp_time). The models' a is the first harmonic, as in the paper, that of
         the points and of the exact backbone the peak. Options are those of
-        `finite_element_points`.
+        `finite_element_points`. The attribute `out_of_plane` is there if the section of a blade is
+        known to leave the plane, and says at which speeds from which amplitudes on.
     """
     beam = beam or Beam.reference()
     points = xr.concat(
@@ -181,7 +182,9 @@ def figure_14(
         dim="mesh",
     )
     points["mesh"] = ("mesh", list(meshes), {"units": "1", "long_name": "finite element mesh"})
-    return points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(mesh="")
+    data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(mesh="")
+    notes = [planar_note(beam, omega, max(amplitudes)) for omega in omegas]
+    return data.assign_attrs(out_of_plane="; ".join(filter(None, notes))) if any(notes) else data
 
 
 def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:

@@ -73,10 +73,10 @@ def columns(
         power -= units.time**2 * case.rotation.acceleration(time) * angular_momentum
         supplied = _integral(time / units.time, power)
         values["supplied_energy"] = (supplied, "J", "supplied share of the Jacobi energy")
-    return _in_si(time, units, values)
+    return in_si(time, units, values)
 
 
-def _in_si(
+def in_si(
     time: FloatArray, units: Units, values: dict[str, tuple[FloatArray, str, str]]
 ) -> xr.Dataset:
     """Return the columns, each with its unit and label, over time [s]."""

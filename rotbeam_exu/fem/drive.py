@@ -124,7 +124,7 @@ def _clamp(element: Formulation, radius: float, angle: float) -> tuple[FloatArra
     if not radius:
         return gradient, target
     place = np.eye(gradient.shape[1])[list(element.fixed_at_root)]
-    around = radius * np.array([math.cos(angle), math.sin(angle)])
+    around = radius * np.array([math.cos(angle), math.sin(angle), 0.0])[: len(place)]
     return np.vstack([place, gradient]), np.concatenate([around, target])
 
 

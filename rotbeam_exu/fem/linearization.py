@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +20,7 @@ from analytic.methods.gyroscopic import inverse_eigenvalues
 from ..resolution import require_feasible, require_stretch, warn_if_coarse
 from ..verdict import SimulationError
 from . import drive
-from .elements import Formulation, formulation, require_modeled
+from .elements import Chain, Formulation, formulation, require_modeled
 from .system import exudyn_system
 from .units import Units
 
@@ -152,6 +154,23 @@ def linearized(
     beam: AnyBlade, omega: float, element: str | Formulation, elements: int
 ) -> Linearization:
     """Return the model about its equilibrium at ω [rad/s], refusing what has none."""
+    with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
+        tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
+        linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
+    mass_projected, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+    return Linearization(
+        mass=mass_projected, stiffness=stiffness, gyroscopic=gyroscopic, stretch=float(tip[0])
+    )
+
+
+@contextmanager
+def steady_system(
+    beam: AnyBlade, omega: float, element: str | Formulation, elements: int
+) -> Iterator[tuple[exudyn.MainSystem, Chain, exudyn.SimulationSettings]]:
+    """Give the model in the rotating frame and the beam's units, at its equilibrium at ω [rad/s].
+
+    With its chain and the settings of a static solution.
+    """
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
@@ -176,12 +195,7 @@ def linearized(
                 f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
                 f"EA = {beam.axial_stiffness:g} N and the speed"
             ) from error
-        tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
-        linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
-    mass_projected, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-    return Linearization(
-        mass=mass_projected, stiffness=stiffness, gyroscopic=gyroscopic, stretch=float(tip[0])
-    )
+        yield mbs, chain, settings
 
 
 def _static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:

@@ -16,7 +16,7 @@ import exudyn
 import numpy as np
 import xarray as xr
 
-from analytic import AnyBlade, BeamState, SteadyRotation
+from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.state import stretched_state
@@ -98,7 +98,8 @@ def simulate(
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
         jacobi_energy changes. The attributes hold every input, versions, settings, wall
-        time and the verdict.
+        time and the verdict; where the section out of the plane is known and planar orbits as
+        large as the motion after the ramp leave the plane, `out_of_plane` says so.
 
     Raises
     ------
@@ -121,8 +122,9 @@ def run_case(
     *,
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
+    pack: Callable[..., xr.Dataset] = columns,
 ) -> xr.Dataset:
-    """Return what `simulate` does, of a case."""
+    """Return what `simulate` does, of a case; `pack` makes the columns of what was sampled."""
     warn_if_rpm(case.beam, case.fastest)
     units = Units.of(case.beam, case.step)
     beam = units.beam(case.beam)
@@ -133,7 +135,7 @@ def run_case(
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = built.sensors.read()
-    run = columns(case, units, beam, built.beam, trajectory)
+    run = pack(case, units, beam, built.beam, trajectory)
     run.attrs = {
         **case.describe(),
         "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
@@ -141,7 +143,11 @@ def run_case(
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
-    return _checked(run, cause)
+    run = _checked(run, cause)
+    steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
+    if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
+        run.attrs["out_of_plane"] = note
+    return run
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,7 +190,10 @@ def _settings(
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     steps, every = case.steps_and_sampling
     floor = round_off(beam, case.elements)
-    return solver_settings(steps, case.step / units.time, every, case.frame, round_off=floor)
+    return solver_settings(
+        steps, case.step / units.time, every, case.frame, round_off=floor,
+        new_jacobians=getattr(case.model, "new_jacobians", False),
+    )  # fmt: skip
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:

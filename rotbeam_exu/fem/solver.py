@@ -35,14 +35,20 @@ def require_frame(beam: AnyBlade, frame: Frame) -> None:
 
 
 def solver_settings(
-    steps: int, step: float, every: int, frame: Frame, *, round_off: float
+    steps: int,
+    step: float,
+    every: int,
+    frame: Frame,
+    *,
+    round_off: float,
+    new_jacobians: bool = False,
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     """Solver settings, and the same as a plain record, all in the beam's units.
 
     A tolerance relative to the first residual would loosen with the axial stiffness, and one below
     the round-off is never met, whereupon adaptive stepping halves steps silently: Newton stops at
     an absolute force. In the rotating frame each iteration calls back into Python, and a new
-    Jacobian for each step saves iterations.
+    Jacobian for each step saves iterations; so it does where an element asks for `new_jacobians`.
     """
     described: dict[str, Any] = {
         "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
@@ -59,7 +65,7 @@ def solver_settings(
     integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
     integration.newton.relativeTolerance = described["relative_tolerance"]
     integration.newton.absoluteTolerance = described["absolute_tolerance"]
-    integration.newton.modifiedNewtonJacUpdatePerStep = frame == "rotating"
+    integration.newton.modifiedNewtonJacUpdatePerStep = new_jacobians or frame == "rotating"
     integration.verboseMode = 0
     settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
 
 from analytic import (
     AnyBlade,
@@ -28,6 +28,9 @@ from analytic import (
 from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.profiles import in_units
+
+StateT = TypeVar("StateT", bound=BeamState)
+"""A state of the plane, or of space."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,9 +83,12 @@ class Units:
         scaled: dict[str, Any] = {
             name: in_units(profiles[name], self.length, unit) for name, unit in per.items()
         }
+        out = blade.section.out_of_plane
+        if out is not None and out.polar_inertia is not None:
+            out = replace(out, polar_inertia=out.polar_inertia / per["rotary_inertia"])
         return Blade(
             length=blade.length / self.length,
-            section=Section(**scaled),
+            section=Section(**scaled, out_of_plane=out),
             hub_radius=blade.hub_radius / self.length,
             setting_angle=blade.setting_angle,
             point_masses=tuple(
@@ -121,20 +127,19 @@ class Units:
         """Return the rotation over time in these units."""
         return _Rescaled(rotation, self.time)
 
-    def state(self, state: BeamState) -> BeamState:
+    def state(self, state: StateT) -> StateT:
         """Return the state in these units; slopes and angles have none."""
-        return BeamState(
-            u=state.u / self.length,
-            v=state.v / self.length,
-            u_slope=state.u_slope,
-            v_slope=state.v_slope,
-            u_dot=state.u_dot / self.velocity,
-            v_dot=state.v_dot / self.velocity,
-            u_slope_dot=state.u_slope_dot * self.time,
-            v_slope_dot=state.v_slope_dot * self.time,
-            shear_angle=state.shear_angle,
-            shear_angle_dot=state.shear_angle_dot * self.time,
-        )
+        per_second = 1.0 / self.time
+        units = {
+            **dict.fromkeys(("u", "v", "w"), self.length),
+            **dict.fromkeys(("u_dot", "v_dot", "w_dot"), self.velocity),
+            **dict.fromkeys(
+                ("u_slope_dot", "v_slope_dot", "w_slope_dot", "shear_angle_dot"), per_second
+            ),
+        }
+        names = [field.name for field in fields(state)]
+        values = {name: getattr(state, name) / units.get(name, 1.0) for name in names}
+        return replace(state, **values)
 
 
 @dataclass(frozen=True)

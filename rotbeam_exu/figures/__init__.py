@@ -11,6 +11,7 @@ from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
+from .planar import growth_out_of_plane, planar_stability, stability_limits
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_map
@@ -33,8 +34,11 @@ __all__ = [
     "figure_14",
     "figure_15",
     "forced_response",
+    "growth_out_of_plane",
+    "planar_stability",
     "save_animation",
     "save_figure",
     "softening_map",
     "spin_up",
+    "stability_limits",
 ]

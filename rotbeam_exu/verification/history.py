@@ -91,10 +91,15 @@ class Histories:
         """The steady oscillation of each run, or why it has none."""
         return {run: self._oscillation(run.time, run.q) for run in self.runs}
 
+    @cached_property
+    def true_oscillation(self) -> SteadyOscillation | str:
+        """The steady oscillation of the reference, measured alike."""
+        time = self.rows.finest.time
+        return self._oscillation(time, self.reference.history(time))
+
     def amplitude(self, tolerance: float) -> Finding:
         """Return the finding of the amplitude of the steady oscillation."""
-        time = self.rows.finest.time
-        true = self._oscillation(time, self.reference.history(time))
+        true = self.true_oscillation
         if isinstance(true, str):
             return Finding(outcome=Outcome.NO_VERDICT, note=f"not measured: {true}")
         measured = {
@@ -111,6 +116,9 @@ class Histories:
         `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
         None of a shift that is less than LEAST_SHIFT.
         """
+        if isinstance(self.true_oscillation, str):
+            note = f"not measured: {self.true_oscillation}"
+            return Finding(outcome=Outcome.NO_VERDICT, note=note)
         assert self.case.motion is not None
         speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
         measured: dict[Run, tuple[float, float]] = {}

@@ -129,7 +129,7 @@ class Shipped:
 
 @lru_cache(maxsize=1)
 def shipped() -> Shipped:
-    """Return the shipped data; RuntimeError if they are missing or of another benchmark."""
+    """Return the shipped data; RuntimeError if they cannot be read or are of another benchmark."""
     import xarray as xr  # noqa: PLC0415
 
     try:

@@ -25,7 +25,7 @@ FLOORS = {
     ],
     "rotbeam_exu": [
         {"paper", "resolution", "tones", "verdict", "files"},
-        {"oscillation", "fem"},
+        {"growth", "oscillation", "fem"},
         {"sweeps", "verification"},
         {"comparison", "figures"},
         {"explorer", "paper_figures", "report"},

@@ -45,8 +45,8 @@ def test_the_history_on_an_orbit_is_periodic_and_that_of_more_functions():
     orbit = periodic_orbits(BEAM, 2.0, case.amplitudes, functions=28)
     times = np.linspace(0.0, 20.0, 333)
     period = 2.0 * np.pi / orbit.frequency[0]
-    size = 4.0
-    assert np.abs(found.history(times) - 10.0 * orbit.response(times, 0)).max() < found.bound * size
+    size = 3.2
+    assert np.abs(found.history(times) - 8.0 * orbit.response(times, 0)).max() < found.bound * size
     late = times[times < 20.0 - 3.0 * period]
     assert found.history(late + 3.0 * period) == pytest.approx(
         found.history(late), abs=2.0 * found.bound * size
@@ -61,7 +61,7 @@ def test_rates_are_those_of_theory():
     assert reference(CASES["S1"]).rate(times) == pytest.approx(exact.q_dot, abs=1e-5)
 
 
-@pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.513), ("S1", 0.333), ("S1+m", 0.251)])
+@pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.413), ("S1", 0.333), ("S1+m", 0.251)])
 def test_a_shipped_backbone_is_exact_between_its_points(name, amplitude):
     blade, speed = shipped_backbones()[name]
     exact = periodic_orbits(blade, speed, amplitude, functions=20).frequency[0]

@@ -271,7 +271,7 @@ void history(const Case& c, const std::string& kit, int elements, const std::str
   std::snprintf(name, sizeof name, "%s/m%03d_h%s.csv", id.c_str(), elements, step.c_str());
   std::filesystem::create_directory(id);
   std::ofstream out(name);
-  out.precision(17);
+  out.precision(12);
   out << "time,q,q_dot\n";
   const int steps = static_cast<int>(std::ceil(c["duration"] / h - 1e-9));
   const int every = std::max(1, static_cast<int>(0.01 / h + 1e-9));

@@ -1,0 +1,237 @@
+"""Ramps that leave the first modes at rest: few more waves than Eq. 1, and the exact transient."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ..arrays import ComplexArray, FloatArray
+from ..beam import AnyBlade
+from ..input_checks import positive, rotation_speed, whole_number
+from ..ramps import SmoothRamp
+from .modes import ModesOverSpeed
+from .quiet import exact_residuals
+from .residual import modes_for, residuals
+
+_MORE_WAVES = 4
+_NEWTON_STEPS, _SETTLED, _DIFFERENCE = 20, 1e-3, 1e-6
+_SOLVED = 1e-7  # of the length: what the closed form may leave
+_INSTANTS = np.linspace(0.0, 1.0, 101)
+_INSIDE, _WITHIN = 3e-4, 1e-4
+"""Share of the limits that instants keep for what is between them, and the optimizer of that."""
+_WILD = 1e3  # coefficients of a ramp that goes to and fro for no use
+_CORRECTIONS, _LEFT = 6, 1e-6
+_LONGER, _LONGEST = 1.25, 12
+"""Durations tried, for the sentence, where the one asked for is too short."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Task:
+    """What is asked of a ramp, and the waves it may be made of.
+
+    A_1 and B_1 follow from the sums of a `SmoothRamp`; the unknowns are k² A_k, then k² B_k, of
+    k = 2 and up: the smallest make a ramp with little jerk, of few waves.
+    """
+
+    beam: AnyBlade
+    start: float
+    omega: float
+    duration: float
+    modes: ModesOverSpeed = field(repr=False)
+    count: int
+    highest: float
+    steepest: float
+
+    @cached_property
+    def order(self) -> FloatArray:
+        """The k of the unknowns."""
+        return np.arange(2.0, self.count + 2.0 * _MORE_WAVES + 1.0)
+
+    @property
+    def eq_1(self) -> FloatArray:
+        """The unknowns of Eq. 1: all zero."""
+        return np.zeros(2 * self.order.size)
+
+    def ramp(self, y: FloatArray) -> SmoothRamp:
+        """Return the ramp of the unknowns `y`."""
+        a, b = y.reshape(2, -1) / self.order**2
+        return SmoothRamp(
+            start=self.start,
+            omega=self.omega,
+            ramp_time=self.duration,
+            cosines=(-1.0 - math.fsum(a), *a),
+            sines=(-float(self.order @ b), *b),
+        )
+
+    def equations(self, y: FloatArray, target: ComplexArray) -> FloatArray:
+        """Return what the modes lack of the target by the closed form, (2 modes,)."""
+        times = np.array([self.duration])
+        z = residuals(self.beam, self.ramp(y), self.modes, times)[:, 0] - target
+        return np.concatenate((z.real, z.imag))
+
+    def tangent(self, y: FloatArray, target: ComplexArray) -> FloatArray:
+        """Return the derivatives of the equations."""
+        here = self.equations(y, target)
+        step = _DIFFERENCE * np.eye(y.size)
+        return np.stack([self.equations(y + d, target) - here for d in step], axis=1) / _DIFFERENCE
+
+    def room(self, y: FloatArray) -> FloatArray:
+        """Return what is left to the limits, over them: negative where one is passed."""
+        ramp, t = self.ramp(y), self.duration * _INSTANTS
+        rate, acceleration = ramp.rate(t), ramp.acceleration(t)
+        lowest = min(self.start, self.omega, 0.0)
+        room = [(self.highest - rate) / self.highest, (rate - lowest) / self.highest]
+        room = [part + _INSIDE for part in room]  # at both ends there is none
+        if math.isfinite(self.steepest):
+            room += [1.0 - acceleration / self.steepest, 1.0 + acceleration / self.steepest]
+        return np.concatenate(room) - _INSIDE
+
+
+def design_ramp(
+    beam: AnyBlade,
+    omega: float,
+    duration: float,
+    modes: int = 2,
+    *,
+    start: float = 0.0,
+    speed_limit: float | None = None,
+    acceleration_limit: float | None = None,
+) -> SmoothRamp:
+    """Return a smooth change of the speed that leaves the first modes at rest.
+
+    Of all ramps of so many waves whose integrals vanish in the closed form it is the smoothest
+    within the limits; what the exact transient then leaves of the first mode is the next target of
+    the closed form, with its sign changed, until nothing is left.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Speed after the ramp [rad/s].
+    duration : float
+        T [s].
+    modes : int
+        Number of modes left at rest.
+    start : float
+        Speed before the ramp [rad/s].
+    speed_limit : float, optional
+        Highest speed on the way [rad/s]; the higher of `start` and `omega` if not given. The
+        lowest is zero.
+    acceleration_limit : float, optional
+        Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or no such ramp stays within the limits.
+    RuntimeError
+        If the blade swings so far on the way that the exact transient does not follow.
+    """
+    omega, start = rotation_speed(omega), rotation_speed(start, "start")
+    duration, modes = positive("duration", duration, "s"), whole_number("modes", modes)
+    higher = max(omega, start)
+    if omega == start:
+        raise ValueError(f"omega and start are both {omega:g} rad/s: there is nothing to change")
+    highest = higher if speed_limit is None else positive("speed_limit", speed_limit, "rad/s")
+    if highest < higher:
+        raise ValueError(
+            f"speed_limit = {highest:g} rad/s is below the {higher:g} rad/s at one end of the "
+            f"ramp: take that at least"
+        )
+    steepest = math.inf
+    if acceleration_limit is not None:
+        steepest = positive("acceleration_limit", acceleration_limit, "rad/s²")
+        if steepest * duration <= abs(omega - start):
+            raise ValueError(
+                f"acceleration_limit = {steepest:g} rad/s² takes "
+                f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} rad/s, "
+                f"and the duration is {duration:g} s: take a longer one"
+            )
+    widest = SmoothRamp(start=highest, omega=omega, ramp_time=duration)
+    task = _Task(
+        beam=beam, start=start, omega=omega, duration=duration, count=modes, highest=highest,
+        modes=modes_for(beam, widest, modes), steepest=steepest,
+    )  # fmt: skip
+    return _corrected(task)
+
+
+def _corrected(task: _Task) -> SmoothRamp:
+    """Return the ramp of which the exact transient leaves nothing."""
+    target, y, last = np.zeros(task.count, dtype=np.complex128), task.eq_1, math.inf
+    for _ in range(_CORRECTIONS):
+        found = _solved(task, y, target)
+        if found is None:
+            raise ValueError(_too_short(task))
+        y, ramp = found, task.ramp(found)
+        left = exact_residuals(task.beam, ramp, task.count)
+        size = float(np.abs(left).max())
+        if size < _LEFT:
+            return ramp
+        if size > last:
+            break
+        target, last = target - left, size
+    raise RuntimeError(
+        f"on a ramp of {task.duration:g} s the blade swings so far that corrections do not settle: "
+        f"{size:.1e} of its length is left; take a longer duration"
+    )
+
+
+def _solved(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray | None:
+    """Return the unknowns of least norm that meet the target within the limits, None without."""
+    still = np.zeros(y.size)
+    for _ in range(_NEWTON_STEPS):
+        defect, J = task.equations(y, target), task.tangent(y, target)
+        # Of all that meets the linear equations for the next y to _SOLVED, the smallest: what is
+        # small by itself, as of high modes, takes no effort.
+        rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ y - defect) / _SOLVED
+        before, y = y, np.linalg.lstsq(rows, np.append(sides, still), rcond=None)[0]
+        if np.abs(y).max() > _WILD:
+            return None
+        if np.abs(y - before).max() < _SETTLED and np.abs(defect).max() < 10.0 * _SOLVED:
+            break
+    else:
+        return None
+    if task.room(y).min() < -_WITHIN:
+        y = _within_limits(task, y, target)
+        if np.abs(task.equations(y, target)).max() > 10.0 * _SOLVED:
+            return None
+    return y if task.room(y).min() >= -_WITHIN else None
+
+
+def _within_limits(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray:
+    """Return what of least norm meets the target and the limits, as far as it is found."""
+    heard = np.linalg.norm(task.tangent(y, target), axis=1) > 100.0 * _SOLVED
+    found = minimize(
+        lambda y: float(y @ y),
+        y,
+        jac=lambda y: 2.0 * y,
+        method="SLSQP",
+        constraints=(
+            {
+                "type": "eq",
+                "fun": lambda y: task.equations(y, target)[heard],
+                "jac": lambda y: task.tangent(y, target)[heard],
+            },
+            {"type": "ineq", "fun": task.room},
+        ),
+        options={"ftol": 1e-8, "maxiter": 60},
+    )
+    return np.asarray(found.x)
+
+
+def _too_short(task: _Task) -> str:
+    """Return the sentence on a ramp that cannot stay within its limits, with one that can."""
+    limits = f"0 to {task.highest:g} rad/s"
+    if math.isfinite(task.steepest):
+        limits = f"{limits} and {task.steepest:g} rad/s²"
+    asked = f"no ramp of {task.duration:g} s leaves {task.count} modes at rest within {limits}"
+    still = np.zeros(task.count, dtype=np.complex128)
+    for n in range(1, _LONGEST):
+        longer = replace(task, duration=float(f"{task.duration * _LONGER**n:.3g}"))
+        if _solved(longer, longer.eq_1, still) is not None:
+            return f"{asked}: take a duration of {longer.duration:g} s, or wider limits"
+    return f"{asked}: take wider limits, or fewer modes"

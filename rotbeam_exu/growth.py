@@ -1,0 +1,130 @@
+"""How fast a run in space leaves the plane of rotation: a rate from its envelope."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from analytic.arrays import FloatArray
+from analytic.input_checks import positive
+
+SMALL = 1e-2
+"""Deflection out of the plane over L up to which the growth is that of small motion."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GrowthRate:
+    """Growth out of the plane; see `growth_rate_of`.
+
+    Attributes
+    ----------
+    rate : float
+        Of the envelope [1/s]; negative where it decays.
+    decades : float
+        Powers of ten over which it was fitted.
+    start, largest : float
+        The envelope over the first period, and the largest of the run, over L; root mean squares
+        over a period.
+    period : float
+        Of the oscillation in the plane [s].
+    """
+
+    rate: float
+    decades: float
+    start: float
+    largest: float
+    period: float
+
+
+def growth_rate_of(
+    run: xr.Dataset, *, decades: float = 3.0, small: float = SMALL, period: float | None = None
+) -> GrowthRate:
+    """Return how fast the motion out of the plane grows, from its envelope.
+
+    The envelope is the root mean square over a whole period of the oscillation in the plane, of w
+    and w_dot/Ω, at every sample. A line is fitted to its logarithm, over the last powers of ten in
+    which it is small: what does not grow has been left behind by then.
+
+    Parameters
+    ----------
+    run : Dataset
+        As made by `simulate_3d`, over at least two periods of the oscillation in the plane.
+    decades : float
+        Powers of ten to fit, at most.
+    small : float
+        The envelope over L at which the fit ends.
+    period : float, optional
+        Of the oscillation in the plane [s]; otherwise from the zeros of q.
+
+    Raises
+    ------
+    ValueError
+        If the run has no w, is shorter than two periods or has no oscillation in the plane.
+    """
+    for name in ("q", "w", "w_dot"):
+        if name not in run:
+            raise ValueError(
+                f"the run has no {name}: growth is measured of what simulate_3d returns"
+            )
+    positive("decades", decades)
+    positive("small", small)
+    steady = run.sel(time=run["time"] >= float(run.attrs["ramp_time"]))
+    time, length = steady["time"].to_numpy(), float(run.attrs["beam_length"])
+    period = _period(time, steady["q"].to_numpy()) if period is None else positive("period", period)
+    if time[-1] - time[0] < 2.0 * period:
+        raise ValueError(
+            f"a growth needs two periods of {period:.4g} s after the ramp, and the run has "
+            f"{time[-1] - time[0]:.4g} s: take a duration above "
+            f"{float(run.attrs['ramp_time']) + 2.0 * period:.4g} s"
+        )
+    w, w_dot = steady["w"].to_numpy(), steady["w_dot"].to_numpy()
+    squares = (w / length) ** 2 + (w_dot / length * period / (2.0 * math.pi)) ** 2
+    envelope, at = _over_a_period(time, squares, period)
+    rate, fitted = _fit(at, envelope, decades, small)
+    return GrowthRate(
+        rate=rate, decades=fitted, start=float(envelope[0]), largest=float(envelope.max()),
+        period=period,
+    )  # fmt: skip
+
+
+def _period(time: FloatArray, q: FloatArray) -> float:
+    """Return the mean time between the zeros at which q rises."""
+    before = np.flatnonzero((q[:-1] < 0.0) & (q[1:] >= 0.0))
+    if before.size < 2:
+        raise ValueError(
+            "the tip does not cross the line of the clamp twice after the ramp: take a longer "
+            "duration, or give the period"
+        )
+    share = q[before] / (q[before] - q[before + 1])
+    crossings = time[before] + share * (time[before + 1] - time[before])
+    return float((crossings[-1] - crossings[0]) / (before.size - 1))
+
+
+def _over_a_period(
+    time: FloatArray, squares: FloatArray, period: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the root of the mean over a period from each sample on, and those times."""
+    steps = 0.5 * np.diff(time) * (squares[1:] + squares[:-1])
+    # Sums of positive numbers over many decades: each window anew, not as a difference of two.
+    ends = np.searchsorted(time, time + period)
+    starts = np.flatnonzero(ends < time.size)
+    mean = np.array([steps[i : ends[i]].sum() for i in starts]) / period
+    return np.sqrt(mean), time[starts]
+
+
+def _fit(
+    time: FloatArray, envelope: FloatArray, decades: float, small: float
+) -> tuple[float, float]:
+    """Return the slope of the envelope's logarithm [1/s], and over how many decades."""
+    above = np.flatnonzero(envelope > small)
+    end = int(above[0]) if above.size else envelope.size
+    if end < 2:
+        return math.inf, 0.0
+    logarithm = np.log(np.maximum(envelope[:end], np.finfo(float).tiny))
+    inside = np.flatnonzero(logarithm < logarithm[-1] - decades * math.log(10.0))
+    start = int(inside[-1]) + 1 if inside.size else 0
+    slope = np.polyfit(time[start:end] - time[start], logarithm[start:], 1)[0]
+    return float(slope), float((logarithm[-1] - logarithm[start]) / math.log(10.0))
