@@ -11,7 +11,7 @@ from .orbits import figure_15
 from .planar import growth_out_of_plane, modes_in_space, planar_stability, stability_limits
 from .response import forced_response
 from .runs import figure_3, figure_4
-from .softening_map import softening_map
+from .softening_map import softening_by_plane, softening_map
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
@@ -34,6 +34,7 @@ __all__ = [
     "model_budget",
     "modes_in_space",
     "planar_stability",
+    "softening_by_plane",
     "softening_map",
     "stability_limits",
 ]

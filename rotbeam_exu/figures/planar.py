@@ -37,11 +37,11 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             here = kinds == kind
             if here.any():
                 ax.plot(a[here], rate[here], mark, color=color, ms=3.5, label=kind)
-        ax.plot(a[stable], np.zeros(stable.sum()), "|", color="black", ms=6, label="stays in plane",
+        ax.plot(a[stable], np.zeros(stable.sum()), "o", color="black", ms=3, label="stays in plane",
                 transform=ax.get_xaxis_transform(), clip_on=False)  # fmt: skip
         limit = float(data.attrs.get("limit", np.inf))
         if np.isfinite(limit):
-            ax.axvline(limit, color="0.5", lw=0.7, ls="--")
+            ax.axvline(limit, color="0.5", lw=0.7, ls="--", label=f"limit, a = {limit:.3g}")
         if not stable.all():
             ax.set_yscale("log")
         ax.set(xlabel=label(data["a"]), ylabel=label(data["growth_rate"]), xlim=(0.0, None))

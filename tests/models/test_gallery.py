@@ -154,3 +154,15 @@ def test_internal_resonance(run):
     found = run("internal_resonance")
     # The sixth harmonic changes its sign at the resonance, above the fold of the lower side.
     assert found["branch"].folds[0].amplitude < found["resonance"].amplitude < 0.65
+
+
+@pytest.mark.slow
+def test_is_it_planar(run):
+    found = run("is_it_planar")
+    # Converged: 0.0545; bisected to 1e-4.
+    assert found["limit"].amplitude == pytest.approx(0.0545, abs=3e-4)
+    assert found["round_one"].stable.all()
+    rate = found["data"]["growth_rate"]
+    # The tension holds the blade back, so that more stays in the plane as it turns faster.
+    assert np.all(np.diff((rate == 0.0).sum("a")) >= 0)
+    assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
