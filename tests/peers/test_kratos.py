@@ -54,9 +54,7 @@ def test_steps_that_did_not_converge_are_counted(beam, spin_up):
     from rotbeam_exu.verification.peers import kratos
 
     with pytest.warns(RotbeamWarning, match=r"\d+ of 500 steps did not converge to 1e-08; Kratos"):
-        run = kratos.simulate(
-            beam, spin_up, elements=4, duration=1.0, step=2e-3, tolerance=1e-8
-        )
+        run = kratos.simulate(beam, spin_up, elements=4, duration=1.0, step=2e-3, tolerance=1e-8)
     assert 0 < run.attrs["unconverged_steps"] <= 500
     assert "of 500 steps did not converge" in run.attrs["verdict"]
 
