@@ -47,7 +47,7 @@ CAPTIONS: dict[int, str] = {
         "Coriolis-coupled modes, which the model leaves out. FrM has both and is inextensible; no "
         "model here has an a⁴ term, and FrE is the nearer above a = 0.55 at 4 and 6 rad/s, by "
         "luck. Every amplitude is half peak to peak; Eq. 63 is taken at the first harmonic that "
-        "has it, up to 2.6 % more for a below 0.6. The paper takes a itself for the first harmonic, "
+        "has it, up to 2.6 % more for a below 0.6. The paper takes a itself for that harmonic, "
         "which is 0.3 to 5 % of the shift. Bars of step, mesh and estimator are smaller than the "
         "symbols. CI, CE and FrI leave the frame; so do the points above a = 0.6."
     ),
