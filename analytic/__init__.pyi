@@ -4,6 +4,8 @@ from .blade import Blade as Blade
 from .blade import PointMass as PointMass
 from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.backbone_map import BackboneMap as BackboneMap
+from .exact.backbone_map import backbone_map as backbone_map
 from .exact.backbone_series import BackboneCurve as BackboneCurve
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
