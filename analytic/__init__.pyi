@@ -2,6 +2,8 @@ from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .exact.backbone import Backbone as Backbone
+from .exact.backbone_map import BackboneMap as BackboneMap
+from .exact.backbone_map import backbone_map as backbone_map
 from .exact.backbone_series import BackboneCurve as BackboneCurve
 from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch

@@ -40,16 +40,17 @@ def model_budget(
 
     Each model is changed into the exact one step by step; a source is the difference of the two
     frequencies before and after its step, so that the sources add up to the whole error:
-    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63 less
-    Eq. 41 solved exactly), shape (the cantilever's mode for the rotating one), elongation (the
-    sine for the static solution), foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC
-    less FrM), and what is left between FrM and the exact beam.
+    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63, at
+    the first harmonic that has the peak a, less Eq. 41 solved exactly from the peak a), shape (the
+    cantilever's mode for the rotating one), elongation (the sine for the static solution),
+    foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC less FrM), and what is left
+    between FrM and the exact beam.
 
     Returns
     -------
     Dataset
         `error`, (ω_NL - ω_NL,exact)/ω_n,exact [-], over (model, source, omega, a), and `total`
-        over (model, omega, a).
+        over (model, omega, a); a is the peak of |q|/L in all of them.
     """
     beam = beam or Beam.reference()
     a = list(amplitudes)
@@ -61,11 +62,12 @@ def model_budget(
             for i, name in enumerate(MODELS):
                 stages = [reduced_model(beam, omega, stage) for stage in _stages(VARIANTS[name])]
                 model = stages[0]
-                ratios = [model.frequency(a) / model.omega_n]
+                perturbed = model.frequency(model.first_harmonic(a))
+                ratios = [perturbed / model.omega_n]
                 ratios += [stage.exact_frequency(a) / stage.omega_n for stage in stages]
                 ratios.append(exact.frequency / exact.omega_n)
                 steps = [before - after for before, after in pairwise(ratios)]
-                total[i, j] = (model.frequency(a) - exact.frequency) / exact.omega_n
+                total[i, j] = (perturbed - exact.frequency) / exact.omega_n
                 error[i, :, j] = [total[i, j] - sum(steps), *steps]
     attrs = {"units": "1", "long_name": "error of ω_NL over ω_n"}
     return xr.Dataset(
@@ -77,7 +79,7 @@ def model_budget(
             "model": ("model", list(MODELS), {"units": "1", "long_name": "model"}),
             "source": ("source", list(SOURCES), {"units": "1", "long_name": "source of error"}),
             "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "a": ("a", a, {"units": "1", "long_name": "amplitude a = q/L"}),
+            "a": ("a", a, {"units": "1", "long_name": "peak amplitude a = |q|/L"}),
         },
     )
 
