@@ -31,6 +31,7 @@ for _command in (
     "compare",
     "campbell",
     "respond",
+    "ramp",
     "figure",
     "table",
     "verify",

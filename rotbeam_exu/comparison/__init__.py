@@ -8,6 +8,7 @@ from __future__ import annotations
 from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
 from .budget import finite_element_budget, model_budget
 from .orbits import figure_15
+from .residual import residual
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_map
@@ -30,5 +31,6 @@ __all__ = [
     "fitted_softening",
     "forced_response",
     "model_budget",
+    "residual",
     "softening_map",
 ]

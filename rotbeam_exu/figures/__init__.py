@@ -11,6 +11,7 @@ from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
+from .residual import residual
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_map
@@ -33,6 +34,7 @@ __all__ = [
     "figure_14",
     "figure_15",
     "forced_response",
+    "residual",
     "save_animation",
     "save_figure",
     "softening_map",
