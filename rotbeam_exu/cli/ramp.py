@@ -33,7 +33,7 @@ def ramp(
     omega: float | None = None,
     longest: float | None = None,
     points: Whole = 9,
-    finite_element_points: Whole = 4,
+    finite_element_points: Whole = 5,
     element: str = "cable",
     elements: Whole = 16,
     config: Path | None = None,

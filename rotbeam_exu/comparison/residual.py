@@ -36,7 +36,7 @@ def residual(
     *,
     longest: float | None = None,
     points: int = 9,
-    finite_element_points: int = 4,
+    finite_element_points: int = 5,
     element: str | Formulation = "cable",
     elements: int = 16,
     progress: Callable[[int, int], None] | None = None,

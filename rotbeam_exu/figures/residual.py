@@ -44,9 +44,7 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                     f"{T:.2f} s", (T, left), xytext=(0, -5), textcoords="offset points",
                     ha="center", va="top", size=6.5, color=RED,
                 )  # fmt: skip
-        lowest = min(
-            float(np.nanmin(data[name])) for name in ("linear", "quiet") if data[name].size
-        )
+        lowest = float(np.nanmin(np.append(data["linear"], data["quiet"])))
         ax.set(
             xlabel=label(data["ramp_time"]), ylabel="amplitude left over L",
             xlim=(float(data["ramp_time"][0]), float(data["ramp_time"][-1])),

@@ -43,20 +43,15 @@ def test_modes_are_those_of_the_exact_beam(beam, omega):
     assert found == pytest.approx(exact, rel=1e-8)
 
 
-def test_modes_of_any_blade():
-    from analytic import Beam  # noqa: PLC0415
-
-    blade = Beam.reference().with_hub_radius(4.0).with_tip_mass(0.5, 0.1).with_setting_angle(0.5)
+def test_modes_of_any_blade(beam):
+    blade = beam.with_hub_radius(4.0).with_tip_mass(0.5, 0.1).with_setting_angle(0.5)
     w = 3.0
     found = modes_over_speed(blade.unit, 5.0, 1).at(np.array([w])).frequency[0, 0]
     assert found == pytest.approx(blade_oscillator(blade.unit, w, False).oscillator.w_n, rel=1e-8)
 
 
-def test_a_blow_of_the_clamp():
+def test_a_blow_of_the_clamp(beam):
     """So short a ramp that nothing moves during it: the mode starts with -Γω, in closed form."""
-    from analytic import Beam  # noqa: PLC0415
-
-    beam = Beam.reference()
     omega = 1e-4
     beta = 1.8751040687119611
     sigma = (math.cosh(beta) + math.cos(beta)) / (math.sinh(beta) + math.sin(beta))
