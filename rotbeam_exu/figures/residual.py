@@ -31,11 +31,17 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         )  # fmt: skip
         for name, text, marker in (
             ("exact", "exact", {"marker": "o", "ms": 3.5, "mfc": "black", "mec": "black"}),
-            ("finite_element", "finite elements", {"marker": "s", "ms": 6, "mfc": "none"}),
+            (
+                "finite_element",
+                "finite elements",
+                {"marker": "s", "ms": 6, "mew": 0.8, "mfc": "none"},
+            ),
         ):
             if data[name].size:
                 at = data[f"{name}_ramp_time"]
-                ax.semilogy(at, data[name], ls="none", color="black", label=text, **marker)
+                ax.semilogy(
+                    at, data[name], ls="none", color="black", label=text, clip_on=False, **marker
+                )
         if data["quiet"].size:
             at = data["quiet_ramp_time"]
             ax.semilogy(at, data["quiet"], ls="none", marker="v", ms=5, color=RED, label="quiet")
