@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
@@ -86,9 +87,9 @@ class _Task:
         """Return what is left to the limits, over them: negative where one is passed."""
         ramp, t = self.ramp(y), self.duration * _INSTANTS
         rate, acceleration = ramp.rate(t), ramp.acceleration(t)
-        lowest = min(self.start, self.omega, 0.0)
-        room = [(self.highest - rate) / self.highest, (rate - lowest) / self.highest]
-        room = [part + _INSIDE for part in room]  # at both ends there is none
+        slow = rate / self.highest + _INSIDE
+        # At both ends there is no room but this.
+        room = [slow, 1.0 + 2.0 * _INSIDE - slow]
         if math.isfinite(self.steepest):
             room += [1.0 - acceleration / self.steepest, 1.0 + acceleration / self.steepest]
         return np.concatenate(room) - _INSIDE
@@ -213,21 +214,17 @@ def _within_limits(
     """Return what closest to `near` meets the target and the limits, as far as it is found."""
     sizes = np.linalg.norm(task.tangent(y, target), axis=1)
     heard, scale = sizes > _SOLVED, sizes[sizes > _SOLVED]
-    found = minimize(
-        lambda y: float((y - near) @ (y - near)),
-        y,
-        jac=lambda y: 2.0 * (y - near),
-        method="SLSQP",
-        constraints=(
-            {
-                "type": "eq",
-                "fun": lambda y: task.equations(y, target)[heard] / scale,
-                "jac": lambda y: task.tangent(y, target)[heard] / scale[:, None],
-            },
-            {"type": "ineq", "fun": task.room},
-        ),
-        options={"ftol": 1e-8, "maxiter": 60},
+    within: Any = (
+        {
+            "type": "eq",
+            "fun": lambda y: task.equations(y, target)[heard] / scale,
+            "jac": lambda y: task.tangent(y, target)[heard] / scale[:, None],
+        },
+        {"type": "ineq", "fun": task.room},
     )
+    closest: Any = lambda y: (float((y - near) @ (y - near)), 2.0 * (y - near))  # noqa: E731
+    options: Any = {"ftol": 1e-8, "maxiter": 60}
+    found = minimize(closest, y, jac=True, method="SLSQP", constraints=within, options=options)
     return np.asarray(found.x)
 
 

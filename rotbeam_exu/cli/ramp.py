@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, SpinUp, residual_amplitude
+from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .. import comparison
@@ -97,7 +97,7 @@ def ramp(
     console.print("written " + listed(written))
 
 
-def _print(beam: Beam, data: xr.Dataset) -> None:
+def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     """Print the quiet ramps, then the points."""
     one = SpinUp(omega=data.attrs["omega"], ramp_time=data.attrs["longest"])
     quiet = data["quiet_ramp_time"].to_numpy()

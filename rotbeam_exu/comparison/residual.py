@@ -85,10 +85,10 @@ def residual(
     curve, *places = (
         np.linspace(_SHORTEST * period, longest, count) for count in (_CURVE, *counts)
     )
-    measures = [
+    measures: tuple[Callable[[SpinUp], float], ...] = (
         lambda ramp: exact_residual(blade, ramp, tolerance=1e-5),
         lambda ramp: _of_elements(blade, ramp, element, elements),
-    ]
+    )
     done, found = 0, []
     for times, measure in zip(places, measures, strict=True):
         left = []
