@@ -10,6 +10,7 @@ from .backbones import figure_5, figure_14, finite_element_points, fitted_soften
 from .budget import finite_element_budget, model_budget
 from .orbits import figure_15
 from .planar import growth_out_of_plane, modes_in_space, planar_stability, stability_limits
+from .residual import residual
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_by_plane, softening_map
@@ -37,6 +38,7 @@ __all__ = [
     "model_budget",
     "modes_in_space",
     "planar_stability",
+    "residual",
     "softening_by_plane",
     "softening_map",
     "stability_limits",

@@ -170,9 +170,9 @@ def figure_14(
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
         (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L, and Eq. 63 is taken at the
         first harmonic that has it; `as_printed` is Eq. 63 with a itself for the first harmonic, as
-        the paper draws it among the points. Options are those of `finite_element_points`. The attribute
-        `out_of_plane` is there if the section of a blade is known to leave the plane, and says at
-        which speeds from which amplitudes on.
+        the paper draws it among the points. Options are those of `finite_element_points`. The
+        attribute `out_of_plane` is there if the section of a blade is known to leave the plane,
+        and says at which speeds from which amplitudes on.
     """
     beam = beam or Beam.reference()
     points = xr.concat(

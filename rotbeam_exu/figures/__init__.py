@@ -12,6 +12,7 @@ from .backbones import figure_5, figure_14
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
 from .planar import growth_out_of_plane, planar_stability, stability_limits
+from .residual import residual
 from .response import forced_response
 from .runs import figure_3, figure_4
 from .softening_map import softening_by_plane, softening_map
@@ -36,6 +37,7 @@ __all__ = [
     "forced_response",
     "growth_out_of_plane",
     "planar_stability",
+    "residual",
     "save_animation",
     "save_figure",
     "softening_by_plane",

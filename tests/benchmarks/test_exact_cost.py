@@ -12,6 +12,7 @@ from analytic import (
     SpinUp,
     forced_response,
     periodic_orbits,
+    residual_amplitude,
     spin_up_response,
 )
 from rotbeam_exu import simulate
@@ -85,3 +86,13 @@ def test_a_loose_tolerance_costs_less(beam, omega, ramp_time):
         for tolerance in (1e-4, 1e-8)
     )
     assert loose < 0.75 * tight, f"{loose:.3f} s against {tight:.3f} s"
+
+
+def test_a_thousand_ramp_times_take_a_twentieth_of_one_transient(beam):
+    """The closed form, once the modes over the speed are known."""
+    spin_up, ramp_times = SpinUp(omega=6.0, ramp_time=10.0), np.linspace(1.0, 10.0, 1000)
+    residual_amplitude(beam, spin_up, ramp_times)
+    form = seconds(lambda: residual_amplitude(beam, spin_up, ramp_times))
+    times = np.linspace(0.0, 12.0, 101)
+    exact = seconds(lambda: spin_up_response(beam, spin_up, times, tolerance=1e-6))
+    assert form < exact / 20.0, f"{form:.4f} s against {exact:.3f} s"
