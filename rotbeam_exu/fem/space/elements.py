@@ -155,6 +155,8 @@ class SpaceExact(FrameNodes, NoDivergence):
     takes_blades: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial",)
     new_jacobians: ClassVar[bool] = True  # half the time
+    # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.
+    spectral_radius: ClassVar[float] = 0.6
     summary: ClassVar[str] = "geometrically exact beam in space, two nodes, shear and torsion"
 
     def __post_init__(self) -> None:
