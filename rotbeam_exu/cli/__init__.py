@@ -29,8 +29,8 @@ app = cyclopts.App(
     suppress_keyboard_interrupt=False,
 )
 _COMMANDS = (
-    "run", "backbone", "campbell", "respond", "sweep", "compare", "figure", "table", "explore",
-    "animate", "verify", "doctor",
+    "run", "reference", "backbone", "campbell", "respond", "sweep", "compare", "figure", "table",
+    "explore", "animate", "verify", "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
 from .budget import finite_element_budget, model_budget
+from .exact_spin_up import exact_spin_up
 from .orbits import figure_15
 from .response import forced_response
 from .runs import figure_3, figure_4
@@ -14,6 +15,7 @@ from .softening_map import softening_map
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
+    "exact_spin_up",
     "figure_3",
     "figure_4",
     "figure_5",
