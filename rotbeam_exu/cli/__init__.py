@@ -22,7 +22,6 @@ app = cyclopts.App(
     name="rotbeam",
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
     version=__version__,
-    help_format="plaintext",
     help_epilogue="rotbeam COMMAND --help has examples. Speeds are in rad/s, all else in SI units.",
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",

@@ -116,7 +116,7 @@ def explorer_data(
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
         "elements": elements,
-        "blade": "" if isinstance(beam, Beam) else str(beam),
+        "blade": "" if beam == Beam.reference() else str(beam),
     }
     return data
 
