@@ -35,6 +35,7 @@ def finite_element_points(
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     mesh: Mesh = "paper",
+    step: float = 1e-3,
     **options: Any,
 ) -> xr.Dataset:
     """Points of the backbone from spin-ups of the finite element model, with error bars.
@@ -51,8 +52,10 @@ def finite_element_points(
         rotating frame, the same steps extrapolated to zero; the bars hold a tenth of the
         extrapolation. Both add, for the mesh, the fifteenth of what half the elements change that
         a fourth-order error leaves, and the estimator's own bar.
+    step : float
+        The smaller step [s], for a beam that is faster or slower than the paper's.
     **options
-        `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
+        `duration`, `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
 
     Returns
     -------
@@ -83,9 +86,9 @@ def finite_element_points(
             xr.Dataset({"amplitude": grid["amplitude_error"], "ratio": bar}),
         )
 
-    points, bar = measured(elements, 1e-3)
-    coarse_step, _ = measured(elements, 2e-3)
-    coarse_mesh, _ = measured(elements // 2, 2e-3)
+    points, bar = measured(elements, step)
+    coarse_step, _ = measured(elements, 2.0 * step)
+    coarse_mesh, _ = measured(elements // 2, 2.0 * step)
     # The step's error is of second order, the mesh's of fourth.
     to_zero_step = (points - coarse_step) / 3.0
     mesh_left = abs(coarse_step - coarse_mesh) / 15.0

@@ -43,6 +43,8 @@ def explorer_data(
     finite_element_omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     elements: int = 16,
+    duration: float = 15.0,
+    step: float = 1e-3,
     executor: Executor | None = None,
     jobs: int | None = None,
     cache: str | os.PathLike[str] | None = None,
@@ -58,8 +60,8 @@ def explorer_data(
         Rotation speeds [rad/s], ascending in equal steps.
     amplitudes : sequence of float
         Peaks |q|/L of the exact orbits, ascending in equal steps.
-    finite_element_omegas, ramp_times, elements
-        Grid [rad/s], [s] and mesh of the finite element points.
+    finite_element_omegas, ramp_times, elements, duration, step
+        Grid [rad/s], [s], mesh, end [s] and step [s] of the finite element points.
     executor, jobs, cache
         Where the work is done and where finished spin-ups are kept, as for `sweep`.
     progress : callable, optional
@@ -96,6 +98,8 @@ def explorer_data(
                 omegas=finite_element_omegas,
                 ramp_times=ramp_times,
                 elements=elements,
+                duration=duration,
+                step=step,
                 executor=pool,
                 cache=cache,
                 progress=one_more,
@@ -112,7 +116,7 @@ def explorer_data(
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
         "elements": elements,
-        "blade": "" if isinstance(beam, Beam) else str(beam),
+        "blade": "" if beam == Beam.reference() else str(beam),
     }
     return data
 
