@@ -10,15 +10,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..paper import MODEL_LINES
-from .style import COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
+from .style import STYLE, column, columns, cycle, label, model_line, new_figure
 
 
 def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the finite element points and fitted curves, amplitude upwards as in the paper."""
-    ax = ax or new_figure(COLUMN, 3.0)[1]
+    ax = ax or new_figure(column(), 3.0)[1]
     with mpl.rc_context(STYLE):
-        for omega, color, marker in zip(data["omega"], CYCLE, "osD^", strict=False):
+        for omega, color, marker in zip(data["omega"], cycle(), "osD^", strict=False):
             here = data.sel(omega=omega)
             ax.plot(here["fit"], here["a"], color=color)
             ax.errorbar(
@@ -43,7 +42,9 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
     """Draw the backbones of all models, the exact one, and the finite element points, by speed."""
     count = data.sizes["omega"]
     axes: Any = (
-        np.ravel(new_figure(COLUMNS, 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1])
+        np.ravel(
+            new_figure(columns(), 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1]
+        )
         if ax is None
         else ax
     )
@@ -56,7 +57,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                     np.append(1.0, row),
                     np.append(0.0, here["a"]),
                     label=str(model),
-                    **MODEL_LINES[str(model)],
+                    **model_line(str(model)),
                 )
             for mesh, marker, face in (("paper", "s", "white"), ("converged", "o", "black")):
                 if mesh not in here["mesh"]:

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, RED
-from .style import COLUMN, STYLE, label, new_figure
+from .style import STYLE, column, label, new_figure
 
 
 def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -21,7 +21,7 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 3.2)[1]
+    ax = ax or new_figure(column(), 3.2)[1]
     assert ax is not None
     with mpl.rc_context(STYLE):
         ax.semilogy(data["ramp_time"], data["linear"], color=BLUE, label="closed form")

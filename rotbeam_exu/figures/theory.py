@@ -11,17 +11,17 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE
-from .style import COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
+from .style import STYLE, column, columns, cycle, label, new_figure
 
 
 def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the backbones of CI between Ω = 0 and ∞."""
-    ax = ax or new_figure(COLUMN, 2.6)[1]
+    ax = ax or new_figure(column(), 2.6)[1]
     a, ratio = data["amplitude"], data["ratio"]
     names = ("Ω = 0", "Ω = 1", "Ω → ∞")
     with mpl.rc_context(STYLE):
         ax.fill_betweenx(a, ratio[0], ratio[-1], color="0.92", lw=0)
-        for row, color, style in zip(ratio, CYCLE, ("-", "--", "-."), strict=False):
+        for row, color, style in zip(ratio, cycle(), ("-", "--", "-."), strict=False):
             ax.plot(row, a, color=color, ls=style)
         for row, name, at, side in zip(
             ratio, names, (0.34, 0.34, 0.3), ("left", "right", "right"), strict=True
@@ -56,9 +56,9 @@ def figure_11(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 
 def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the convergence of Frobenius' natural frequency with the degree."""
-    ax = ax or new_figure(COLUMN, 2.6)[1]
+    ax = ax or new_figure(column(), 2.6)[1]
     with mpl.rc_context(STYLE):
-        for row, exact, color in zip(data["omega_n"], data["converged"], CYCLE, strict=False):
+        for row, exact, color in zip(data["omega_n"], data["converged"], cycle(), strict=False):
             ax.axhline(float(exact), color="0.75", lw=0.5)
             ax.plot(data["degree"], row, color=color, marker="o", ms=2.0)
             ax.annotate(
@@ -85,10 +85,10 @@ def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the first mode shape at rest and in rotation."""
-    ax = ax or new_figure(COLUMN, 2.6)[1]
+    ax = ax or new_figure(column(), 2.6)[1]
     styles = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
     with mpl.rc_context(STYLE):
-        for row, color, style in zip(data["shape"], ("black", *CYCLE), styles, strict=False):
+        for row, color, style in zip(data["shape"], ("black", *cycle()), styles, strict=False):
             omega = float(row["omega"])
             name = "cantilever at rest" if omega == 0.0 else f"ω = {omega:g} rad/s"
             ax.plot(data["eta"], row, color=color, ls=style, label=name)
@@ -100,13 +100,13 @@ def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 def _coefficients(
     data: xr.Dataset, axis: str, ax: Sequence[Axes] | None, *, names: bool = True
 ) -> Sequence[Axes]:
-    axes: Any = new_figure(COLUMNS, 2.6, ncols=2)[1] if ax is None else ax
+    axes: Any = new_figure(columns(), 2.6, ncols=2)[1] if ax is None else ax
     with mpl.rc_context(STYLE):
         for panel, variable, symbol in zip(
             axes, ("lambda_omega", "lambda_x"), (r"$\lambda_\omega$", r"$\lambda_x$"), strict=True
         ):
             for row, color, style in zip(
-                data[variable], CYCLE, ("-", "--", "-.", ":"), strict=False
+                data[variable], cycle(), ("-", "--", "-.", ":"), strict=False
             ):
                 panel.plot(data[axis], row, color=color, ls=style, label=str(row["model"].item()))
             panel.axhline(0.0, color="0.7", lw=0.5)
