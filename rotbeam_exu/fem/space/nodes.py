@@ -102,7 +102,7 @@ class FrameNodes:
 
 
 def directors(p: FloatArray) -> FloatArray:
-    """Return the rotation matrices (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
+    """Return rotation matrices (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
     flat = Turn.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
     return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
 
