@@ -10,6 +10,7 @@ from analytic import (
     Damping,
     SpeedRipple,
     SpinUp,
+    backbone_curve,
     forced_response,
     periodic_orbits,
     residual_amplitude,
@@ -31,12 +32,27 @@ def seconds(function, repeats=3):
 
 
 @pytest.mark.parametrize("omega", [2.0, 4.0, 6.0, 8.0])
-def test_ten_orbits_take_a_tenth_of_a_simulation(beam, omega):
+def test_ten_orbits_take_a_thirtieth_of_a_simulation(beam, omega):
     amplitudes = np.linspace(0.03, 0.3, 10)
     spin_up = SpinUp(omega=omega, ramp_time=3.0)
     run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
-    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes))
-    assert orbits < run / 10.0, f"{orbits:.3f} s against {run:.3f} s"
+    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes), repeats=9)
+    assert orbits < 0.03 * run, f"{orbits:.3f} s against {run:.3f} s"
+
+
+@pytest.mark.parametrize("omega", [4.0, 6.0, 8.0])
+def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
+    spin_up = SpinUp(omega=omega, ramp_time=3.0)
+    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
+    curve = seconds(lambda: backbone_curve(beam, omega), repeats=9)
+    assert curve < 0.05 * run, f"{curve:.3f} s against {run:.3f} s"
+
+
+def test_a_million_points_of_a_curve_take_five_multiplications(beam):
+    curve, a = backbone_curve(beam, 6.0), np.linspace(0.0, 0.6, 1_000_000)
+    bare = seconds(lambda: a * a * 0.3, repeats=25)
+    answers = seconds(lambda: curve.frequency(a), repeats=25)
+    assert answers < 5.0 * bare, f"{1e3 * answers:.2f} ms against {1e3 * bare:.2f} ms"
 
 
 @pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])

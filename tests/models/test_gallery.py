@@ -148,6 +148,14 @@ def test_thickness_locking(run):
     assert abs(off["uncoupled"]) < 1e-5
 
 
+def test_backbone_formula(run, beam):
+    found = run("backbone_formula")
+    exact = periodic_orbits(beam, 6.0, [0.3]).frequency[0]
+    assert found["curve"].frequency(0.3) == pytest.approx(exact, rel=1e-9)
+    # Fifth order is a tenth of third order's error at 0.3, 0.2 against 3.4 % of the shift.
+    assert abs(found["said"][25] / found["shift"][25] - 1.0) < 0.004
+
+
 def test_scripts_are_short_and_all_tested():
     scripts = {path.stem: path.read_text(encoding="utf-8") for path in MODELS.glob("*.py")}
     long = [name for name, text in scripts.items() if len(text.splitlines()) >= 40]
