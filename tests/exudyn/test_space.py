@@ -123,8 +123,8 @@ def test_energy_and_both_frames():
         )
         for frame in ("inertial", "rotating")
     ]  # fmt: skip
-    # Steps err by (Ω h)²/12 of either rule, 2e-5 of the phase, and w by as much after a period.
-    assert np.abs(runs[0]["w"] - runs[1]["w"]).max() < 1e-3 * np.abs(runs[0]["w"]).max()
+    # Steps of 5 ms err by (ωh)²/12 in the phase of the modes of the kick, 4 % for the third.
+    assert np.abs(runs[0]["w"] - runs[1]["w"]).max() < 1e-2 * np.abs(runs[0]["w"]).max()
     assert max(energy_drift(run)[0] for run in runs) < 1e-4
 
 

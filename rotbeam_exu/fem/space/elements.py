@@ -59,6 +59,9 @@ class SpaceFormulation(Formulation, Protocol):
     def twist(self, coordinates: FloatArray) -> FloatArray | None:
         """Return the twist [rad] of the tip's section about its normal, (samples,), if any."""
 
+    def upright(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the axis of the sections that is along z at rest, (samples, nodes, 3), if any."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceCable(SpaceSlopeNodes, NoDivergence):
@@ -111,6 +114,9 @@ class SpaceCable(SpaceSlopeNodes, NoDivergence):
         return energy_and_momentum(built, coordinates, velocities, np.zeros(len(coordinates)), 1.0)
 
     def twist(self, coordinates: FloatArray) -> None:
+        """Return None: its sections have no direction."""
+
+    def upright(self, coordinates: FloatArray) -> None:
         """Return None: its sections have no direction."""
 
 
@@ -216,6 +222,10 @@ class SpaceExact(FrameNodes, NoDivergence):
         """Return how far the section has turned from upright."""
         upright = directors(coordinates[:, -1, 3:])[:, 2]
         return np.unwrap(np.arctan2(upright[:, 1], upright[:, 2]))
+
+    def upright(self, coordinates: FloatArray) -> FloatArray:
+        """Return the third axis of the sections."""
+        return directors(coordinates[..., 3:])[..., 2]
 
     def _stiffness(self, blade: AnyBlade, section: ElementSection) -> list[float]:
         """Return EA, GA, GA, GJ, EI out of the plane and EI in it."""
