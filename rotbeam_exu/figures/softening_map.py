@@ -28,7 +28,12 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
     with mpl.rc_context(STYLE):
         filled = ax.contourf(
-            x, y, values, levels=np.linspace(-limit, limit, 17), cmap=colormap("RdBu_r"), extend="both"
+            x,
+            y,
+            values,
+            levels=np.linspace(-limit, limit, 17),
+            cmap=colormap("RdBu_r"),
+            extend="both",
         )
         colorbar = ax.figure.colorbar(filled, ax=ax, ticks=np.linspace(-limit, limit, 5))
         colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
