@@ -7,13 +7,16 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures golden references test test-all coverage bench bench-peers lint docs check clean
+.PHONY: run figures images golden references test test-all coverage bench bench-peers lint docs check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
 
 figures: $(VENV)/.run  ## data, pictures and captions of every figure
 	$(BIN)/rotbeam figure all
+
+images: $(VENV)/.dev  ## the README's pictures
+	$(BIN)/python docs/images/regenerate.py
 
 golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py

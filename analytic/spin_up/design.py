@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
@@ -67,10 +68,13 @@ class _Task:
             sines=(-float(self.order @ b), *b),
         )
 
+    def closed_form(self, y: FloatArray) -> ComplexArray:
+        """Return Z of the modes, (modes,)."""
+        return residuals(self.beam, self.ramp(y), self.modes, np.array([self.duration]))[:, 0]
+
     def equations(self, y: FloatArray, target: ComplexArray) -> FloatArray:
         """Return what the modes lack of the target by the closed form, (2 modes,)."""
-        times = np.array([self.duration])
-        z = residuals(self.beam, self.ramp(y), self.modes, times)[:, 0] - target
+        z = self.closed_form(y) - target
         return np.concatenate((z.real, z.imag))
 
     def tangent(self, y: FloatArray, target: ComplexArray) -> FloatArray:
@@ -83,9 +87,9 @@ class _Task:
         """Return what is left to the limits, over them: negative where one is passed."""
         ramp, t = self.ramp(y), self.duration * _INSTANTS
         rate, acceleration = ramp.rate(t), ramp.acceleration(t)
-        lowest = min(self.start, self.omega, 0.0)
-        room = [(self.highest - rate) / self.highest, (rate - lowest) / self.highest]
-        room = [part + _INSIDE for part in room]  # at both ends there is none
+        slow = rate / self.highest + _INSIDE
+        # At both ends there is no room but this.
+        room = [slow, 1.0 + 2.0 * _INSIDE - slow]
         if math.isfinite(self.steepest):
             room += [1.0 - acceleration / self.steepest, 1.0 + acceleration / self.steepest]
         return np.concatenate(room) - _INSIDE
@@ -103,9 +107,9 @@ def design_ramp(
 ) -> SmoothRamp:
     """Return a smooth change of the speed that leaves the first modes at rest.
 
-    Of all ramps of so many waves whose integrals vanish in the closed form it is the smoothest
-    within the limits; what the exact transient then leaves of the first mode is the next target of
-    the closed form, with its sign changed, until nothing is left.
+    Of all ramps of so many waves whose integrals vanish in the closed form it is, within the
+    limits, the closest to Eq. 1; what the exact transient then leaves is made the next target of
+    the closed form, with its sign changed, until 1e-6 of the length is left.
 
     Parameters
     ----------
@@ -148,8 +152,8 @@ def design_ramp(
         if steepest * duration <= abs(omega - start):
             raise ValueError(
                 f"acceleration_limit = {steepest:g} rad/s² takes "
-                f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} rad/s, "
-                f"and the duration is {duration:g} s: take a longer one"
+                f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} "
+                f"rad/s, and the duration is {duration:g} s: take a longer one"
             )
     widest = SmoothRamp(start=highest, omega=omega, ramp_time=duration)
     task = _Task(
@@ -173,22 +177,24 @@ def _corrected(task: _Task) -> SmoothRamp:
             return ramp
         if size > last:
             break
-        target, last = target - left, size
+        # What is small already stays as it is.
+        here, last = task.closed_form(y), size
+        target = here - np.where(np.abs(left) > 0.1 * _LEFT, left, 0.0)
     raise RuntimeError(
         f"on a ramp of {task.duration:g} s the blade swings so far that corrections do not settle: "
         f"{size:.1e} of its length is left; take a longer duration"
     )
 
 
-def _solved(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray | None:
-    """Return the unknowns of least norm that meet the target within the limits, None without."""
-    still = np.zeros(y.size)
+def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray | None:
+    """Return the unknowns closest to `near` that meet target and limits, None without any."""
+    y, still = near, np.zeros(near.size)
     for _ in range(_NEWTON_STEPS):
         defect, J = task.equations(y, target), task.tangent(y, target)
-        # Of all that meets the linear equations for the next y to _SOLVED, the smallest: what is
+        # Of all that meets the linear equations for the next y to _SOLVED, the closest: what is
         # small by itself, as of high modes, takes no effort.
-        rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ y - defect) / _SOLVED
-        before, y = y, np.linalg.lstsq(rows, np.append(sides, still), rcond=None)[0]
+        rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ (y - near) - defect) / _SOLVED
+        before, y = y, near + np.linalg.lstsq(rows, np.append(sides, still), rcond=None)[0]
         if np.abs(y).max() > _WILD:
             return None
         if np.abs(y - before).max() < _SETTLED and np.abs(defect).max() < 10.0 * _SOLVED:
@@ -196,30 +202,29 @@ def _solved(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray | No
     else:
         return None
     if task.room(y).min() < -_WITHIN:
-        y = _within_limits(task, y, target)
+        y = _within_limits(task, y, near, target)
         if np.abs(task.equations(y, target)).max() > 10.0 * _SOLVED:
             return None
     return y if task.room(y).min() >= -_WITHIN else None
 
 
-def _within_limits(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray:
-    """Return what of least norm meets the target and the limits, as far as it is found."""
-    heard = np.linalg.norm(task.tangent(y, target), axis=1) > 100.0 * _SOLVED
-    found = minimize(
-        lambda y: float(y @ y),
-        y,
-        jac=lambda y: 2.0 * y,
-        method="SLSQP",
-        constraints=(
-            {
-                "type": "eq",
-                "fun": lambda y: task.equations(y, target)[heard],
-                "jac": lambda y: task.tangent(y, target)[heard],
-            },
-            {"type": "ineq", "fun": task.room},
-        ),
-        options={"ftol": 1e-8, "maxiter": 60},
+def _within_limits(
+    task: _Task, y: FloatArray, near: FloatArray, target: ComplexArray
+) -> FloatArray:
+    """Return what closest to `near` meets the target and the limits, as far as it is found."""
+    sizes = np.linalg.norm(task.tangent(y, target), axis=1)
+    heard, scale = sizes > _SOLVED, sizes[sizes > _SOLVED]
+    within: Any = (
+        {
+            "type": "eq",
+            "fun": lambda y: task.equations(y, target)[heard] / scale,
+            "jac": lambda y: task.tangent(y, target)[heard] / scale[:, None],
+        },
+        {"type": "ineq", "fun": task.room},
     )
+    closest: Any = lambda y: (float((y - near) @ (y - near)), 2.0 * (y - near))  # noqa: E731
+    options: Any = {"ftol": 1e-8, "maxiter": 60}
+    found = minimize(closest, y, jac=True, method="SLSQP", constraints=within, options=options)
     return np.asarray(found.x)
 
 

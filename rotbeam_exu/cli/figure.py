@@ -11,7 +11,7 @@ from ..figures.style import save_figure
 from ..files.results import save, save_tables, whole_file, writable_folder
 from ..paper_figures import PAPER_FIGURES
 from .options import Results, Workers
-from .output import new_console
+from .output import new_console, print_written
 from .progress import counter
 from .targets import listed, refuse_to_replace, telling_what_is_kept
 
@@ -26,13 +26,21 @@ def figure(
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
 
+    It is of the paper's beam by definition, and takes no other: for one's own there are run,
+    respond, compare and explore.
+
     Parameters
     ----------
     number
         3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
+
+    Examples
+    --------
+    $ rotbeam figure 9
+    $ rotbeam figure 14 --jobs 2 -o paper
     """
     every = list(PAPER_FIGURES)
-    wanted = every if number == "all" else [int(number)] if number.isdecimal() else []
+    wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
     if not wanted or wanted[0] not in PAPER_FIGURES:
         raise ValueError(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
@@ -68,5 +76,5 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
         text = " ".join(filter(None, (made.caption, data.attrs.get("out_of_plane"))))
         partial.write_text(f"Figure {n}. {text}\n", encoding="utf-8")
     written.append(caption)
-    console.print(f"figure {n}: {listed(written)}")
+    print_written(console, written)
     return written

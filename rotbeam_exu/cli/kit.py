@@ -9,7 +9,7 @@ from .output import new_console
 
 
 def kit(directory: Path, /) -> None:
-    """Write the problem, its data, starters in five languages and a sample submission.
+    """Write the problem, its data and starters in five languages.
 
     Parameters
     ----------

@@ -73,7 +73,8 @@ def stability(
     amplitudes = sorted(set(amplitude))
     shape = section if ratio is None else f"{section}-{ratio:g}"
     path = writable_folder(results.out) / f"stability-{shape}-omega-{omega:g}-mode-{mode}"
-    inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": amplitudes}
+    asked = " ".join(f"{a:.17g}" for a in amplitudes)
+    inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
     found = planar_stability(blade, omega, amplitudes, mode)

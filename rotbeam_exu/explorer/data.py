@@ -43,6 +43,8 @@ def explorer_data(
     finite_element_omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     elements: int = 16,
+    duration: float = 15.0,
+    step: float = 1e-3,
     executor: Executor | None = None,
     jobs: int | None = None,
     cache: str | os.PathLike[str] | None = None,
@@ -58,8 +60,8 @@ def explorer_data(
         Rotation speeds [rad/s], ascending in equal steps.
     amplitudes : sequence of float
         Peaks |q|/L of the exact orbits, ascending in equal steps.
-    finite_element_omegas, ramp_times, elements
-        Grid [rad/s], [s] and mesh of the finite element points.
+    finite_element_omegas, ramp_times, elements, duration, step
+        Grid [rad/s], [s], mesh, end [s] and step [s] of the finite element points.
     executor, jobs, cache
         Where the work is done and where finished spin-ups are kept, as for `sweep`.
     progress : callable, optional
@@ -68,8 +70,9 @@ def explorer_data(
     Returns
     -------
     Dataset
-        Reduced models over (model, omega): omega_n [rad/s], lambda_omega, lambda_x [-], NaN where a
-        model has no oscillation. Exact orbits: exact_omega_n and exact_lambda_omega over omega,
+        Reduced models over (model, omega): omega_n [rad/s], lambda_omega, kappa, h2, lambda_x [-],
+        and over a as well the first_harmonic that has the peak a, NaN where a model has no
+        oscillation. Exact orbits: exact_omega_n and exact_lambda_omega over omega,
         exact_frequency [rad/s] over (omega, a), the sine coefficients `harmonics` of q/L, and the
         beam's axis over L in the rotating frame, along Σ axis_x cos kφ, across Σ axis_y sin kφ,
         k = 0, 1 ...; `note`, what `periodic_orbits` warned of. Points over (fe_omega, ramp_time):
@@ -96,6 +99,8 @@ def explorer_data(
                 omegas=finite_element_omegas,
                 ramp_times=ramp_times,
                 elements=elements,
+                duration=duration,
+                step=step,
                 executor=pool,
                 cache=cache,
                 progress=one_more,
@@ -107,19 +112,20 @@ def explorer_data(
     points = points[["amplitude", "frequency", "omega_n"]].rename(
         {"omega": "fe_omega", **{n: f"fe_{n}" for n in ("amplitude", "frequency", "omega_n")}}
     )
-    data = xr.merge([_models(beam, omegas), orbits, points], combine_attrs="drop")
+    data = xr.merge([_models(beam, omegas, amplitudes), orbits, points], combine_attrs="drop")
     data.attrs = {
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
         "elements": elements,
-        "blade": "" if isinstance(beam, Beam) else str(beam),
+        "blade": "" if beam == Beam.reference() else str(beam),
     }
     return data
 
 
-def _models(beam: AnyBlade, omegas: Sequence[float]) -> xr.Dataset:
+def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
     """Coefficients of Eqs. 63 and 65 over (model, omega), of every variant."""
-    values = np.full((3, len(VARIANTS), len(omegas)), np.nan)
+    values = np.full((5, len(VARIANTS), len(omegas)), np.nan)
+    first = np.full((len(VARIANTS), len(omegas), len(amplitudes)), np.nan)
     with beyond_range():
         for i, name in enumerate(VARIANTS):
             for j, omega in enumerate(omegas):
@@ -127,13 +133,18 @@ def _models(beam: AnyBlade, omegas: Sequence[float]) -> xr.Dataset:
                     model = reduced_model(beam, omega, name)
                 except ValueError:
                     continue  # no oscillation at that speed, or not for such a blade
-                values[:, i, j] = model.omega_n, model.lambda_omega, model.lambda_x
-    dims = ("model", "omega")
+                tip = model.perturbation
+                values[:, i, j] = model.omega_n, tip.lambda_omega, tip.kappa, tip.h2, tip.h3
+                first[i, j] = model.first_harmonic(list(amplitudes))
+    dims: Any = ("model", "omega")
     return xr.Dataset(
         {
             "omega_n": (dims, values[0], _FREQUENCY),
             "lambda_omega": (dims, values[1], _NONE),
-            "lambda_x": (dims, values[2], _NONE),
+            "kappa": (dims, values[2], _NONE),
+            "h2": (dims, values[3], _NONE),
+            "lambda_x": (dims, values[4], _NONE),
+            "first_harmonic": ((*dims, "a"), first, _NONE),
         },
         coords={"model": list(VARIANTS), "omega": ("omega", list(omegas), _FREQUENCY)},
     )

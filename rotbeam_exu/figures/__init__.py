@@ -12,9 +12,10 @@ from .backbones import figure_5, figure_14
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
 from .planar import growth_out_of_plane, planar_stability, stability_limits
+from .residual import residual
 from .response import forced_response
 from .runs import figure_3, figure_4
-from .softening_map import softening_map
+from .softening_map import softening_by_plane, softening_map
 from .spin_up import spin_up
 from .style import save_figure
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
@@ -36,8 +37,10 @@ __all__ = [
     "forced_response",
     "growth_out_of_plane",
     "planar_stability",
+    "residual",
     "save_animation",
     "save_figure",
+    "softening_by_plane",
     "softening_map",
     "spin_up",
     "stability_limits",

@@ -45,11 +45,11 @@ CAPTIONS: dict[int, str] = {
         "fact FrE looks right by one error and one omission: the sine supplies 95 to 97 % of the "
         "-v'⁴/8 that Eq. 25 drops, and what it lacks softens by 1.1 to 1.4 times as much as the "
         "Coriolis-coupled modes, which the model leaves out. FrM has both and is inextensible; no "
-        "model here has an a⁴ term, and as drawn FrE is the nearer above a = 0.5 at 4 and 6 rad/s, "
-        "above 0.56 at 8, by luck. The models' a is the first harmonic, as in the paper, that of "
-        "the others half peak to peak, up to 2.6 % less for a below 0.6. Bars of step, mesh and "
-        "estimator are smaller than the symbols. CI, CE and FrI leave the frame; so do the points "
-        "above a = 0.6."
+        "model here has an a⁴ term, and FrE is the nearer above a = 0.55 at 4 and 6 rad/s, by "
+        "luck. Every amplitude is half peak to peak; Eq. 63 is taken at the first harmonic that "
+        "has it, up to 2.6 % more for a below 0.6. The paper takes a itself for that harmonic, "
+        "which is 0.3 to 5 % of the shift. Bars of step, mesh and estimator are smaller than the "
+        "symbols. CI, CE and FrI leave the frame; so do the points above a = 0.6."
     ),
     15: (
         "One period of the finite element orbit, 16 elements at a step of 1 ms, and of the models "
