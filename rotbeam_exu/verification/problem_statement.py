@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -43,7 +44,7 @@ def digest() -> str:
     return hashlib.sha256(SOURCE.read_bytes() + numbers().encode()).hexdigest()
 
 
-def typeset(source: Path = SOURCE, **options: object) -> bytes:
+def typeset(source: Path = SOURCE, **options: Any) -> bytes:
     """Return the document as PDF, or as `options` of typst say."""
     import typst  # noqa: PLC0415
 
