@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array
 
-_NOTHING = 3e-10  # of ω_NL/ω_n, less than the orbits themselves keep of the first harmonic
+_SHARE = 0.3  # of a curve's error, which coefficients left out may have
 _BLOCK = 32768  # amplitudes that stay in the cache while powers are summed
 
 
@@ -50,11 +50,11 @@ class BackboneCurve:
 
     @cached_property
     def _powers(self) -> FloatArray:
-        return in_powers(_shortened(self.series))
+        return in_powers(_shortened(self.series, _SHARE * self.error))
 
     @cached_property
     def _first_powers(self) -> FloatArray:
-        return in_powers(_shortened(self.first))
+        return in_powers(_shortened(self.first, _SHARE * self.error))
 
     @property
     def lambda_omega(self) -> float:
@@ -100,10 +100,10 @@ class BackboneCurve:
         )
 
 
-def _shortened(series: Chebyshev) -> Chebyshev:
-    """Return the series without the last coefficients, as many as sum up to next to nothing."""
+def _shortened(series: Chebyshev, error: float) -> Chebyshev:
+    """Return the series without the last coefficients, as many as sum up to less than `error`."""
     left_out = np.cumsum(np.abs(series.coef[::-1]))
-    return series.cutdeg(series.degree() - int(np.sum(left_out < _NOTHING)))
+    return series.cutdeg(series.degree() - int(np.sum(left_out < error)))
 
 
 def in_powers(series: Chebyshev) -> FloatArray:

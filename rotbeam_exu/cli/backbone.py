@@ -38,7 +38,7 @@ def backbone(
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE, P3, P4, P5, FrC or FrM.
+        CI, CE, FrI, FrE, P3, P4, P5, FrC, FrM or FrM5.
     all_variants
         Every variant, one below the other.
     exact
