@@ -23,7 +23,7 @@ from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --omega.*|reference|campbell|respond --omega.*|compare.*|figure.*|animate.*)"
+    r"rotbeam (run|run --(omega|from).*|campbell|(reference|respond|compare|figure|animate).*)"
 )
 BEAM = """
 [beam]
