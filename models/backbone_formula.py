@@ -24,7 +24,7 @@ shift = 1.0 - ratio[::20_000]
 peak = a[::20_000]
 orbits = periodic_orbits(beam, omega, [0.15, 0.3, 0.45, 0.58])
 _, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.8), layout="constrained")
-left.plot(ratio, a, "k-", label="exact, a series")
+left.plot(ratio[::1000], a[::1000], "k-", label="exact, a series")
 left.plot(orbits.frequency / orbits.omega_n, orbits.amplitude, "ko", mfc="w", label="exact orbits")
 for name, style in (("FrM", "C0--"), ("FrM5", "C3-.")):
     model = reduced_model(beam, omega, name)
@@ -32,6 +32,6 @@ for name, style in (("FrM", "C0--"), ("FrM5", "C3-.")):
     left.plot(1.0 - said, peak, style, label=name)
     right.semilogy(peak[4:], 100.0 * np.abs(said / shift - 1.0)[4:], style)
 left.set(xlabel=r"$\omega_{NL}/\omega_n$", ylabel="peak $|q|/L$", title="ω = 6 rad/s")
-left.legend()
+left.legend(loc="lower left")
 right.set(xlabel="peak $|q|/L$", ylabel="error of the shift [%]", ylim=(1e-2, 30.0))
 plt.show()

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
 
+from cyclopts import Parameter
 from rich.console import Console
 
-from ..figures.style import save_figure
+from ..figures.descriptions import caption
+from ..figures.style import STYLES, save_figure
+from ..figures.style import style as drawn_in
 from ..files.results import save, save_tables, whole_file, writable_folder
 from ..paper_figures import PAPER_FIGURES
-from .options import Results, Workers
+from .options import Results, Workers, spelled_as
 from .output import new_console, print_written
 from .progress import counter
 from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()
+
+StyleName = Annotated[str, Parameter(converter=spelled_as(STYLES))]
+"""Name of a style; what is none is refused by `figures.style`."""
 
 
 def figure(
@@ -23,6 +30,7 @@ def figure(
     *,
     workers: Workers = _WORKERS,
     results: Results = _RESULTS,
+    style: StyleName = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
 
@@ -33,6 +41,8 @@ def figure(
     ----------
     number
         3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
+    style
+        house: PNG and PDF; journal: a journal's column width, PDF and SVG; grey: that in greys.
 
     Examples
     --------
@@ -50,7 +60,8 @@ def figure(
     console = new_console()
     done: list[Path] = []
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
-    with telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])])):
+    kept = telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])]))
+    with drawn_in(style), kept:
         for n in wanted:
             done += _made(n, folder, console, workers, force=results.force)
 
@@ -71,10 +82,10 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
     written += save_tables(data, name.with_suffix(".csv"))
     axes = made.draw(data)
     written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
-    caption = name.with_suffix(".txt")
-    with whole_file(caption) as partial:
-        text = " ".join(filter(None, (made.caption, data.attrs.get("out_of_plane"))))
+    words = name.with_suffix(".txt")
+    with whole_file(words) as partial:
+        text = " ".join(filter(None, (caption(n, data), data.attrs.get("out_of_plane"))))
         partial.write_text(f"Figure {n}. {text}\n", encoding="utf-8")
-    written.append(caption)
+    written.append(words)
     print_written(console, written)
     return written

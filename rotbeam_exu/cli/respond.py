@@ -160,7 +160,7 @@ def respond(
 
     Examples
     --------
-    $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 3.8
+    $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
     load = loads.one()

@@ -13,6 +13,7 @@ from analytic import Beam, periodic_orbits, planar_note, reduced_model
 from ..fem.solver import Frame
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
+from ..verdict import beam_attributes
 from .theory import beyond_range
 
 _FITTED = 0.6
@@ -105,8 +106,14 @@ def finite_element_points(
     points["estimator_error"] = bar["ratio"].assign_attrs(
         {"units": "1", "long_name": "error of the ratio: estimator alone"}
     )
-    points.attrs = {"mesh": mesh}
+    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh)}
     return points
+
+
+def _numerics(mesh: Mesh) -> str:
+    elements, frame = _MESHES[mesh]
+    steps = "step 1 ms" if mesh == "paper" else "steps of 1 and 2 ms extrapolated to zero"
+    return f"{elements} cable elements, {frame} frame, {steps}"
 
 
 def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = True) -> xr.Dataset:
@@ -186,7 +193,9 @@ def figure_14(
         dim="mesh",
     )
     points["mesh"] = ("mesh", list(meshes), {"units": "1", "long_name": "finite element mesh"})
-    data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(mesh="")
+    data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
+        mesh="", meshes="; ".join(map(_numerics, meshes))
+    )
     notes = [planar_note(beam, omega, max(amplitudes)) for omega in omegas]
     return data.assign_attrs(out_of_plane="; ".join(filter(None, notes))) if any(notes) else data
 

@@ -35,7 +35,7 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 name = f"exact, Ω = {float(row['exact_speed_ratio']):g}"
                 panel.plot(row, data["exact_amplitude"], **{**line, "ls": dashes}, label=name)
         ax.set(xlabel=label(ratio), ylabel=label(a), xlim=(0.76, 1.06), ylim=(0.0, 0.4))
-        ax.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)
+        ax.indicate_inset((0.991, 0.0, 0.014, 0.4), edgecolor="0.5", alpha=1.0)
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
     return ax
 

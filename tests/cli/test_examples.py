@@ -1,5 +1,9 @@
-"""Every example that --help prints is run; what takes minutes in it is replaced."""
+"""Every example that --help prints is run; what takes minutes in it is replaced.
 
+Those that take seconds all the same are slow tests, and by default only read.
+"""
+
+import re
 import shlex
 import shutil
 
@@ -7,7 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rotbeam_exu.cli import _COMMANDS
+from rotbeam_exu.cli import _COMMANDS, app
 from rotbeam_exu.cli import explore as explore_job
 from rotbeam_exu.cli import verify as verify_job
 from rotbeam_exu.cli.documented import documented
@@ -18,6 +22,9 @@ from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
+SECONDS = re.compile(
+    r"rotbeam (run|run --(omega|from).*|campbell|(reference|respond|compare|figure|animate).*)"
+)
 BEAM = """
 [beam]
 length = 8.0
@@ -76,6 +83,20 @@ def test_every_command_has_examples_that_fit_into_eighty_columns():
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
+def test_an_example_is_read(example):
+    command, *arguments = shlex.split(example)[1:]
+    function, bound, _ = app.parse_args([command, *arguments], exit_on_error=False)
+    assert function.__name__ == command
+    assert bound.kwargs or bound.args or not arguments
+
+
+@pytest.mark.parametrize(
+    "example",
+    [
+        pytest.param(one, marks=pytest.mark.slow if SECONDS.fullmatch(one) else ())
+        for one in EXAMPLES
+    ],
+)
 def test_an_example_ends_well(call, folder, example):
     _, command, *arguments = shlex.split(example)
     if "--from" in arguments and command == "run":

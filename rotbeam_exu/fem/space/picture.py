@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import exudyn
 import numpy as np
@@ -10,14 +11,19 @@ import xarray as xr
 from exudyn import graphics
 from exudyn.itemInterface import ObjectGround, VObjectGround
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array, positive
 
-_WIDTH = 0.06
+_WIDTH = 0.05
 """Height of the drawn sections over L: as drawn to scale a slender blade is a hair."""
 
-_COLORS = (
+_Color = tuple[float, float, float, float]
+
+_FLOOR: _Color = (0.86, 0.86, 0.84, 1.0)
+
+_COLORS: tuple[_Color, ...] = (
     (0.12, 0.36, 0.60, 1.0),
     (0.16, 0.55, 0.50, 1.0),
     (0.55, 0.62, 0.22, 1.0),
@@ -76,36 +82,40 @@ def ray_traced(
             strict=True,
         )
     ]
-    return _rendered([_floor(length), *shown], size)
+    return _rendered([_floor(length), *shown], length, size)
 
 
-def _strip(axis: FloatArray, upright: FloatArray, half: float, color: tuple[float, ...]) -> dict:
-    """Return the strip along `axis` (nodes, 3), seen from either side."""
+def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) -> dict[str, Any]:
+    """Return the strip along `axis` (nodes, 3), its height across to `upright`."""
     along = np.gradient(axis, axis=0)
     across = np.cross(upright, along)
     across *= half / np.linalg.norm(across, axis=1, keepdims=True)
-    return _surface(np.stack((axis - across, axis + across), axis=1), color)
+    nodes = np.arange(len(axis))
+    edges = CubicSpline(nodes, np.stack((axis - across, axis + across), axis=1))
+    return _surface(edges(np.linspace(0, nodes[-1], 8 * nodes[-1] + 1)), color)
 
 
-def _floor(length: float) -> dict:
-    """Return a strip of the plane of rotation below the blade."""
-    x, y = np.array([0.0, 1.05]) * length, np.array([-0.75, 0.35]) * length
-    corners = np.array([[[a, b, -1e-3 * length] for b in y] for a in x])
-    return _surface(corners, (0.90, 0.90, 0.88, 1.0))
+def _floor(length: float) -> dict[str, Any]:
+    """Return a strip parallel to the plane of rotation, below the blade."""
+    x, y = np.array([-0.1, 1.1]) * length, np.array([-0.65, 0.2]) * length
+    corners = np.array([[[a, b, -0.15 * length] for b in y] for a in x])
+    return _surface(corners, _FLOOR)
 
 
-def _surface(points: FloatArray, color: tuple[float, ...]) -> dict:
+def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
     """Return the triangles between two rows of points, (nodes, 2, 3)."""
     first = 2 * np.arange(len(points) - 1)[:, None]
     both = np.concatenate([first + np.array([0, 1, 3]), first + np.array([0, 3, 2])])
-    data: dict = graphics.FromPointsAndTrigs(
+    data: dict[str, Any] = graphics.FromPointsAndTrigs(
         points.reshape(-1, 3), np.concatenate([both, both[:, ::-1]]), list(color)
     )
     return data
 
 
-def _rendered(surfaces: Sequence[dict], size: tuple[int, int]) -> NDArray[np.uint8]:
-    """Return the picture of the surfaces."""
+def _rendered(
+    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int]
+) -> NDArray[np.uint8]:
+    """Return the picture of the surfaces of a blade of `length`."""
     container = exudyn.SystemContainer()
     try:
         mbs = container.AddSystem()
@@ -121,6 +131,11 @@ def _rendered(surfaces: Sequence[dict], size: tuple[int, int]) -> NDArray[np.uin
         settings.raytracer.numberOfThreads = 1
         settings.raytracer.advanced.showText = False
         container.renderer.ZoomAll()
+        container.renderer.SetModelView(
+            zoom=0.37 * length,
+            rotationVector=[-0.95, 0.0, 0.0],
+            centerPoint=[0.5 * length, -0.22 * length, 0.0],
+        )
         return np.asarray(container.renderer.RedrawAndGetImage(useRaytracer=True))
     finally:
         container.Reset()
