@@ -134,6 +134,8 @@ def test_what_is_judged_needs_no_fem():
     [
         ("analytic", ("exudyn", "matplotlib", "xarray", "sympy")),
         ("rotbeam_exu", ("exudyn", "matplotlib", "xarray", "sympy")),
+        ("rotbeam_exu.verification.references", ("exudyn", "matplotlib", "xarray", "sympy")),
+        ("rotbeam_exu.verification.kit", ("exudyn", "matplotlib", "sympy")),
         ("rotbeam_exu.verification.measures", ("exudyn", "matplotlib", "sympy")),
         ("rotbeam_exu.verification.peers", ("exudyn", "matplotlib", "sympy")),
     ],

@@ -174,6 +174,21 @@ def test_a_beam_with_rotary_inertia_has_a_truth_of_its_own():
     assert rotary.frequency_at(0.1) / plain.frequency_at(0.1) - 1.0 == pytest.approx(-fall, rel=0.2)
 
 
+def test_an_orbit_of_a_beam_that_shears_is_slower():
+    """By about as much as small vibrations are: the orbit's curvature is bending's."""
+    plain, sheared = reference(CASES["O"]), reference(CASES["O"], Theory(shear_share=0.1))
+    assert sheared.source == "computed from the exact beam, Timoshenko"
+    slower = sheared.frequency_at(0.4) / plain.frequency_at(0.4) - 1.0
+    linear = sheared.first_frequency(2.0) / plain.first_frequency(2.0) - 1.0
+    assert -1e-3 < slower < 0.0
+    assert slower == pytest.approx(linear, rel=0.2)
+    # Both start straight, as q rises; the one falls behind.
+    time = np.linspace(0.0, 20.0, 500)
+    lag = plain.history(time * (1.0 + slower))
+    assert sheared.history(time) == pytest.approx(lag, abs=1e-3)
+    assert np.abs(sheared.history(time) - plain.history(time)).max() > 2e-3
+
+
 def test_what_is_not_asked_is_refused():
     with pytest.raises(ValueError, match="case L asks for no history, but for first natural"):
         reference(CASES["L"]).history([0.0])
