@@ -15,6 +15,10 @@ def kit(directory: Path, /) -> None:
     ----------
     directory
         New, or empty.
+
+    Examples
+    --------
+    $ rotbeam kit benchmark
     """
     folder = write_kit(directory)
     count = sum(path.is_file() for path in folder.rglob("*"))
