@@ -14,7 +14,7 @@ import numpy as np
 from .arrays import FloatArray
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes  # noqa: F401  (the results' annotations)
+    from matplotlib.axes import Axes
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
