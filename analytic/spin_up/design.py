@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.linalg import solve_triangular
+from scipy.optimize import nnls
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
@@ -21,9 +21,9 @@ from .residual import modes_for, residuals
 _MORE_WAVES = 4
 _NEWTON_STEPS, _SETTLED, _DIFFERENCE = 20, 1e-3, 1e-6
 _SOLVED = 1e-7  # of the length: what the closed form may leave
-_INSTANTS = np.linspace(0.0, 1.0, 101)
-_INSIDE, _WITHIN = 3e-4, 1e-4
-"""Share of the limits that instants keep for what is between them, and the optimizer of that."""
+_INSTANTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1.0, 120.0) / 120.0)  # denser at both ends
+_INSIDE = 3e-4  # share of the limits kept for what is between the instants
+_IMPOSSIBLE = 1e-12
 _WILD = 1e3  # coefficients of a ramp that goes to and fro for no use
 _CORRECTIONS, _LEFT = 6, 1e-6
 _LONGER, _LONGEST = 1.25, 12
@@ -83,16 +83,22 @@ class _Task:
         step = _DIFFERENCE * np.eye(y.size)
         return np.stack([self.equations(y + d, target) - here for d in step], axis=1) / _DIFFERENCE
 
-    def room(self, y: FloatArray) -> FloatArray:
-        """Return what is left to the limits, over them: negative where one is passed."""
-        ramp, t = self.ramp(y), self.duration * _INSTANTS
-        rate, acceleration = ramp.rate(t), ramp.acceleration(t)
-        slow = rate / self.highest + _INSIDE
-        # At both ends there is no room but this.
-        room = [slow, 1.0 + 2.0 * _INSIDE - slow]
-        if math.isfinite(self.steepest):
-            room += [1.0 - acceleration / self.steepest, 1.0 + acceleration / self.steepest]
-        return np.concatenate(room) - _INSIDE
+    @cached_property
+    def room(self) -> tuple[FloatArray, FloatArray]:
+        """G and h of the limits, G y + h ≥ 0: rate and acceleration are linear in the unknowns."""
+
+        def at(y: FloatArray) -> FloatArray:
+            ramp, t = self.ramp(y), self.duration * _INSTANTS
+            share = ramp.rate(t) / self.highest
+            room = [share, 1.0 - share]
+            if math.isfinite(self.steepest):
+                share = ramp.acceleration(t) / self.steepest
+                room += [1.0 - _INSIDE - share, 1.0 - _INSIDE + share]
+            return np.concatenate(room)
+
+        here = at(self.eq_1)
+        slopes = [at(unit) - here for unit in np.eye(self.eq_1.size)]
+        return np.stack(slopes, axis=1), here
 
 
 def design_ramp(
@@ -194,38 +200,34 @@ def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray |
         # Of all that meets the linear equations for the next y to _SOLVED, the closest: what is
         # small by itself, as of high modes, takes no effort.
         rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ (y - near) - defect) / _SOLVED
-        before, y = y, near + np.linalg.lstsq(rows, np.append(sides, still), rcond=None)[0]
-        if np.abs(y).max() > _WILD:
+        slopes, room = task.room
+        change = _closest(rows, np.append(sides, still), slopes, -room - slopes @ near)
+        if change is None or np.abs(near + change).max() > _WILD:
             return None
+        before, y = y, near + change
         if np.abs(y - before).max() < _SETTLED and np.abs(defect).max() < 10.0 * _SOLVED:
             break
     else:
         return None
-    if task.room(y).min() < -_WITHIN:
-        y = _within_limits(task, y, near, target)
-        if np.abs(task.equations(y, target)).max() > 10.0 * _SOLVED:
-            return None
-    return y if task.room(y).min() >= -_WITHIN else None
+    return y
 
 
-def _within_limits(
-    task: _Task, y: FloatArray, near: FloatArray, target: ComplexArray
-) -> FloatArray:
-    """Return what closest to `near` meets the target and the limits, as far as it is found."""
-    sizes = np.linalg.norm(task.tangent(y, target), axis=1)
-    heard, scale = sizes > _SOLVED, sizes[sizes > _SOLVED]
-    within: Any = (
-        {
-            "type": "eq",
-            "fun": lambda y: task.equations(y, target)[heard] / scale,
-            "jac": lambda y: task.tangent(y, target)[heard] / scale[:, None],
-        },
-        {"type": "ineq", "fun": task.room},
-    )
-    closest: Any = lambda y: (float((y - near) @ (y - near)), 2.0 * (y - near))  # noqa: E731
-    options: Any = {"ftol": 1e-8, "maxiter": 60}
-    found = minimize(closest, y, jac=True, method="SLSQP", constraints=within, options=options)
-    return np.asarray(found.x)
+def _closest(
+    rows: FloatArray, sides: FloatArray, slopes: FloatArray, least: FloatArray
+) -> FloatArray | None:
+    """Return y that makes |rows y - sides| least within slopes y ≥ least, None where none is.
+
+    The least-distance problem of Lawson and Hanson (1974), chapter 23.
+    """
+    Q, R = np.linalg.qr(rows)
+    free = Q.T @ sides
+    slopes = solve_triangular(R, slopes.T, trans="T").T
+    both = np.vstack((slopes.T, least - slopes @ free))
+    unit = np.append(np.zeros(free.size), 1.0)
+    rest = both @ nnls(both, unit)[0] - unit
+    if abs(rest[-1]) < _IMPOSSIBLE:
+        return None
+    return np.asarray(solve_triangular(R, free - rest[:-1] / rest[-1]))
 
 
 def _too_short(task: _Task) -> str:

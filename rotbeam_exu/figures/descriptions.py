@@ -49,15 +49,15 @@ def _figure_3(data: xr.Dataset) -> str:
 
 
 def _figure_4(data: xr.Dataset) -> str:
-    smeared = data.isel(case=int(data["smear"].argmax()))
+    smeared = data.isel(case=int(np.argmax(data["smear"].to_numpy())))
     return (
         f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
         "speed, in one scale; what both have is black. Lines are the first turn, all turns lie "
         "behind it, pale. The normalization is that of Eqs. 15, 17 and 18, Eq. 18 corrected: "
         f"q̇₀ = q₀√(EI/mL³ + ω²). {_numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
-        f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: no harmonic of its frequency "
-        f"explains {100.0 * float(smeared['smear']):.1f} % of its velocity, the second mode, which "
-        "so short a ramp excites too."
+        f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: "
+        f"{100.0 * float(smeared['smear']):.1f} % of its velocity is no harmonic of its frequency "
+        "but the second mode, which so short a ramp excites too."
     )
 
 

@@ -121,18 +121,18 @@ class Histories:
             return Finding(outcome=Outcome.NO_VERDICT, note=note)
         assert self.case.motion is not None
         speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
-        measured: dict[Run, tuple[float, float]] = {}
-        shift = math.nan
+        known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
+        runs = sorted(known, key=lambda run: (run.elements, -run.step))
         try:
-            for run in sorted(self.oscillations, key=lambda run: (run.elements, -run.step)):
-                one = self.oscillations[run]
-                if isinstance(one, str):
-                    continue
-                true = self.reference.frequency_at(one.amplitude)
-                measured[run] = (one.frequency / true - 1.0 - off, one.frequency_error / true)
-                shift = true / self.reference.first_frequency(speed) - 1.0
+            true = self.reference.frequencies_at([known[run].amplitude for run in runs])
+            first = self.reference.first_frequency(speed)
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        measured = {
+            run: (known[run].frequency / w - 1.0 - off, known[run].frequency_error / w)
+            for run, w in zip(runs, true.tolist(), strict=True)
+        }
+        shift = float(true[-1]) / first - 1.0 if runs else math.nan
         if abs(shift) < LEAST_SHIFT:
             return None
         bound = self.reference.bound + (0.0 if linear is None else linear.bar)

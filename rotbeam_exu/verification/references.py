@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -90,11 +91,16 @@ class Reference:
         RuntimeError
             If the orbit is not reached.
         """
+        return float(self.frequencies_at([amplitude], speed)[0])
+
+    def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
+        """Return what `frequency_at` does, of several amplitudes: what is computed, in one go."""
         if speed is None:
             if self.case.motion is None:
                 raise ValueError(f"case {self.case.name} has several speeds: say which")
             speed = self.case.motion.omega
-        return _frequency_at(self.theory, self.case.blade, speed, amplitude)
+        at = tuple(map(float, amplitudes))
+        return np.array(_frequencies_at(self.theory, self.case.blade, speed, at))
 
 
 @lru_cache(maxsize=64)
@@ -151,9 +157,16 @@ def _first_frequency(theory: Theory, blade: AnyBlade, speed: float) -> float:
 
 
 @lru_cache(maxsize=256)
-def _frequency_at(theory: Theory, blade: AnyBlade, speed: float, amplitude: float) -> float:
-    data = _shipped_of(theory)
-    here = None if data is None else data.frequency_at(blade, speed, amplitude)
-    if here is not None:
-        return here
-    return float(theory.orbits(blade, speed, amplitude).frequency[0])
+def _frequencies_at(
+    theory: Theory, blade: AnyBlade, speed: float, amplitudes: tuple[float, ...]
+) -> tuple[float, ...]:
+    data, found = _shipped_of(theory), dict[float, float]()
+    for a in amplitudes:
+        here = None if data is None else data.frequency_at(blade, speed, a)
+        found |= {} if here is None else {a: here}
+    missing = sorted(set(amplitudes) - set(found))
+    if missing:
+        # One backbone, for orbits are found from their neighbors.
+        frequencies = theory.orbits(blade, speed, missing).frequency.tolist()
+        found |= dict(zip(missing, frequencies, strict=True))
+    return tuple(found[a] for a in amplitudes)
