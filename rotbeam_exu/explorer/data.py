@@ -4,32 +4,25 @@ from __future__ import annotations
 
 import itertools
 import os
-import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from analytic import VARIANTS, AnyBlade, Beam, periodic_orbits, reduced_model
-from analytic.input_checks import RotbeamWarning
+from analytic import VARIANTS, AnyBlade, Beam, reduced_model
 
 from ..comparison.theory import beyond_range
 from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
+from .exact import exact_orbits
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""
 AMPLITUDES = tuple((np.arange(1, 61) / 100.0).tolist())
 """Amplitudes of the slider."""
-
-TIP_HARMONICS = 20
-"""Harmonics of q/L kept; from the twelfth on they are below 4e-6."""
-_AXIS_HARMONICS = 7  # those beyond are below 2e-4 of the length, a twentieth of a pixel
-_AXIS_POINTS = 13
 
 _NONE = {"units": "1"}
 _FREQUENCY = {"units": "rad/s"}
@@ -90,7 +83,7 @@ def explorer_data(
             progress(next(done), total)
 
     with worker_pool(executor, jobs, total) as pool:
-        exact = [pool.submit(_exact, beam, omega, tuple(amplitudes)) for omega in omegas]
+        exact = [pool.submit(exact_orbits, beam, omega, tuple(amplitudes)) for omega in omegas]
         for future in exact:
             future.add_done_callback(one_more)
         try:
@@ -148,50 +141,6 @@ def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]
         },
         coords={"model": list(VARIANTS), "omega": ("omega", list(omegas), _FREQUENCY)},
     )
-
-
-def _exact(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
-    """Exact orbits at one speed; a pure function, for any executor."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", RotbeamWarning)
-        backbone = periodic_orbits(beam, omega, amplitudes)
-    count = min(TIP_HARMONICS, backbone.harmonics.shape[1])
-    tip = np.pad(backbone.harmonics[:, :count], ((0, 0), (0, TIP_HARMONICS - count)))
-    axis_x, axis_y = zip(
-        *(_axis_harmonics(*_axis(backbone, i)) for i in range(len(amplitudes))), strict=True
-    )
-    along: Any = ("a", "k", "point")
-    return xr.Dataset(
-        {
-            "exact_omega_n": ((), backbone.omega_n, _FREQUENCY),
-            "exact_lambda_omega": ((), backbone.lambda_omega, _NONE),
-            "exact_frequency": ("a", backbone.frequency, _FREQUENCY),
-            "harmonics": (("a", "harmonic"), tip, _NONE),
-            "axis_x": (along, np.array(axis_x), _NONE),
-            "axis_y": (along, np.array(axis_y), _NONE),
-            "note": ((), "; ".join(str(warning.message) for warning in caught)),
-        },
-        coords={"omega": omega, "a": ("a", list(amplitudes), _NONE)},
-    )
-
-
-def _axis(backbone: Any, i: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Axis over L at the midpoints of half a period, which symmetry makes enough."""
-    length = backbone.beam.length
-    phase = np.pi * (np.arange(32) + 0.5) / 32
-    x, y = backbone.axis(i, np.linspace(0.0, length, _AXIS_POINTS), phase)
-    return x / length, y / length
-
-
-def _axis_harmonics(
-    x: NDArray[np.float64], y: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Cosine coefficients of x and sine coefficients of y, (k, points), k from 0."""
-    count = len(x)
-    angle = np.multiply.outer(np.arange(_AXIS_HARMONICS + 1), np.pi * (np.arange(count) + 0.5))
-    cosines = 2.0 / count * np.cos(angle / count) @ x
-    cosines[0] *= 0.5
-    return cosines, 2.0 / count * np.sin(angle / count) @ y
 
 
 def _evenly(name: str, values: Sequence[float]) -> None:
