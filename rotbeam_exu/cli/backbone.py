@@ -108,7 +108,7 @@ def backbone(
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))
     for sentence in _grouped(refused):
-        warnings.warn(f"no answer of {sentence}", RotbeamWarning, stacklevel=2)
+        warnings.warn(f"no answer: {sentence}", RotbeamWarning, stacklevel=2)
     if failure:
         raise RuntimeError(failure)
 
@@ -131,10 +131,13 @@ def _grouped(refused: list[Refusal]) -> list[str]:
     kinds: dict[str, list[Refusal]] = {}
     for name, sentence in dict.fromkeys(refused):
         kinds.setdefault(sentence.replace(name, "#"), []).append((name, sentence))
-    return [
-        f"{', '.join(dict.fromkeys(name for name, _ in group))}: {group[0][1]}"
-        for group in kinds.values()
-    ]
+    sentences = []
+    for group in kinds.values():
+        names = list(dict.fromkeys(name for name, _ in group))
+        _, first = group[0]
+        told = len(names) == 1 and names[0] in first
+        sentences.append(first if told else f"{', '.join(names)}: {first}")
+    return sentences
 
 
 def _exact(

@@ -40,8 +40,10 @@ def campbell(
 
     Parameters
     ----------
-    omega_min, omega_max
-        Lowest and highest rotation speed [rad/s]; the paper's beam goes up to 12.
+    omega_min
+        Lowest rotation speed [rad/s].
+    omega_max
+        Highest rotation speed [rad/s], 12 for the paper's beam unless given.
     points
         Number of speeds.
     count
