@@ -61,6 +61,11 @@ def stability(
         In-plane mode from which the orbits grow.
     config
         TOML file with the beam; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
+    $ rotbeam stability --omega 6 --section tube
     """
     whole_number("mode", mode)
     require_affordable(
