@@ -23,7 +23,8 @@ from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --(omega|from).*|campbell|(reference|respond|stability|ramp|compare|figure|animate).*)"
+    r"rotbeam (run|run --(omega|from).*|campbell|"
+    r"(reference|respond|stability|ramp|compare|figure|animate).*)"
 )
 BEAM = """
 [beam]
