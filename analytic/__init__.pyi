@@ -55,3 +55,8 @@ from .reduced.unstretched import unstretched_frequencies as unstretched_frequenc
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
 from .section import Section as Section
+from .spin_up.design import design_ramp as design_ramp
+from .spin_up.quiet import QuietRamps as QuietRamps
+from .spin_up.quiet import exact_residual as exact_residual
+from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
+from .spin_up.residual import residual_amplitude as residual_amplitude

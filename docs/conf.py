@@ -86,7 +86,18 @@ html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_sidebars = dict.fromkeys(
-    ("index", "explorer", "validation", "conventions", "gotchas", "bibliography"), ()
+    (
+        "index",
+        "which_function",
+        "explorer",
+        "validation",
+        "scope",
+        "conventions",
+        "gotchas",
+        "faq",
+        "bibliography",
+    ),
+    (),
 )
 html_theme_options = {
     "navigation_with_keys": True,

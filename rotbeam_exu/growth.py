@@ -24,7 +24,7 @@ class GrowthRate:
     rate : float
         Of the envelope [1/s]; negative where it decays.
     decades : float
-        Powers of ten over which it was fitted.
+        Powers of ten over which it was measured.
     start, largest : float
         The envelope over the first period, and the largest of the run, over L; root mean squares
         over a period.
@@ -45,24 +45,25 @@ def growth_rate_of(
     """Return how fast the motion out of the plane grows, from its envelope.
 
     The envelope is the root mean square over a whole period of the oscillation in the plane, of w
-    and w_dot/Ω, at every sample. A line is fitted to its logarithm, over the last powers of ten in
-    which it is small: what does not grow has been left behind by then.
+    and w_dot/Ω, at every sample. What its logarithm gains in whole periods is averaged over the
+    last powers of ten in which it is small: what does not grow has been left behind by then.
 
     Parameters
     ----------
     run : Dataset
         As made by `simulate_3d`, over at least two periods of the oscillation in the plane.
     decades : float
-        Powers of ten to fit, at most.
+        Powers of ten to measure over, at most.
     small : float
-        The envelope over L at which the fit ends.
+        The envelope over L at which that ends.
     period : float, optional
         Of the oscillation in the plane [s]; otherwise from the zeros of q.
 
     Raises
     ------
     ValueError
-        If the run has no w, is shorter than two periods or has no oscillation in the plane.
+        If the run has no w, is shorter than two periods, has no oscillation in the plane, or grows
+        too fast to be measured.
     """
     for name in ("q", "w", "w_dot"):
         if name not in run:
@@ -83,7 +84,7 @@ def growth_rate_of(
     w, w_dot = steady["w"].to_numpy(), steady["w_dot"].to_numpy()
     squares = (w / length) ** 2 + (w_dot / length * period / (2.0 * math.pi)) ** 2
     envelope, at = _over_a_period(time, squares, period)
-    rate, fitted = _fit(at, envelope, decades, small)
+    rate, fitted = _fitted(at, envelope, period, decades, small)
     return GrowthRate(
         rate=rate, decades=fitted, start=float(envelope[0]), largest=float(envelope.max()),
         period=period,
@@ -115,16 +116,27 @@ def _over_a_period(
     return np.sqrt(mean), time[starts]
 
 
-def _fit(
-    time: FloatArray, envelope: FloatArray, decades: float, small: float
+def _fitted(
+    time: FloatArray, envelope: FloatArray, period: float, decades: float, small: float
 ) -> tuple[float, float]:
-    """Return the slope of the envelope's logarithm [1/s], and over how many decades."""
+    """Return the rate at which the envelope grows [1/s], and over how many decades.
+
+    The mean of ln A(t + kT) - ln A(t) over kT, with k whole periods about half of the range:
+    within a period the envelope of a growing motion is no straight line.
+    """
     above = np.flatnonzero(envelope > small)
     end = int(above[0]) if above.size else envelope.size
-    if end < 2:
-        return math.inf, 0.0
     logarithm = np.log(np.maximum(envelope[:end], np.finfo(float).tiny))
-    inside = np.flatnonzero(logarithm < logarithm[-1] - decades * math.log(10.0))
-    start = int(inside[-1]) + 1 if inside.size else 0
-    slope = np.polyfit(time[start:end] - time[start], logarithm[start:], 1)[0]
-    return float(slope), float((logarithm[-1] - logarithm[start]) / math.log(10.0))
+    lower = logarithm[-1] - decades * math.log(10.0) if end else math.inf
+    start = int(np.flatnonzero(logarithm >= lower)[0]) if end else 0
+    span = time[end - 1] - time[start]
+    if end < 2 or span <= period:
+        raise ValueError(
+            f"the motion out of the plane grows through the last {decades:g} powers of ten below "
+            f"{small:g} of the length in less than a period: start with a smaller kick and take "
+            "more decades"
+        )
+    lag = max(1, int(0.5 * span / period)) * period
+    later = np.interp(time[start:end] + lag, time[:end], logarithm, right=np.nan)
+    rate = float(np.nanmean(later - logarithm[start:]) / lag)
+    return rate, float((logarithm[-1] - logarithm[start]) / math.log(10.0))

@@ -211,7 +211,7 @@ def check_run(run: xr.Dataset) -> str:
     attrs = run.attrs
     step, length = float(attrs["step"]), float(attrs["beam_length"])
     for name, variable in run.data_vars.items():
-        bad = ~np.isfinite(variable.to_numpy())
+        bad = ~np.isfinite(variable.to_numpy()).reshape(time.size, -1).all(axis=1)
         if bad.any():
             first = int(np.argmax(bad))
             raise SimulationError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,9 +13,13 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
+from ..plotting import axes_or_new
 from .stability_limit import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
+
+if TYPE_CHECKING:
+    from ..plotting import Axes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +156,34 @@ class Backbone:
         "" too of a blade whose section out of the plane is unknown; computed when first asked for.
         """
         return planar_note(self.beam, self.omega, float(self.amplitude.max()), self.mode)
+
+    def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
+        """Draw the peak amplitude over the frequency, from ω_n on, and return the axes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        **line
+            As for matplotlib's `Axes.plot`, such as color and label.
+
+        Examples
+        --------
+        >>> from analytic import Beam, periodic_orbits
+        >>> ax = periodic_orbits(Beam.reference(), 6.0, [0.1, 0.2, 0.3]).plot()
+        """
+        ax = axes_or_new(ax)
+        order = np.argsort(self.amplitude)
+        mode = "" if self.mode == 1 else f", mode {self.mode}"
+        ax.plot(
+            np.append(self.omega_n, self.frequency[order]),
+            np.append(0.0, self.amplitude[order]),
+            **{"label": f"ω = {self.omega:g} rad/s{mode}", **line},
+        )
+        ax.set(xlabel="frequency $ω_{NL}$ [rad/s]", ylabel="peak |q|/L")
+        ax.set_ylim(bottom=0.0)
+        ax.legend()
+        return ax
 
     def __str__(self) -> str:
         note = f"; {self.out_of_plane}" if self.out_of_plane else ""

@@ -16,11 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_array, positive, rotation_speed, whole_number
-from .backbone import AmplitudeNotReachedError
 from .backbone_series import BackboneCurve, in_powers, in_square
+from .branch import AmplitudeNotReachedError, branch_of
 from .curve import care_for, fitted_curve
 from .modes import resolved_model
-from .periodic import branch_of
 
 _POINTS = 8  # curves that an answer comes from
 _COEFFICIENTS = 10

@@ -13,7 +13,8 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array
 
-_BLOCK = 16384  # amplitudes that stay in the cache while powers are summed
+_SHARE = 0.3  # of a curve's error, which coefficients left out may have
+_BLOCK = 32768  # amplitudes that stay in the cache while powers are summed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,17 +50,21 @@ class BackboneCurve:
 
     @cached_property
     def _powers(self) -> FloatArray:
-        return in_powers(self.series)
+        return in_powers(_shortened(self.series, _SHARE * self.error))
+
+    @cached_property
+    def _first_powers(self) -> FloatArray:
+        return in_powers(_shortened(self.first, _SHARE * self.error))
 
     @property
     def lambda_omega(self) -> float:
         """λ_ω of ω_NL = ω_n (1 - λ_ω a² - κ a⁴ - ...) [-], a the peak."""
-        return -float(self._powers[1])
+        return -float(in_powers(self.series)[1])
 
     @property
     def kappa(self) -> float:
         """κ of the same [-], the fifth order of the extensible beam."""
-        return -float(self._powers[2])
+        return -float(in_powers(self.series)[2])
 
     def frequency(self, a: ArrayLike) -> FloatArray:
         """Return ω_NL [rad/s] at the peaks `a`, of their shape.
@@ -74,7 +79,7 @@ class BackboneCurve:
     def first_harmonic(self, a: ArrayLike) -> FloatArray:
         """Return the first harmonic of q/L at the peaks `a`, of their shape; refuses as above."""
         amplitude = self._within(a)
-        return amplitude * in_square(in_powers(self.first), amplitude)
+        return amplitude * in_square(self._first_powers, amplitude)
 
     def _within(self, a: ArrayLike) -> FloatArray:
         amplitude = finite_array("amplitude", a)
@@ -95,6 +100,12 @@ class BackboneCurve:
         )
 
 
+def _shortened(series: Chebyshev, error: float) -> Chebyshev:
+    """Return the series without the last coefficients, as many as sum up to less than `error`."""
+    left_out = np.cumsum(np.abs(series.coef[::-1]))
+    return series.cutdeg(series.degree() - int(np.sum(left_out < error)))
+
+
 def in_powers(series: Chebyshev) -> FloatArray:
     """Return the coefficients of the powers of a²."""
     return np.asarray(series.convert(kind=Polynomial, domain=[-1.0, 1.0], window=[-1.0, 1.0]).coef)
@@ -102,14 +113,16 @@ def in_powers(series: Chebyshev) -> FloatArray:
 
 def in_square(coefficients: FloatArray, a: FloatArray) -> FloatArray:
     """Return Σ c_k a^2k, of the shape of `a`: by Horner's rule, in blocks that fit the cache."""
-    flat, powers = np.ravel(a), coefficients.tolist()
-    result = np.empty_like(flat)
+    flat, powers = np.ravel(a), [*coefficients.tolist(), 0.0][: max(2, len(coefficients))]
+    result, squares = np.empty_like(flat), np.empty(min(flat.size, _BLOCK))
     for start in range(0, flat.size, _BLOCK):
         part = flat[start : start + _BLOCK]
-        square, value = part * part, result[start : start + _BLOCK]
-        value[:] = powers[-1]
-        for power in powers[-2::-1]:
-            value *= square
+        square, value = squares[: part.size], result[start : start + _BLOCK]
+        np.multiply(part, part, out=square)
+        np.multiply(square, powers[-1], out=value)
+        for power in powers[-2:0:-1]:
             value += power
+            value *= square
+        value += powers[0]
     # A scalar for a scalar, as NumPy's own functions have it.
     return result.reshape(np.shape(a))[()]

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.linalg import solve_triangular
+from scipy.optimize import nnls
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
@@ -20,9 +21,9 @@ from .residual import modes_for, residuals
 _MORE_WAVES = 4
 _NEWTON_STEPS, _SETTLED, _DIFFERENCE = 20, 1e-3, 1e-6
 _SOLVED = 1e-7  # of the length: what the closed form may leave
-_INSTANTS = np.linspace(0.0, 1.0, 101)
-_INSIDE, _WITHIN = 3e-4, 1e-4
-"""Share of the limits that instants keep for what is between them, and the optimizer of that."""
+_INSTANTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1.0, 120.0) / 120.0)  # denser at both ends
+_INSIDE = 3e-4  # share of the limits kept for what is between the instants
+_IMPOSSIBLE = 1e-12
 _WILD = 1e3  # coefficients of a ramp that goes to and fro for no use
 _CORRECTIONS, _LEFT = 6, 1e-6
 _LONGER, _LONGEST = 1.25, 12
@@ -67,10 +68,13 @@ class _Task:
             sines=(-float(self.order @ b), *b),
         )
 
+    def closed_form(self, y: FloatArray) -> ComplexArray:
+        """Return Z of the modes, (modes,)."""
+        return residuals(self.beam, self.ramp(y), self.modes, np.array([self.duration]))[:, 0]
+
     def equations(self, y: FloatArray, target: ComplexArray) -> FloatArray:
         """Return what the modes lack of the target by the closed form, (2 modes,)."""
-        times = np.array([self.duration])
-        z = residuals(self.beam, self.ramp(y), self.modes, times)[:, 0] - target
+        z = self.closed_form(y) - target
         return np.concatenate((z.real, z.imag))
 
     def tangent(self, y: FloatArray, target: ComplexArray) -> FloatArray:
@@ -79,16 +83,22 @@ class _Task:
         step = _DIFFERENCE * np.eye(y.size)
         return np.stack([self.equations(y + d, target) - here for d in step], axis=1) / _DIFFERENCE
 
-    def room(self, y: FloatArray) -> FloatArray:
-        """Return what is left to the limits, over them: negative where one is passed."""
-        ramp, t = self.ramp(y), self.duration * _INSTANTS
-        rate, acceleration = ramp.rate(t), ramp.acceleration(t)
-        lowest = min(self.start, self.omega, 0.0)
-        room = [(self.highest - rate) / self.highest, (rate - lowest) / self.highest]
-        room = [part + _INSIDE for part in room]  # at both ends there is none
-        if math.isfinite(self.steepest):
-            room += [1.0 - acceleration / self.steepest, 1.0 + acceleration / self.steepest]
-        return np.concatenate(room) - _INSIDE
+    @cached_property
+    def room(self) -> tuple[FloatArray, FloatArray]:
+        """G and h of the limits, G y + h ≥ 0: rate and acceleration are linear in the unknowns."""
+
+        def at(y: FloatArray) -> FloatArray:
+            ramp, t = self.ramp(y), self.duration * _INSTANTS
+            share = ramp.rate(t) / self.highest
+            room = [share, 1.0 - share]
+            if math.isfinite(self.steepest):
+                share = ramp.acceleration(t) / self.steepest
+                room += [1.0 - _INSIDE - share, 1.0 - _INSIDE + share]
+            return np.concatenate(room)
+
+        here = at(self.eq_1)
+        slopes = [at(unit) - here for unit in np.eye(self.eq_1.size)]
+        return np.stack(slopes, axis=1), here
 
 
 def design_ramp(
@@ -103,9 +113,9 @@ def design_ramp(
 ) -> SmoothRamp:
     """Return a smooth change of the speed that leaves the first modes at rest.
 
-    Of all ramps of so many waves whose integrals vanish in the closed form it is the smoothest
-    within the limits; what the exact transient then leaves of the first mode is the next target of
-    the closed form, with its sign changed, until nothing is left.
+    Of all ramps of so many waves whose integrals vanish in the closed form it is, within the
+    limits, the closest to Eq. 1; what the exact transient then leaves is made the next target of
+    the closed form, with its sign changed, until 1e-6 of the length is left.
 
     Parameters
     ----------
@@ -148,8 +158,8 @@ def design_ramp(
         if steepest * duration <= abs(omega - start):
             raise ValueError(
                 f"acceleration_limit = {steepest:g} rad/s² takes "
-                f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} rad/s, "
-                f"and the duration is {duration:g} s: take a longer one"
+                f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} "
+                f"rad/s, and the duration is {duration:g} s: take a longer one"
             )
     widest = SmoothRamp(start=highest, omega=omega, ramp_time=duration)
     task = _Task(
@@ -173,54 +183,51 @@ def _corrected(task: _Task) -> SmoothRamp:
             return ramp
         if size > last:
             break
-        target, last = target - left, size
+        # What is small already stays as it is.
+        here, last = task.closed_form(y), size
+        target = here - np.where(np.abs(left) > 0.1 * _LEFT, left, 0.0)
     raise RuntimeError(
         f"on a ramp of {task.duration:g} s the blade swings so far that corrections do not settle: "
         f"{size:.1e} of its length is left; take a longer duration"
     )
 
 
-def _solved(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray | None:
-    """Return the unknowns of least norm that meet the target within the limits, None without."""
-    still = np.zeros(y.size)
+def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray | None:
+    """Return the unknowns closest to `near` that meet target and limits, None without any."""
+    y, still = near, np.zeros(near.size)
     for _ in range(_NEWTON_STEPS):
         defect, J = task.equations(y, target), task.tangent(y, target)
-        # Of all that meets the linear equations for the next y to _SOLVED, the smallest: what is
+        # Of all that meets the linear equations for the next y to _SOLVED, the closest: what is
         # small by itself, as of high modes, takes no effort.
-        rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ y - defect) / _SOLVED
-        before, y = y, np.linalg.lstsq(rows, np.append(sides, still), rcond=None)[0]
-        if np.abs(y).max() > _WILD:
+        rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ (y - near) - defect) / _SOLVED
+        slopes, room = task.room
+        change = _closest(rows, np.append(sides, still), slopes, -room - slopes @ near)
+        if change is None or np.abs(near + change).max() > _WILD:
             return None
+        before, y = y, near + change
         if np.abs(y - before).max() < _SETTLED and np.abs(defect).max() < 10.0 * _SOLVED:
             break
     else:
         return None
-    if task.room(y).min() < -_WITHIN:
-        y = _within_limits(task, y, target)
-        if np.abs(task.equations(y, target)).max() > 10.0 * _SOLVED:
-            return None
-    return y if task.room(y).min() >= -_WITHIN else None
+    return y
 
 
-def _within_limits(task: _Task, y: FloatArray, target: ComplexArray) -> FloatArray:
-    """Return what of least norm meets the target and the limits, as far as it is found."""
-    heard = np.linalg.norm(task.tangent(y, target), axis=1) > 100.0 * _SOLVED
-    found = minimize(
-        lambda y: float(y @ y),
-        y,
-        jac=lambda y: 2.0 * y,
-        method="SLSQP",
-        constraints=(
-            {
-                "type": "eq",
-                "fun": lambda y: task.equations(y, target)[heard],
-                "jac": lambda y: task.tangent(y, target)[heard],
-            },
-            {"type": "ineq", "fun": task.room},
-        ),
-        options={"ftol": 1e-8, "maxiter": 60},
-    )
-    return np.asarray(found.x)
+def _closest(
+    rows: FloatArray, sides: FloatArray, slopes: FloatArray, least: FloatArray
+) -> FloatArray | None:
+    """Return y that makes |rows y - sides| least within slopes y ≥ least, None where none is.
+
+    The least-distance problem of Lawson and Hanson (1974), chapter 23.
+    """
+    Q, R = np.linalg.qr(rows)
+    free = Q.T @ sides
+    slopes = solve_triangular(R, slopes.T, trans="T").T
+    both = np.vstack((slopes.T, least - slopes @ free))
+    unit = np.append(np.zeros(free.size), 1.0)
+    rest = both @ nnls(both, unit)[0] - unit
+    if abs(rest[-1]) < _IMPOSSIBLE:
+        return None
+    return np.asarray(solve_triangular(R, free - rest[:-1] / rest[-1]))
 
 
 def _too_short(task: _Task) -> str:

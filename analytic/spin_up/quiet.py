@@ -51,7 +51,7 @@ class QuietRamps:
 
 
 def quiet_ramp_times(
-    beam: AnyBlade, omega: float, *, longest: float | None = None, tolerance: float = 1e-5
+    beam: AnyBlade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
 ) -> QuietRamps:
     """Return the ramp times of Eq. 1 up to `longest` at which the least is left.
 

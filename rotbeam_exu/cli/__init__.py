@@ -22,15 +22,14 @@ app = cyclopts.App(
     name="rotbeam",
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
     version=__version__,
-    help_format="plaintext",
     help_epilogue="rotbeam COMMAND --help has examples. Speeds are in rad/s, all else in SI units.",
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
 _COMMANDS = (
-    "run", "backbone", "campbell", "respond", "stability", "sweep", "compare", "figure", "table",
-    "explore", "animate", "verify", "kit", "judge", "doctor",
+    "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
+    "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge", "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 

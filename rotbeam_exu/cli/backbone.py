@@ -108,7 +108,7 @@ def backbone(
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))
     for sentence in _grouped(refused):
-        warnings.warn(f"no answer of {sentence}", RotbeamWarning, stacklevel=2)
+        warnings.warn(f"no answer: {sentence}", RotbeamWarning, stacklevel=2)
     if failure:
         raise RuntimeError(failure)
 
@@ -131,10 +131,13 @@ def _grouped(refused: list[Refusal]) -> list[str]:
     kinds: dict[str, list[Refusal]] = {}
     for name, sentence in dict.fromkeys(refused):
         kinds.setdefault(sentence.replace(name, "#"), []).append((name, sentence))
-    return [
-        f"{', '.join(dict.fromkeys(name for name, _ in group))}: {group[0][1]}"
-        for group in kinds.values()
-    ]
+    sentences = []
+    for group in kinds.values():
+        names = list(dict.fromkeys(name for name, _ in group))
+        _, first = group[0]
+        told = len(names) == 1 and names[0] in first
+        sentences.append(first if told else f"{', '.join(names)}: {first}")
+    return sentences
 
 
 def _exact(
@@ -221,15 +224,14 @@ def _print_coefficients(models: list[ReducedModel], truth: Backbone | None, omeg
         rows.append(
             ("exact", f"{truth.omega_n:.6f}", "-", "-", f"{truth.lambda_omega:.6f}", "-", "-")
         )
-    titles = (
+    titles = [
         "variant", "ω_n\n[rad/s]", "Eq. 41's\ng1", "Eq. 41's\ng2", "Eq. 64's\nλ_ω", "Eq. 65's\nλ_x",
         "κ",
-    )  # fmt: skip
-    if all(row[-1] == "-" for row in rows):
-        titles, rows = titles[:-1], [row[:-1] for row in rows]
+    ]  # fmt: skip
+    shown = len(titles) if any(model.kappa for model in models) else len(titles) - 1
     whose = models[0].variant.name if len(models) == 1 else f"{len(models)} models"
     print_columns(
-        {title: [row[i] for row in rows] for i, title in enumerate(titles)},
+        {title: [row[i] for row in rows] for i, title in enumerate(titles[:shown])},
         "table",
         title=f"{whose} at ω = {omega:g} rad/s (Ω = {models[0].speed_ratio:.4g})",
     )

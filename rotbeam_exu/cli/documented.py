@@ -21,5 +21,5 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
 
 
 def epilogue(examples: tuple[str, ...]) -> str:
-    """Return examples as they stand below the options."""
-    return "\n".join(["Examples:", *(f"  {example}" for example in examples)])
+    """Return examples as Markdown, each in a line of its own: two spaces break one."""
+    return "Examples:\n\n" + "  \n".join(examples) if examples else ""

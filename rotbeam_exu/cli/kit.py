@@ -9,12 +9,16 @@ from .output import new_console
 
 
 def kit(directory: Path, /) -> None:
-    """Write the problem, its data, starters in five languages and a sample submission.
+    """Write the problem, its data and starters in five languages.
 
     Parameters
     ----------
     directory
         New, or empty.
+
+    Examples
+    --------
+    $ rotbeam kit benchmark
     """
     folder = write_kit(directory)
     count = sum(path.is_file() for path in folder.rglob("*"))

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
@@ -40,17 +40,27 @@ Jobs = Annotated[int | None, Parameter(converter=whole)]
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
 
-NoFigure = Annotated[bool, Parameter(name="--no-figure", negative=(), show_default=False)]
-"""Leave the figure out, which takes as long as a short run."""
+NoFigure = Annotated[
+    bool,
+    Parameter(
+        name="--no-figure", negative=(), show_default=False, help="Write no figure, data only."
+    ),
+]
+"""A switch of the commands that write a figure beside their data."""
 
 
 def spelled_as(known: Iterable[str]) -> Callable[[Any, Sequence[Token]], str]:
     """Return a converter to the known name that differs in upper and lower case only, if any."""
-    by_lower = {name.lower(): name for name in known}
-    return lambda _, tokens: by_lower.get(tokens[0].value.lower(), tokens[0].value)
+    names = tuple(known)
+    return lambda _, tokens: _spelled(tokens[0].value, names)
 
 
-Element = Annotated[str, Parameter(converter=spelled_as([*FORMULATIONS, *ALIASES]))]
+def _spelled(text: str, known: Iterable[str]) -> str:
+    return {name.lower(): name for name in known}.get(text.lower(), text)
+
+
+_ELEMENTS = (*FORMULATIONS, *ALIASES)
+Element = Annotated[str, Parameter(converter=spelled_as(_ELEMENTS))]
 """Name of a formulation; what is none is refused by `formulation`."""
 
 VariantName = Annotated[str, Parameter(converter=spelled_as(VARIANTS))]
@@ -127,7 +137,12 @@ class Discretization:
             frame=self.frame,
         )  # fmt: skip
         options = dict(map(_name_and_value, self.option or []))
-        return replace(Numerics(**{**numerics, **mine}), option=options)
+        chosen = Numerics(**{**numerics, **mine}, option=options)
+        return replace(
+            chosen,
+            element=_spelled(chosen.element, _ELEMENTS),
+            frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
+        )
 
 
 def given(**options: Any) -> dict[str, Any]:

@@ -61,6 +61,11 @@ def stability(
         In-plane mode from which the orbits grow.
     config
         TOML file with the beam; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
+    $ rotbeam stability --omega 6 --section tube
     """
     whole_number("mode", mode)
     require_affordable(
@@ -73,7 +78,8 @@ def stability(
     amplitudes = sorted(set(amplitude))
     shape = section if ratio is None else f"{section}-{ratio:g}"
     path = writable_folder(results.out) / f"stability-{shape}-omega-{omega:g}-mode-{mode}"
-    inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": amplitudes}
+    asked = " ".join(f"{a:.17g}" for a in amplitudes)
+    inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
     found = planar_stability(blade, omega, amplitudes, mode)

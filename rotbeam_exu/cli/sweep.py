@@ -14,19 +14,17 @@ import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 
-from analytic import SpinUp
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import whole_number
 
 from .. import paper
 from ..files.results import save, writable_folder
-from ..files.run_file import RunFile
 from ..sweeps.dask import dask_executor
 from ..sweeps.grid import failed_cases
 from ..sweeps.grid import sweep as run_sweep
 from .configuration import configured
 from .cost import require_affordable
-from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, refuse_rest
-from .options import Discretization, Flag, Numerics, Results, Workers
+from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
+from .options import Discretization, Flag, Results, Workers
 from .output import choice, new_console, print_columns, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
@@ -93,7 +91,7 @@ def sweep(
     omegas = chosen_speeds(beam, *paper.SPEEDS) if omega is None else omega
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
     refuse_rest(*omegas)
-    motion = _motion(file, omegas, ramp_times, numerics)
+    motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
     if executor == "dask" and scheduler is None:
         raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
@@ -203,20 +201,6 @@ def _kept_and_counted(
             shown(done, number)
 
         yield progress
-
-
-def _motion(
-    file: RunFile, omegas: list[float], ramp_times: list[float], numerics: Numerics
-) -> Motion:
-    """Return duration and step for a whole grid: of the longest ramp and the shortest."""
-    for omega in omegas:
-        SpinUp(omega=omega, ramp_time=1.0)
-    checked = [positive("ramp_time", time, "s") for time in ramp_times]
-    longest, shortest = max(checked, default=None), min(checked, default=None)
-    step, duration = numerics.step, numerics.duration
-    if step is None:
-        step = chosen_motion(file.beam, ramp_time=shortest, duration=duration).step
-    return chosen_motion(file.beam, ramp_time=longest, duration=duration, step=step)
 
 
 def _values(values: list[float]) -> str:

@@ -98,16 +98,17 @@ def finite_element_budget(
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     largest_amplitude: float = 0.6,
+    step: float = 1e-3,
     **options: Any,
 ) -> xr.Dataset:
     """Distance of the paper's mesh from the exact backbone, step and mesh apart.
 
     The distance of a point is its ratio less the exact one at its own amplitude, positive where
-    the point is too high. Step: 16 elements at 1 ms less the same with the step extrapolated to
-    zero. Mesh: that less 64 elements, step to zero. Rest: what those still differ. The three add up
-    to the distance, and step and mesh have opposite signs: their sum may vanish where neither does.
-    Estimator: the bar ± of the frequency's estimate, not a part of the sum. Amplitudes are half
-    peak to peak on both sides.
+    the point is too high. Step: 16 elements at `step` [s] less the same with the step extrapolated
+    to zero. Mesh: that less 64 elements, step to zero. Rest: what those still differ. The three
+    add up to the distance, and step and mesh have opposite signs: their sum may vanish where
+    neither does. Estimator: the bar ± of the frequency's estimate, not a part of the sum.
+    Amplitudes are half peak to peak on both sides.
 
     Returns
     -------
@@ -117,13 +118,13 @@ def finite_element_budget(
     """
     beam = beam or Beam.reference()
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
-    paper = finite_element_points(beam, mesh="paper", **grid)
-    twice = sweep(beam, elements=16, step=2e-3, frame="inertial", **grid)
+    paper = finite_element_points(beam, mesh="paper", step=step, **grid)
+    twice = sweep(beam, elements=16, step=2.0 * step, frame="inertial", **grid)
     doubled = xr.Dataset(
         {"amplitude": twice["amplitude"], "ratio": twice["frequency"] / twice["omega_n"]}
     )
     no_step = paper[["amplitude", "ratio"]] + (paper[["amplitude", "ratio"]] - doubled) / 3.0
-    converged = finite_element_points(beam, mesh="converged", **grid)
+    converged = finite_element_points(beam, mesh="converged", step=step, **grid)
     distances = [
         _distance(beam, points, largest_amplitude) for points in (paper, no_step, converged)
     ]

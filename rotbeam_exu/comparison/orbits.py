@@ -14,6 +14,7 @@ from analytic.arrays import FloatArray
 from ..fem.simulation import simulate
 from ..oscillation import steady_oscillation
 from ..paper import MODELS
+from ..verdict import beam_attributes
 from .theory import beyond_range
 
 
@@ -92,8 +93,8 @@ def figure_15(
             "omega": omega,
             "ramp_time": ramp_time,
             "amplitude": steady.amplitude,
-            "elements": run.attrs["elements"],
-            "element": run.attrs["element"],
+            **{name: run.attrs[name] for name in ("elements", "element", "step", "frame")},
+            **beam_attributes(beam),
         },
     )
 

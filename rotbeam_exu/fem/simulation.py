@@ -193,6 +193,7 @@ def _settings(
     return solver_settings(
         steps, case.step / units.time, every, case.frame, round_off=floor,
         new_jacobians=getattr(case.model, "new_jacobians", False),
+        spectral_radius=getattr(case.model, "spectral_radius", 0.9),
     )  # fmt: skip
 
 

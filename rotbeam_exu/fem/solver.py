@@ -42,6 +42,7 @@ def solver_settings(
     *,
     round_off: float,
     new_jacobians: bool = False,
+    spectral_radius: float = 0.9,
 ) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
     """Solver settings, and the same as a plain record, all in the beam's units.
 
@@ -49,10 +50,11 @@ def solver_settings(
     the round-off is never met, whereupon adaptive stepping halves steps silently: Newton stops at
     an absolute force. In the rotating frame each iteration calls back into Python, and a new
     Jacobian for each step saves iterations; so it does where an element asks for `new_jacobians`.
+    An element may also ask for another `spectral_radius` in the inertial frame.
     """
     described: dict[str, Any] = {
         "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
-        "spectral_radius": 0.9 if frame == "inertial" else 1.0,
+        "spectral_radius": spectral_radius if frame == "inertial" else 1.0,
         "relative_tolerance": 1e-14,
         "absolute_tolerance": max(_TOLERANCE, round_off),
         "sample_every": every,

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 
 from ..paper import BLUE, ORANGE, RED
-from .style import COLUMN, CYCLE, STYLE, label, new_figure
+from .style import STYLE, colormap, column, cycle, ink, label, new_figure
 
 _MARKS = {"period doubling": "s", "divergence": "^", "sum resonance": "o"}
 
@@ -26,14 +26,14 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 2.6)[1]
+    ax = ax or new_figure(column(), 2.6)[1]
     assert ax is not None
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
     kinds, stable = data["kind"].to_numpy(), rate == 0.0
     with mpl.rc_context(STYLE):
         growing = np.where(stable, np.nan, rate)
         ax.plot(a, growing, color="0.7", lw=0.7, zorder=1)
-        for (kind, mark), color in zip(_MARKS.items(), (BLUE, RED, ORANGE), strict=True):
+        for (kind, mark), color in zip(_MARKS.items(), map(ink, (BLUE, RED, ORANGE)), strict=True):
             here = kinds == kind
             if here.any():
                 ax.plot(a[here], rate[here], mark, color=color, ms=3.5, label=kind)
@@ -67,13 +67,13 @@ def growth_out_of_plane(
     spin_ups : mapping, optional
         Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s].
     """
-    ax = ax or new_figure(COLUMN, 3.0)[1]
+    ax = ax or new_figure(column(), 3.0)[1]
     assert ax is not None
     rate = data["growth_rate"].where(data["growth_rate"] > 0.0).to_numpy().T
     with mpl.rc_context(STYLE):
         ax.set_facecolor("white")
         drawn = ax.pcolormesh(
-            data["omega"], data["a"], rate, cmap="YlOrRd", norm=LogNorm(0.01, 100.0),
+            data["omega"], data["a"], rate, cmap=colormap("YlOrRd"), norm=LogNorm(0.01, 100.0),
             shading="nearest", rasterized=True,
         )  # fmt: skip
         bar = ax.figure.colorbar(drawn, ax=ax, extend="both")
@@ -105,10 +105,10 @@ def stability_limits(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 2.6)[1]
+    ax = ax or new_figure(column(), 2.6)[1]
     assert ax is not None
     with mpl.rc_context(STYLE):
-        for omega, color, mark in zip(data["omega"].to_numpy(), CYCLE, "os^Dv<", strict=False):
+        for omega, color, mark in zip(data["omega"].to_numpy(), cycle(), "os^Dv<", strict=False):
             limit = data["limit"].sel(omega=omega)
             ax.plot(data["ratio"], limit.where(np.isfinite(limit)), f"{mark}-", color=color, ms=3,
                     label=f"{omega:g} rad/s")  # fmt: skip

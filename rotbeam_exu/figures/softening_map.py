@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, RED
-from .style import COLUMN, STYLE, label, new_figure
+from .style import STYLE, colormap, column, label, new_figure
 
 
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -21,7 +21,7 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 3.0)[1]
+    ax = ax or new_figure(column(), 3.0)[1]
     assert ax is not None
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
     values, ratio = data["lambda_omega"].to_numpy().T, data["ratio"].to_numpy().T
@@ -29,7 +29,12 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
     with mpl.rc_context(STYLE):
         filled = ax.contourf(
-            x, y, values, levels=np.linspace(-limit, limit, 17), cmap="RdBu_r", extend="both"
+            x,
+            y,
+            values,
+            levels=np.linspace(-limit, limit, 17),
+            cmap=colormap("RdBu_r"),
+            extend="both",
         )
         colorbar = ax.figure.colorbar(filled, ax=ax, ticks=np.linspace(-limit, limit, 5))
         colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
@@ -53,7 +58,7 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 2.4)[1]
+    ax = ax or new_figure(column(), 2.4)[1]
     assert ax is not None
     x = data["w_bar"].to_numpy()
     with mpl.rc_context(STYLE):

@@ -24,8 +24,8 @@ from .submission_files.histories import DIGITS, FARTHEST
 STATIC = Path(__file__).parent / "data" / "kit"
 """What is in every kit as it stands: the problem, starters, a sample submission."""
 
-MESHES = (8, 16, 32, 64)
-"""Numbers of elements at whose nodes an orbit is written."""
+MESHES = (8, 16, 32, 64, 128)
+"""Numbers of elements at whose nodes an orbit is written; those of order two need the last ones."""
 
 _SOURCES = {"problem.typ", "PROBLEM.sha256"}  # of the PDF, which is what an author wants
 

@@ -232,7 +232,7 @@ def test_amplitudes_in_any_order(beam):
 
 
 def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.periodic.THOROUGH", Care(harmonics=30))
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
         periodic_orbits(beam, 4.0, [0.2], mode=3, inextensible=True)
 

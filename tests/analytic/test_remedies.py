@@ -133,7 +133,7 @@ def test_unsettled_frequencies():
 
 
 def test_amplitude_not_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.periodic.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
     assert caught.value.backbone.amplitude.tolist() == [0.1]

@@ -86,7 +86,7 @@ def test_what_one_model_refuses_does_not_take_the_others_away(call, tmp_path):
     assert code == 0
     assert [row["variant"] for row in csv.DictReader(io.StringIO(out))] == ["FrC", "FrM", "FrM5"]
     assert error.count("warning:") == 1
-    assert "no answer of CI, CE, FrI, FrE, P3, P4, P5: CI is for the uniform beam" in error
+    assert "no answer: CI, CE, FrI, FrE, P3, P4, P5: CI is for the uniform beam" in error
     # Who asked for one by its name did not get what was asked for.
     code, out, error = call("backbone", "--variant", "ci", "--amplitude", "0.1", "--config", blade)
     assert (code, out) == (2, "")

@@ -43,6 +43,9 @@ COMMANDS = {
     "respond": (("respond", "--from", "1", "--to", "2", "--points", "2", "--damping-ratio", "0.1",
                  "--gravity", "--out", "{folder}/out"),
                 ("--gravity", "--damping-ratio", "--omega", "--ripple", "--config")),
+    "ramp": (("ramp", "--longest", "3", "--points", "0", "--finite-element-points", "0", "--out",
+              "{folder}/out"),
+             ("--omega", "--longest", "--points", "--element", "--elements", "--config")),
     "animate": (("animate", "--out", "{folder}/film.pdf"),
                 ("--omega", "--ramp-time", "--duration", "--rate", "--slow-motion", "--config")),
 }  # fmt: skip

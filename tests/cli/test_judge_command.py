@@ -1,6 +1,7 @@
 """`rotbeam judge`: faults, mistakes, tables, files; without Exudyn."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -104,7 +105,7 @@ def test_what_is_missing_is_run_first(call, folder, monkeypatch):
     code, out, _ = call("judge", folder, "--run")
     assert out.startswith("S1/m064_h1e-3.csv: running\nS1/m064_h1e-3.csv: ")
     assert "m008" not in out
-    assert "64 × 1 ms" in out
+    assert re.search(r" 64 +1 ", out)
     assert code == 0
 
 

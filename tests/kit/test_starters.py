@@ -124,9 +124,9 @@ def test_the_chain_converges_to_the_reference(chain, kit, tmp_path):
 @pytest.mark.parametrize("case", ["V", "S2", "S3", "O", "S4", "S1+h", "S1+m", "S1+d", "S1+g"])
 def test_the_chain_converges_to_the_reference_in_every_case(case, chain, kit, tmp_path):
     """Damping, gravity, hub and tip mass of the reference, by a code that shares nothing."""
-    # The start of an orbit is given on meshes of 8 to 64.
-    meshes = (16, 32, 64) if case == "O" else (32, 64, 128)
-    found = judged(submitted(chain, kit, tmp_path / "mine", ["L", case], meshes=meshes))
+    # At 8 ms the midpoint rule, which damps nothing, loses the stiff springs in hard cases.
+    steps = ("4e-3", "2e-3", "1e-3")
+    found = judged(submitted(chain, kit, tmp_path / "mine", ["L", case], steps, (32, 64, 128)))
     assert found.outcome_of(case) is Outcome.REFERENCE, str(found)
 
 

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import linear_modes, periodic_orbits, reduced_model
+from analytic import SpinUp, linear_modes, periodic_orbits, reduced_model, residual_amplitude
 
 MODELS = Path(__file__).parents[2] / "models"
 
@@ -34,6 +34,14 @@ def test_spin_up(run, beam):
     # The distance of 16 elements at 1 ms from the exact beam is 2e-4 at most.
     assert found["ratio"] == pytest.approx(exact.frequency[0] / exact.omega_n, abs=2e-4)
     assert found["ratio"] == pytest.approx(0.99789, abs=2e-5)
+
+
+def test_quiet_spin_up(run, beam):
+    left = run("quiet_spin_up")["left"]
+    # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.
+    spin_up = SpinUp(omega=6.0, ramp_time=4.0)
+    assert left["Eq. 1"] == pytest.approx(residual_amplitude(beam, spin_up), rel=0.05)
+    assert left["designed"] < 1e-5
 
 
 def test_mesh_convergence(run):
@@ -138,6 +146,14 @@ def test_thickness_locking(run):
     # Bending as if E were E/(1 - ν²), ν = 0.3: the square root of 1/0.91, less what rotation adds.
     assert 0.03 < off["coupled"] < 0.91**-0.5 - 1.0
     assert abs(off["uncoupled"]) < 1e-5
+
+
+def test_backbone_formula(run, beam):
+    found = run("backbone_formula")
+    exact = periodic_orbits(beam, 6.0, [0.3]).frequency[0]
+    assert found["curve"].frequency(0.3) == pytest.approx(exact, rel=1e-9)
+    # Fifth order is a tenth of third order's error at 0.3, 0.2 against 3.4 % of the shift.
+    assert abs(found["said"][25] / found["shift"][25] - 1.0) < 0.004
 
 
 def test_scripts_are_short_and_all_tested():

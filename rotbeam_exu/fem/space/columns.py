@@ -60,4 +60,17 @@ def space_columns(
     twist = model.twist(coordinates)
     if twist is not None:
         values["twist"] = (twist, "rad", "twist of the tip's section about its normal")
-    return in_si(time, units, values)
+    run = in_si(time, units, values)
+    run["axis"] = (
+        ("time", "node", "direction"),
+        units.length * coordinates[..., :3],
+        {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"},
+    )
+    upright = model.upright(coordinates)
+    if upright is not None:
+        run["upright"] = (
+            ("time", "node", "direction"),
+            upright,
+            {"units": "1", "long_name": "axis of the sections that stands up at rest"},
+        )
+    return run.assign_coords(direction=["x", "y", "z"])

@@ -59,6 +59,9 @@ class SpaceFormulation(Formulation, Protocol):
     def twist(self, coordinates: FloatArray) -> FloatArray | None:
         """Return the twist [rad] of the tip's section about its normal, (samples,), if any."""
 
+    def upright(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the axis of the sections that is along z at rest, (samples, nodes, 3), if any."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceCable(SpaceSlopeNodes, NoDivergence):
@@ -113,6 +116,9 @@ class SpaceCable(SpaceSlopeNodes, NoDivergence):
     def twist(self, coordinates: FloatArray) -> None:
         """Return None: its sections have no direction."""
 
+    def upright(self, coordinates: FloatArray) -> None:
+        """Return None: its sections have no direction."""
+
 
 def _cable_energy(mesh: Mesh, coordinates: FloatArray) -> FloatArray:
     """Return the elastic energy (samples,) as Exudyn integrates it, with κ = |r'×r''|/|r'|²."""
@@ -155,6 +161,8 @@ class SpaceExact(FrameNodes, NoDivergence):
     takes_blades: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial",)
     new_jacobians: ClassVar[bool] = True  # half the time
+    # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.
+    spectral_radius: ClassVar[float] = 0.6
     summary: ClassVar[str] = "geometrically exact beam in space, two nodes, shear and torsion"
 
     def __post_init__(self) -> None:
@@ -214,6 +222,10 @@ class SpaceExact(FrameNodes, NoDivergence):
         """Return how far the section has turned from upright."""
         upright = directors(coordinates[:, -1, 3:])[:, 2]
         return np.unwrap(np.arctan2(upright[:, 1], upright[:, 2]))
+
+    def upright(self, coordinates: FloatArray) -> FloatArray:
+        """Return the third axis of the sections."""
+        return directors(coordinates[..., 3:])[..., 2]
 
     def _stiffness(self, blade: AnyBlade, section: ElementSection) -> list[float]:
         """Return EA, GA, GA, GJ, EI out of the plane and EI in it."""

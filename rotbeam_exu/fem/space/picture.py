@@ -1,0 +1,141 @@
+"""A run in space as a picture, by Exudyn's own ray tracer, which needs no display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import exudyn
+import numpy as np
+import xarray as xr
+from exudyn import graphics
+from exudyn.itemInterface import ObjectGround, VObjectGround
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from analytic.arrays import FloatArray
+from analytic.input_checks import finite_array, positive
+
+_WIDTH = 0.05
+"""Height of the drawn sections over L: as drawn to scale a slender blade is a hair."""
+
+_Color = tuple[float, float, float, float]
+
+_FLOOR: _Color = (0.86, 0.86, 0.84, 1.0)
+
+_COLORS: tuple[_Color, ...] = (
+    (0.12, 0.36, 0.60, 1.0),
+    (0.16, 0.55, 0.50, 1.0),
+    (0.55, 0.62, 0.22, 1.0),
+    (0.88, 0.60, 0.15, 1.0),
+    (0.78, 0.25, 0.20, 1.0),
+)
+
+
+def ray_traced(
+    run: xr.Dataset,
+    times: Sequence[float],
+    *,
+    size: tuple[int, int] = (1200, 700),
+    width: float = _WIDTH,
+    stretched: float = 1.0,
+) -> NDArray[np.uint8]:
+    """Return a picture of the blade at some times, an RGB array (height, width, 3).
+
+    Seen from the clamp's frame, whose plane of rotation is the floor; early times are blue, late
+    ones red. Sections are drawn as strips of one height, along the axis that is in the plane at
+    rest, so that bending in the plane and twist are seen.
+
+    Parameters
+    ----------
+    run : Dataset
+        As made by `simulate_3d` with element="exact".
+    times : sequence of float
+        When [s]; the nearest samples are drawn.
+    size : tuple of int
+        Of the picture, width and height [pixels].
+    width : float
+        Of the strips, over L.
+    stretched : float
+        By what deflections out of the plane are drawn larger.
+
+    Raises
+    ------
+    ValueError
+        If the run does not say how its sections stand.
+    """
+    if "upright" not in run:
+        raise ValueError(
+            "the run does not say how its sections stand, as the cable's have no direction: "
+            "simulate it with element='exact'"
+        )
+    at = finite_array("times", times, "s").ravel()
+    length = float(run.attrs["beam_length"])
+    frames = run[["axis", "upright"]].sel(time=at, method="nearest")
+    scale = np.array([1.0, 1.0, positive("stretched", stretched)])
+    shown = [
+        _strip(axis * scale, upright, 0.5 * width * length, _COLORS[k])
+        for axis, upright, k in zip(
+            frames["axis"].to_numpy(),
+            frames["upright"].to_numpy(),
+            np.linspace(0, len(_COLORS) - 1, at.size).round().astype(int),
+            strict=True,
+        )
+    ]
+    return _rendered([_floor(length), *shown], length, size)
+
+
+def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) -> dict[str, Any]:
+    """Return the strip along `axis` (nodes, 3), its height across to `upright`."""
+    along = np.gradient(axis, axis=0)
+    across = np.cross(upright, along)
+    across *= half / np.linalg.norm(across, axis=1, keepdims=True)
+    nodes = np.arange(len(axis))
+    edges = CubicSpline(nodes, np.stack((axis - across, axis + across), axis=1))
+    return _surface(edges(np.linspace(0, nodes[-1], 8 * nodes[-1] + 1)), color)
+
+
+def _floor(length: float) -> dict[str, Any]:
+    """Return a strip parallel to the plane of rotation, below the blade."""
+    x, y = np.array([-0.1, 1.1]) * length, np.array([-0.65, 0.2]) * length
+    corners = np.array([[[a, b, -0.15 * length] for b in y] for a in x])
+    return _surface(corners, _FLOOR)
+
+
+def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
+    """Return the triangles between two rows of points, (nodes, 2, 3)."""
+    first = 2 * np.arange(len(points) - 1)[:, None]
+    both = np.concatenate([first + np.array([0, 1, 3]), first + np.array([0, 3, 2])])
+    data: dict[str, Any] = graphics.FromPointsAndTrigs(
+        points.reshape(-1, 3), np.concatenate([both, both[:, ::-1]]), list(color)
+    )
+    return data
+
+
+def _rendered(
+    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int]
+) -> NDArray[np.uint8]:
+    """Return the picture of the surfaces of a blade of `length`."""
+    container = exudyn.SystemContainer()
+    try:
+        mbs = container.AddSystem()
+        mbs.AddObject(ObjectGround(visualization=VObjectGround(graphicsData=list(surfaces))))
+        mbs.Assemble()
+        settings = container.visualizationSettings
+        settings.view0.window.renderWindowSize = list(size)
+        settings.view0.scene.drawCoordinateSystem = False
+        settings.view0.window.showComputationInfo = False
+        settings.general.showSolverInformation = False
+        settings.openGL.multiSampling = 2
+        settings.raytracer.multiSampling = 3
+        settings.raytracer.numberOfThreads = 1
+        settings.raytracer.advanced.showText = False
+        container.renderer.ZoomAll()
+        container.renderer.SetModelView(
+            zoom=0.37 * length,
+            rotationVector=[-0.95, 0.0, 0.0],
+            centerPoint=[0.5 * length, -0.22 * length, 0.0],
+        )
+        return np.asarray(container.renderer.RedrawAndGetImage(useRaytracer=True))
+    finally:
+        container.Reset()

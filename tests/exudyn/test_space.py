@@ -1,0 +1,190 @@
+"""Exudyn in three dimensions: elements, runs, and what leaves the plane of rotation."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic import Beam, Damping, SpinUp, SteadyRotation, linear_modes, periodic_orbits
+from rotbeam_exu import simulate
+from rotbeam_exu.fem.elements.formulation import spun
+from rotbeam_exu.fem.space.elements import SpaceCable, SpaceExact
+from rotbeam_exu.fem.space.linearization import flap_frequencies
+from rotbeam_exu.fem.space.nodes import FrameNodes, directors
+from rotbeam_exu.fem.space.simulation import simulate_3d
+from rotbeam_exu.fem.space.state import SpaceState
+from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.fem.units import Units
+from rotbeam_exu.growth import growth_rate_of
+from rotbeam_exu.verdict import energy_drift
+
+ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+RECTANGLE = Beam.reference().rectangle()
+TUBE = Beam.reference().tube(0.015, 0.00077)
+MODELS = [(SpaceCable(), ALIKE), (SpaceExact(), RECTANGLE)]
+IDS = ["cable", "exact"]
+
+
+def deformed(model, reference, size, seed=3):
+    moved = reference + size * np.random.default_rng(seed).standard_normal(reference.shape)
+    if model.name == "exact":
+        moved[:, 3:] /= np.linalg.norm(moved[:, 3:], axis=1, keepdims=True)
+    return moved
+
+
+@pytest.mark.parametrize(("model", "blade"), MODELS, ids=IDS)
+def test_elastic_energy_is_the_potential_of_the_forces(model, blade, elastic_force):
+    """The energy is ours, the forces are Exudyn's."""
+    unit = Units.of(blade).beam(blade)
+    _, reference = elastic_force(model, unit, 2)
+    at = deformed(model, reference, 0.1)
+    force, _ = elastic_force(model, unit, 2, at)
+    with exudyn_system() as mbs:
+        energy = model.lay(mbs, unit, 2).elastic_energy
+    step, slope = 1e-6, np.empty(force.size)
+    for i in range(force.size):
+        change = np.zeros(force.size)
+        change[i] = step
+        ends = np.stack([at + s * change.reshape(at.shape) for s in (1, -1)])
+        slope[i] = np.subtract(*energy(ends)) / (2 * step)
+    # Central differences leave (1e-6)² and round-off 1e-16/1e-6.
+    assert np.abs(np.abs(slope) - np.abs(force)).max() < 1e-8 * np.abs(force).max()
+
+
+@pytest.mark.parametrize(("model", "blade"), MODELS, ids=IDS)
+def test_forces_turn_with_the_blade(model, blade, elastic_force):
+    unit = Units.of(blade).beam(blade)
+    _, reference = elastic_force(model, unit, 2)
+    at, angle = deformed(model, reference, 0.05), np.array([2.3])
+    force, _ = elastic_force(model, unit, 2, at)
+    after, _ = elastic_force(model, unit, 2, model.turned(at[None], angle)[0])
+    before = model.turned(force.reshape(1, *reference.shape), angle).ravel()
+    assert np.abs(after - before).max() < 1e-12 * np.abs(force).max()
+    # The rate of turning is the generator's.
+    later = model.turned(at[None], np.array([1e-6])) - model.turned(at[None], np.array([-1e-6]))
+    np.testing.assert_allclose(later / 2e-6, spun(model, at[None]), atol=1e-9)
+
+
+def test_rates_of_a_state_are_those_of_its_coordinates():
+    x, rng = np.linspace(0.0, 1.0, 4), np.random.default_rng(5)
+    names = ("u", "v", "w", "u_slope", "v_slope", "w_slope")
+    values, rates = 0.2 * rng.standard_normal((2, 6, 4))
+
+    def coordinates(t):
+        moved = dict(zip(names, values + t * rates, strict=True))
+        moving = {f"{name}_dot": rate for name, rate in zip(names, rates, strict=True)}
+        return FrameNodes().coordinates(x, SpaceState(**moved, **moving))
+
+    _, rate = coordinates(0.0)
+    difference = (coordinates(1e-6)[0] - coordinates(-1e-6)[0]) / 2e-6
+    np.testing.assert_allclose(rate, difference, atol=1e-9)
+    # The section's first axis is the tangent.
+    p = coordinates(0.0)[0][:, 3:]
+    tangent = np.stack((1.0 + values[3], values[4], values[5]), axis=1)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    np.testing.assert_allclose(directors(p)[..., 0], tangent, atol=1e-14)
+
+
+def test_twist_is_the_angle_about_the_tangent():
+    p = np.array([np.cos(0.15), np.sin(0.15), 0.0, 0.0])
+    at = np.zeros((1, 2, 7))
+    at[:, :, 3:] = p
+    turned = SpaceExact().turned(at, np.array([1.2]))
+    np.testing.assert_allclose(SpaceExact().twist(turned), 0.3, rtol=1e-14)
+
+
+@pytest.mark.parametrize("omega", [0.0, 2.0, 6.0])
+def test_flap_frequencies_of_the_cable(omega, fitted_order):
+    exact = linear_modes(ALIKE, omega, 3, plane="flap").frequencies
+    meshes = [8, 16, 32]
+    errors = [flap_frequencies(ALIKE, omega, elements=n) / exact - 1.0 for n in meshes]
+    assert np.abs(errors[-1]).max() < 1e-5
+    # Cubic elements: with the fourth power.
+    assert -fitted_order(meshes, [error[0] for error in errors]) == pytest.approx(4.0, abs=0.1)
+
+
+def test_without_a_kick_the_cable_in_space_is_the_cable_in_its_plane():
+    spin_up = SpinUp(omega=6.0, ramp_time=1.0)
+    settings = {"element": "cable", "elements": 4, "duration": 2.0, "step": 5e-3}
+    planar = simulate(Beam.reference(), spin_up, **settings)
+    space = simulate_3d(ALIKE, spin_up, kick=0.0, **settings)
+    assert np.array_equal(space["w"], np.zeros(space["time"].size))
+    for name in set(planar.data_vars):
+        scale = np.abs(planar[name]).max().item()
+        # Newton's tolerance on either side; residuals are zero but for round-off.
+        assert np.abs(space[name] - planar[name]).max() < 1e-7 * scale + 1e-11, name
+
+
+def test_energy_and_both_frames():
+    orbit = periodic_orbits(ALIKE, 2.0, [0.3])
+    runs = [
+        simulate_3d(
+            ALIKE, SteadyRotation(omega=2.0), element="cable", elements=4, duration=2.0, step=5e-3,
+            frame=frame, kick=1e-3, initial_state=lambda x: orbit.state(0, x),
+        )
+        for frame in ("inertial", "rotating")
+    ]  # fmt: skip
+    # Steps of 5 ms err by (ωh)²/12 in the phase of the modes of the kick, 4 % for the third.
+    assert np.abs(runs[0]["w"] - runs[1]["w"]).max() < 1e-2 * np.abs(runs[0]["w"]).max()
+    assert max(energy_drift(run)[0] for run in runs) < 1e-4
+
+
+def test_drift_of_the_geometrically_exact_beam_is_that_of_the_step():
+    orbit = periodic_orbits(TUBE, 2.0, [0.3])
+    drifts = [
+        energy_drift(
+            simulate_3d(
+                TUBE, SteadyRotation(omega=2.0), elements=4, duration=1.0, step=step,
+                initial_state=lambda x: orbit.state(0, x),
+            )
+        )[0]
+        for step in (1e-2, 5e-3)
+    ]  # fmt: skip
+    # Of second order: whatever the kinetic or elastic energy missed would stay.
+    assert drifts[0] / drifts[1] == pytest.approx(4.0, rel=0.1)
+
+
+def growing(rate, frequency=10.0, kick=1e-6):
+    time = np.linspace(0.0, 12.0, 4001)
+    w = 8.0 * kick * np.exp(rate * time) * np.cos(3.1 * time)
+    w_dot = np.gradient(w, time)
+    q = np.sin(frequency * time)
+    attrs = {"beam_length": 8.0, "ramp_time": 0.0}
+    columns = {"q": q, "w": w, "w_dot": w_dot}
+    return xr.Dataset({k: ("time", v) for k, v in columns.items()}, {"time": time}, attrs)
+
+
+@pytest.mark.parametrize("rate", [0.9, 0.3, -0.2])
+def test_rate_of_a_known_growth(rate):
+    found = growth_rate_of(growing(rate), small=1e3)
+    # A window of a period that is not w's own leaves ripples, over the three decades 2 %.
+    assert found.rate == pytest.approx(rate, rel=0.02)
+    assert found.period == pytest.approx(2.0 * np.pi / 10.0, rel=1e-4)
+    if rate == 0.9:
+        assert found.decades == pytest.approx(3.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"element": "cable"}, "element='exact'"),
+        ({"element": "shell"}, "known are 'cable', 'exact'"),
+        ({"frame": "rotating"}, "frame='inertial'"),
+        ({"kick": 0.5}, "1e-6"),
+        ({"kick": np.nan}, "kick"),
+        ({"blade": Beam.reference()}, "blade.rectangle"),
+        ({"blade": ALIKE}, "element='cable'"),
+        ({"blade": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
+        ({"blade": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
+    ],
+)
+def test_what_is_refused(change, sentence):
+    arguments = {"blade": RECTANGLE, "motion": SpinUp(omega=2.0, ramp_time=1.0), **change}
+    with pytest.raises(ValueError, match=sentence):
+        simulate_3d(**arguments)
+
+
+def test_a_growth_needs_two_periods():
+    with pytest.raises(ValueError, match="take a duration above"):
+        growth_rate_of(growing(0.1).sel(time=slice(0.0, 1.0)), period=0.8)
+    with pytest.raises(ValueError, match="no w"):
+        growth_rate_of(growing(0.1).drop_vars("w"))
