@@ -43,6 +43,9 @@ COMMANDS = {
     "respond": (("respond", "--from", "1", "--to", "2", "--points", "2", "--damping-ratio", "0.1",
                  "--gravity", "--out", "{folder}/out"),
                 ("--gravity", "--damping-ratio", "--omega", "--ripple", "--config")),
+    "stability": (("stability", "--omega", "1", "--section", "tube", "--amplitude", "0.02",
+                   "--out", "{folder}/out"),
+                  ("--section", "--ratio", "--poisson-ratio", "--amplitude", "--mode", "--config")),
     "animate": (("animate", "--out", "{folder}/film.pdf"),
                 ("--omega", "--ramp-time", "--duration", "--rate", "--slow-motion", "--config")),
 }  # fmt: skip
