@@ -134,6 +134,13 @@ def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
     )
 
 
+@pytest.mark.parametrize("omega", [0.0, 1e-3])
+def test_a_tube_that_hardly_turns_stays_in_the_plane(beam, omega):
+    """Its plane may nearly be turned: multipliers near a double 1, which nothing may split."""
+    found = planar_stability(beam.tube(0.015, 0.77e-3), omega, [0.1, 0.4])
+    assert found.stable.all()
+
+
 def test_a_twist_without_inertia_that_buckles_grows_without_bound(beam):
     shape = OutOfPlane.rectangle(18.5)
     blade = beam.with_section_out_of_plane(shape.bending_ratio, shape.torsion_ratio, 0.0)
@@ -171,6 +178,7 @@ UNIT = Blade(
 )
 
 
+@pytest.mark.filterwarnings("ignore:omega = 100 rad/s is 28 times")
 @pytest.mark.parametrize(
     ("ask", "sentence"),
     [
@@ -206,6 +214,10 @@ UNIT = Blade(
                 UNIT.with_section_out_of_plane(1.0, 0.5, 0.0), 1.0, plane="torsion"
             ),
             "torsion has no modes without polar inertia",
+        ),
+        (
+            lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
+            "at w_bar = 100 flap bends in a layer .* rotate slower",
         ),
         (lambda: linear_modes(UNIT, 1.0, plane="pitch"), "plane must be 'lag', 'flap' or"),
         (lambda: campbell(UNIT, [1.0], planes=()), "name families once each"),
