@@ -67,7 +67,9 @@ def growth_rate_of(
     """
     for name in ("q", "w", "w_dot"):
         if name not in run:
-            raise ValueError(f"the run has no {name}: growth is measured of what simulate_3d returns")
+            raise ValueError(
+                f"the run has no {name}: growth is measured of what simulate_3d returns"
+            )
     positive("decades", decades)
     positive("small", small)
     steady = run.sel(time=run["time"] >= float(run.attrs["ramp_time"]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 FIRST = (
-    "spin_up", "backbone", "phase_space", "model_errors", "mesh_convergence", "thickness_locking",
+    "spin_up", "out_of_plane", "backbone", "phase_space", "model_errors", "mesh_convergence", "thickness_locking",
     "linear_frame", "substructures", "campbell_diagram", "tapered_blade", "softening_map",
     "forced_response", "gravity", "internal_resonance", "blade_in_exudyn",
 )  # fmt: skip
