@@ -14,8 +14,8 @@ from analytic import Beam, SpinUp
 from rotbeam_exu import ray_traced, simulate_3d
 
 beam, spin_up = Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0)
-rectangle = simulate_3d(beam.rectangle(), spin_up, duration=3.2, step=5e-4)
-tube = simulate_3d(beam.tube(radius=0.015, wall=0.00077), spin_up, duration=3.2, step=5e-3)
+rectangle = simulate_3d(beam.rectangle(), spin_up, duration=3.1, step=5e-4)
+tube = simulate_3d(beam.tube(radius=0.015, wall=0.00077), spin_up, duration=3.1, step=5e-3)
 
 figure, (picture, axes) = plt.subplots(2, height_ratios=[2.0, 1.0], layout="constrained")
 picture.imshow(ray_traced(rectangle, times := [0.4, 0.75, 0.9, 1.1, 1.4]))
