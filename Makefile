@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures golden test test-all coverage bench bench-peers lint docs check clean
+.PHONY: run figures images golden references test test-all coverage bench bench-peers lint docs check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -15,9 +15,16 @@ run: $(VENV)/.run  ## the main job: spin the paper's beam up
 figures: $(VENV)/.run  ## data, pictures and captions of every figure
 	$(BIN)/rotbeam figure all
 
+images: $(VENV)/.dev  ## the README's pictures
+	$(BIN)/python docs/images/regenerate.py
+
 golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py
 	$(BIN)/python tests/golden/test_paper_beam.py
+
+references: $(VENV)/.docs  ## the benchmark's reference data and its problem statement
+	$(BIN)/python -m rotbeam_exu.verification.regenerate
+	$(BIN)/python -m rotbeam_exu.verification.problem_statement
 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks"

@@ -1,14 +1,16 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
-from .exact.backbone import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.backbone import Backbone as Backbone
+from .exact.backbone_map import BackboneMap as BackboneMap
+from .exact.backbone_map import backbone_map as backbone_map
+from .exact.backbone_series import BackboneCurve as BackboneCurve
+from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
 from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
-from .exact.curve import BackboneCurve as BackboneCurve
 from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
 from .exact.forced import forced_response as forced_response
@@ -28,6 +30,7 @@ from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
 from .exact.stability_limit import growth_map as growth_map
 from .exact.stability_limit import limit_map as limit_map
+from .exact.stability_limit import planar_note as planar_note
 from .exact.stability_limit import stability_limit as stability_limit
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping
@@ -52,3 +55,8 @@ from .reduced.unstretched import unstretched_frequencies as unstretched_frequenc
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
 from .section import Section as Section
+from .spin_up.design import design_ramp as design_ramp
+from .spin_up.quiet import QuietRamps as QuietRamps
+from .spin_up.quiet import exact_residual as exact_residual
+from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
+from .spin_up.residual import residual_amplitude as residual_amplitude

@@ -31,6 +31,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
+    "sphinx-mathjax-offline",  # puts MathJax into the site: it needs no network
     "sphinxcontrib.bibtex",
 ]
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
@@ -85,7 +86,18 @@ html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_sidebars = dict.fromkeys(
-    ("index", "explorer", "validation", "conventions", "gotchas", "bibliography"), ()
+    (
+        "index",
+        "which_function",
+        "explorer",
+        "validation",
+        "scope",
+        "conventions",
+        "gotchas",
+        "faq",
+        "bibliography",
+    ),
+    (),
 )
 html_theme_options = {
     "navigation_with_keys": True,

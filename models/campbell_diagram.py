@@ -10,20 +10,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, campbell
+from rotbeam_exu import figures
 
+plt.style.use(figures.STYLE)
 diagram = campbell(Beam.reference(), np.linspace(0.0, 12.0, 25), count=3)
 
-_, ax = plt.subplots(figsize=(6, 4.5), layout="constrained")
-ax.plot(diagram.omegas, diagram.frequencies)
-for order in range(1, 11):
-    ax.plot(diagram.omegas, order * diagram.omegas, color="0.75", lw=0.6, zorder=0)
-    if order * 12.0 > 62.0:
-        ax.annotate(f"{order}ω", (62.0 / order, 62.0), color="0.45", ha="center", va="bottom")
-ax.annotate("1ω", (12.0, 12.0), color="0.45", va="center")
-for crossing in diagram.crossings:
-    ax.plot(crossing.omega, crossing.frequency, "k.", ms=4)
-ax.set(xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]", xlim=(0, 12.4))
-ax.set(ylim=(0, 62))
+_, ax = plt.subplots(figsize=(6, 4.5))
+diagram.plot(ax)
 plt.show()
 
 # %%

@@ -13,6 +13,7 @@ import numpy as np
 from analytic import Beam, Damping, SpeedRipple, forced_response, linear_modes
 from rotbeam_exu import comparison, figures
 
+plt.style.use(figures.STYLE)
 beam, ripple = Beam.reference(), SpeedRipple(amplitude=0.002)  # [rad/s]
 curves = {}
 for omega in (2.0, 6.0):
@@ -27,7 +28,7 @@ for omega in (2.0, 6.0):
         for ratio in (8e-4, 1.2e-3, 2.4e-3)
     ]
 
-_, axes = plt.subplots(ncols=2, figsize=(9, 4.8), layout="constrained")
+_, axes = plt.subplots(ncols=2, figsize=(9, 4.8))
 for ax, at_speed in zip(axes, curves.values(), strict=True):
     figures.forced_response([comparison.forced_response(curve) for curve in at_speed], ax=ax)
 plt.show()

@@ -13,12 +13,13 @@ import numpy as np
 from analytic import Beam, Damping, campbell, gravity_response
 from rotbeam_exu import comparison, figures
 
+plt.style.use(figures.STYLE)
 beam = Beam.reference()
 damping = Damping(external=1.5 * beam.mass_per_length * beam.frequency_scale)
 response = gravity_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36))
 crossings = campbell(beam, np.linspace(0.0, 6.0, 25), count=1, orders=4).crossings
 
-_, (above, below) = plt.subplots(nrows=2, figsize=(6, 7), layout="constrained")
+_, (above, below) = plt.subplots(nrows=2, figsize=(6, 7))
 figures.forced_response(comparison.forced_response(response), ax=above)
 below.semilogy(response.omega, np.abs(response.harmonics[:, 1:5]), label=["1", "2", "3", "4"])
 below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L", xlim=above.get_xlim())

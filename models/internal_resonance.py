@@ -11,11 +11,13 @@ to be seen.
 import matplotlib.pyplot as plt
 
 from analytic import Beam, backbone_branch
+from rotbeam_exu import figures
 
+plt.style.use(figures.STYLE)
 branch = backbone_branch(Beam.reference(), omega=2.0, up_to=0.8, inextensible=True)
 print(branch)
 
-_, ax = plt.subplots(figsize=(6.0, 4.2), layout="constrained")
+_, ax = plt.subplots(figsize=(6.0, 4.2))
 (resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
 for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece

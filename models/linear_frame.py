@@ -12,8 +12,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, SpinUp
-from rotbeam_exu import SimulationError, growth_rate, simulate
+from rotbeam_exu import SimulationError, figures, growth_rate, simulate
 
+plt.style.use(figures.STYLE)
 beam, spin_up = Beam.reference(), SpinUp(omega=4.0, ramp_time=3.0)
 job = {"duration": 8.0, "step": 2e-3, "frame": "rotating"}
 exact = simulate(beam, spin_up, element="exact", **job)

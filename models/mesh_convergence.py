@@ -10,12 +10,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, linear_modes
-from rotbeam_exu import natural_frequencies
+from rotbeam_exu import figures, natural_frequencies
 
+plt.style.use(figures.STYLE)
 beam = Beam.reference()
 meshes = np.array([4, 8, 16, 32])
 
-_, ax = plt.subplots(figsize=(6, 4), layout="constrained")
+_, ax = plt.subplots(figsize=(6, 4))
 for omega in (0.0, 4.0, 8.0):
     exact = linear_modes(beam, omega).frequencies[0]
     found = [natural_frequencies(beam, omega, elements=n, count=1)[0] for n in meshes]

@@ -9,11 +9,12 @@ away until the exact beam is left, so that the pieces of a bar add up to the who
 import matplotlib.pyplot as plt
 import numpy as np
 
-from rotbeam_exu import comparison
+from rotbeam_exu import comparison, figures
 
+plt.style.use(figures.STYLE)
 budget = comparison.model_budget(omegas=[6.0], amplitudes=[0.1, 0.2]).sel(omega=6.0, a=0.2)
 
-_, axes = plt.subplots(1, 2, figsize=(8, 4), layout="constrained", width_ratios=(3, 4))
+_, axes = plt.subplots(1, 2, figsize=(8, 4), width_ratios=(3, 4))
 for ax, names in zip(axes, (["CI", "CE", "FrI"], ["FrE", "FrC", "FrM"]), strict=True):
     up, down = np.zeros(3), np.zeros(3)
     for source in budget["source"].to_numpy():

@@ -13,22 +13,22 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, campbell
+from rotbeam_exu import figures
 
+plt.style.use(figures.STYLE)
 blade = Beam.reference().with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)
 omegas = np.linspace(0.0, 12.0, 13)
 lag = campbell(blade, omegas, count=3)
 flap = campbell(blade.with_setting_angle(0.5 * math.pi), omegas, count=3)
 print(blade)
 
-_, ax = plt.subplots(figsize=(6, 4.5), layout="constrained")
-ax.plot(lag.omegas, lag.frequencies, "C0", label=["lag", None, None])
-ax.plot(flap.omegas, flap.frequencies, "C3--", label=["flap", None, None])
-for order in range(1, 7):
-    ax.plot(omegas, order * omegas, color="0.8", lw=0.6, zorder=0)
-    ax.annotate(f"{order}ω", (12.0, order * 12.0), color="0.45", va="center", annotation_clip=True)
-ax.set(xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]", xlim=(0, 12.6))
-ax.set(ylim=(0, 62))
-ax.legend(loc="upper left")
+_, ax = plt.subplots(figsize=(6, 4.5))
+lag.plot(ax)
+for mode, frequencies in enumerate(flap.frequencies.T, start=1):
+    ax.plot(omegas, frequencies, "C1--")
+    ax.annotate(
+        f"flap {mode}", (12.0, frequencies[-1]), (4, 7), textcoords="offset points", color="C1"
+    )
 plt.show()
 
 # %%

@@ -11,9 +11,10 @@ vector cannot follow: the beam bends as if E were E/(1 - nu^2), on any mesh.
 import matplotlib.pyplot as plt
 
 from analytic import Beam, linear_modes
-from rotbeam_exu import natural_frequencies
+from rotbeam_exu import figures, natural_frequencies
 from rotbeam_exu.fem.elements import Ancf3
 
+plt.style.use(figures.STYLE)
 beam, omega, meshes = Beam.reference(), 6.0, [3, 4, 8, 16, 32]
 exact = linear_modes(beam, omega, 1).frequencies[0]
 off = {}

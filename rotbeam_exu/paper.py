@@ -13,6 +13,17 @@ RAMP_TIMES = (3.375, 3.25, 3.0, 2.75, 2.5, 2.0)
 MODELS = ("CI", "CE", "FrI", "FrE", "FrC", "FrM")
 """Reduced models drawn beside the exact backbone: the paper's four, and ours."""
 
+MODEL_NAMES = {
+    "CI": "cantilever's mode, inextensible",
+    "CE": "cantilever's mode, extensible",
+    "FrI": "rotating mode, inextensible",
+    "FrE": "rotating mode, extensible",
+    "FrC": "rotating mode, consistent foreshortening",
+    "FrM": "FrC with all other bending modes",
+    "exact": "geometrically exact beam",
+}
+"""What the models are, in words."""
+
 # Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the exact beam.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (
     "#0072B2",

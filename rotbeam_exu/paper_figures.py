@@ -23,7 +23,7 @@ class PaperFigure:
     draw : callable
         Draws it; returns Axes, or some.
     caption : str
-        What the paper claims of it, and what is true.
+        What the paper claims of it, and what is true; `figures.caption` describes it too.
     sweeps : bool
         Whether the data are those of a sweep, which takes `jobs`, `cache` and `progress`.
     """

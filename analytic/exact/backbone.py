@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,16 +13,13 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
+from ..plotting import axes_or_new
+from .stability_limit import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 
-
-class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `backbone` holds the orbits that were, None if none was."""
-
-    def __init__(self, message: str, backbone: Backbone | None = None) -> None:
-        super().__init__(message)
-        self.backbone = backbone
+if TYPE_CHECKING:
+    from ..plotting import Axes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,8 +139,8 @@ class Backbone:
         """Whether the orbits are stable against small disturbances in the plane, (orbits,).
 
         No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
-        says: those that the integration over a period resolves. Motion out of the plane is not
-        considered.
+        says: those that the integration over a period resolves. Of motion out of the plane
+        `out_of_plane` and `planar_stability` tell.
         """
         return np.array([found.stable() for found in self._stability])
 
@@ -151,10 +149,47 @@ class Backbone:
         """How many modes `stable` covers, the lowest, (orbits,)."""
         return np.array([found.modes for found in self._stability])
 
+    @cached_property
+    def out_of_plane(self) -> str:
+        """One sentence if the largest orbit leaves the plane of rotation, "" if not.
+
+        "" too of a blade whose section out of the plane is unknown; computed when first asked for.
+        """
+        return planar_note(self.beam, self.omega, float(self.amplitude.max()), self.mode)
+
+    def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
+        """Draw the peak amplitude over the frequency, from ω_n on, and return the axes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        **line
+            As for matplotlib's `Axes.plot`, such as color and label.
+
+        Examples
+        --------
+        >>> from analytic import Beam, periodic_orbits
+        >>> ax = periodic_orbits(Beam.reference(), 6.0, [0.1, 0.2, 0.3]).plot()
+        """
+        ax = axes_or_new(ax)
+        order = np.argsort(self.amplitude)
+        mode = "" if self.mode == 1 else f", mode {self.mode}"
+        ax.plot(
+            np.append(self.omega_n, self.frequency[order]),
+            np.append(0.0, self.amplitude[order]),
+            **{"label": f"ω = {self.omega:g} rad/s{mode}", **line},
+        )
+        ax.set(xlabel="frequency $ω_{NL}$ [rad/s]", ylabel="peak |q|/L")
+        ax.set_ylim(bottom=0.0)
+        ax.legend()
+        return ax
+
     def __str__(self) -> str:
+        note = f"; {self.out_of_plane}" if self.out_of_plane else ""
         return (
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
             f"omega_n = {self.omega_n:.8f} rad/s, lambda_omega = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"residual at most {self.residual.max():.1e}"
+            f"residual at most {self.residual.max():.1e}{note}"
         )

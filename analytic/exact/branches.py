@@ -14,9 +14,9 @@ from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
+from .branch import Branch, branch_of
 from .internal_resonance import Resonance, resonances_along
 from .modes import resolved_model
-from .periodic import Branch, branch_of
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,9 +14,13 @@ from scipy import optimize
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
+from ..plotting import apart, axes_or_new
 from .continuum import Continuum
 from .modes import LinearModes, Plane, linear_modes, modes_on
 from .out_of_plane_modes import flap_blade
+
+if TYPE_CHECKING:
+    from ..plotting import Axes
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
@@ -73,6 +77,53 @@ class Campbell:
     mac: FloatArray
     crossings: tuple[Crossing, ...]
     planes: tuple[Plane, ...]
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+
+        Examples
+        --------
+        >>> from analytic import Beam, campbell
+        >>> ax = campbell(Beam.reference(), [0.0, 4.0, 8.0, 12.0]).plot()
+        """
+        ax = axes_or_new(ax)
+        low, high = float(self.omegas[0]), float(self.omegas[-1])
+        top = 1.05 * float(self.frequencies.max())
+        for order in range(1, max((c.order for c in self.crossings), default=1) + 1):
+            ax.plot([low, high], [order * low, order * high], color="0.75", lw=0.6, zorder=0)
+            # Where the line leaves the frame: above it, or before the names at its right.
+            at = top / order if order * high > top else low + 0.97 * (high - low)
+            ax.text(
+                at, min(order * at, top), f"{order}ω", color="0.45", fontsize="small",
+                ha="center", va="bottom", clip_on=False,
+            )  # fmt: skip
+        families = list(dict.fromkeys(self.planes))
+        names = [
+            f"{plane} {self.planes[:column].count(plane) + 1}"
+            for column, plane in enumerate(self.planes)
+        ]
+        heights = apart(self.frequencies[-1], 0.045 * top)
+        for plane, name, row, height in zip(
+            self.planes, names, self.frequencies.T, heights, strict=True
+        ):
+            family = families.index(plane)
+            (line,) = ax.plot(self.omegas, row, color=f"C{family}", ls=("-", "--", "-.")[family])
+            ax.annotate(
+                name, (high, height), xytext=(4, 0), textcoords="offset points",
+                color=line.get_color(), va="center", annotation_clip=False,
+            )  # fmt: skip
+        crossed = np.array([(c.omega, c.frequency) for c in self.crossings]).reshape(-1, 2)
+        ax.plot(*crossed.T, "k.", ms=4)
+        ax.set(
+            xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]",
+            xlim=(low, high), ylim=(0.0, top),
+        )  # fmt: skip
+        return ax
 
 
 def campbell(

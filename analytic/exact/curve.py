@@ -7,120 +7,29 @@ converges geometrically: with ten of them ω_NL/ω_n keeps 1e-10 where no resona
 
 from __future__ import annotations
 
+import math
 import warnings
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import Chebyshev, Polynomial
-from numpy.typing import ArrayLike
+from numpy.polynomial import Chebyshev
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import RotbeamWarning, finite_array, positive, rotation_speed, whole_number
-from ..methods.continuation import DRIFT_BOUND
+from ..input_checks import RotbeamWarning, positive, rotation_speed, whole_number
+from ..methods.continuation import THOROUGH, Care
 from ..methods.harmonic_balance import NoOrbitError
-from .backbone import AmplitudeNotReachedError
+from .backbone_series import BackboneCurve
+from .branch import AmplitudeNotReachedError, Branch, branch_of
 from .internal_resonance import nearest_resonance
 from .modes import resolved_model
-from .periodic import Branch, branch_of
 from .steady import BeamOrbit
 
-_SHORTER = 0.96  # of the range, where the series has not converged on it
+_SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
 _LARGEST_DRIFT = 1e-9  # of the Jacobi integral: ω_NL then keeps 1e-11, the first harmonic 1e-9
-_APART = 0.04  # orbits at which resonances are looked for
-_BLOCK = 16384  # amplitudes that stay in the cache while powers are summed
-
-
-@dataclass(frozen=True, kw_only=True)
-class BackboneCurve:
-    """The exact backbone at one speed as a series; made by `backbone_curve`.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        From 1.
-    omega_n : float
-        ω_n [rad/s].
-    holds_up_to : float
-        Largest peak |q|/L.
-    error : float
-        Of ω_NL/ω_n, and of the first harmonic over the peak: what the tail of the series leaves, or
-        orbits that it was not made from show, whichever is the most.
-    series, first : Chebyshev
-        Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
-    """
-
-    beam: AnyBlade
-    omega: float
-    mode: int
-    omega_n: float
-    holds_up_to: float
-    error: float
-    series: Chebyshev = field(repr=False)
-    first: Chebyshev = field(repr=False)
-
-    @cached_property
-    def _powers(self) -> FloatArray:
-        return _in_powers(self.series)
-
-    @property
-    def lambda_omega(self) -> float:
-        """λ_ω of ω_NL = ω_n (1 - λ_ω a² - κ a⁴ - ...) [-], a the peak."""
-        return -float(self._powers[1])
-
-    @property
-    def kappa(self) -> float:
-        """κ of the same [-], the fifth order of the extensible beam."""
-        return -float(self._powers[2])
-
-    @overload
-    def frequency(self, a: float) -> float: ...
-    @overload
-    def frequency(self, a: ArrayLike) -> float | FloatArray: ...
-    def frequency(self, a: ArrayLike) -> float | FloatArray:
-        """Return ω_NL [rad/s] at the peaks `a`, of their shape.
-
-        Raises
-        ------
-        ValueError
-            If an amplitude is negative, or above `holds_up_to`.
-        """
-        result = in_square(self.omega_n * self._powers, self._within(a))
-        return result if result.ndim else float(result)
-
-    @overload
-    def first_harmonic(self, a: float) -> float: ...
-    @overload
-    def first_harmonic(self, a: ArrayLike) -> float | FloatArray: ...
-    def first_harmonic(self, a: ArrayLike) -> float | FloatArray:
-        """Return the first harmonic of q/L at the peaks `a`, of their shape; refuses as above."""
-        amplitude = self._within(a)
-        result = amplitude * in_square(_in_powers(self.first), amplitude)
-        return result if result.ndim else float(result)
-
-    def _within(self, a: ArrayLike) -> FloatArray:
-        amplitude = finite_array("amplitude", a)
-        low, high = amplitude.min(initial=0.0), amplitude.max(initial=0.0)
-        if low < 0.0 or high > self.holds_up_to * (1.0 + 1e-12):
-            raise ValueError(
-                f"the curve at omega = {self.omega:g} rad/s holds for amplitudes from 0 up to "
-                f"{self.holds_up_to:.6g}, got {low if low < 0.0 else high:g}: they are the peak of "
-                f"|q|/L; beyond, take periodic_orbits or backbone_branch"
-            )
-        return amplitude
-
-    def __str__(self) -> str:
-        return (
-            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s up to a = "
-            f"{self.holds_up_to:.4g}: omega_n = {self.omega_n:.8f} rad/s, lambda_omega = "
-            f"{self.lambda_omega:.6f}, kappa = {self.kappa:.5f}, error {self.error:.0e}"
-        )
+_MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
+_APART = 0.08  # orbits at which resonances are looked for
 
 
 def backbone_curve(
@@ -186,8 +95,7 @@ def backbone_curve(
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     model = resolved_model(beam, mode, inextensible, False, functions)
-    drift = max(DRIFT_BOUND, min(_LARGEST_DRIFT, 0.1 * tolerance))
-    branch = branch_of(beam, omega, mode, model, drift)
+    branch = branch_of(beam, omega, mode, model, care_for(tolerance))
     curve = fitted_curve(branch, up_to, count, tolerance)
     if curve.holds_up_to < up_to:
         below = _apart([o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to])
@@ -200,6 +108,12 @@ def backbone_curve(
             stacklevel=2,
         )
     return curve
+
+
+def care_for(tolerance: float) -> Care:
+    """Return with how much care orbits are sought for a series of this tolerance."""
+    drift = max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.1 * tolerance))
+    return Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1)
 
 
 def fitted_curve(branch: Branch, up_to: float, count: int, tolerance: float) -> BackboneCurve:
@@ -222,7 +136,7 @@ def fitted_curve(branch: Branch, up_to: float, count: int, tolerance: float) -> 
                 series=fitted.series,
                 first=fitted.first,
             )
-        top *= _SHORTER
+        top = _converging(fitted, top, 0.5 * tolerance)
     raise AmplitudeNotReachedError(
         f"{count} coefficients do not resolve the backbone of {branch.name} to {tolerance:g} even "
         f"up to a = {top:.3g}: ask for more of them, or take backbone_branch"
@@ -268,27 +182,24 @@ def _of_orbits(branch: Branch, amplitudes: FloatArray) -> FloatArray:
     return np.array([[o.frequency / linear, o.gauge_harmonics[0] / o.amplitude] for o in orbits])
 
 
-def _tail(series: Chebyshev) -> float:
-    """Return the sum of the coefficients left out, which fall as the last three do."""
+def _rate(series: Chebyshev) -> float:
+    """Return by what the coefficients fall, from the last three."""
     earlier, last = abs(float(series.coef[-3])), abs(float(series.coef[-1]))
-    rate = min(0.9, (last / earlier) ** 0.5) if earlier > 0.0 else 0.0
-    return last * rate / (1.0 - rate)
+    return min(0.9, math.sqrt(last / earlier)) if earlier > 0.0 else 0.0
 
 
-def _in_powers(series: Chebyshev) -> FloatArray:
-    """Return the coefficients of the powers of a²."""
-    return np.asarray(series.convert(kind=Polynomial, domain=[-1.0, 1.0], window=[-1.0, 1.0]).coef)
+def _tail(series: Chebyshev) -> float:
+    """Return the sum of the coefficients left out."""
+    rate = _rate(series)
+    return abs(float(series.coef[-1])) * rate / (1.0 - rate)
 
 
-def in_square(coefficients: FloatArray, a: FloatArray) -> FloatArray:
-    """Return Σ c_k a^2k, of the shape of `a`: by Horner's rule, in blocks that fit the cache."""
-    flat, powers = np.ravel(a), coefficients.tolist()
-    result = np.empty_like(flat)
-    for start in range(0, flat.size, _BLOCK):
-        part = flat[start : start + _BLOCK]
-        square, value = part * part, result[start : start + _BLOCK]
-        value[:] = powers[-1]
-        for power in powers[-2::-1]:
-            value *= square
-            value += power
-    return result.reshape(np.shape(a))
+def _converging(fitted: _Fitted, top: float, error: float) -> float:
+    """Return the range on which a series of as many coefficients has about this error.
+
+    They fall by 1/(z + √(z² - 1)), z the place of the next singularity where the range is [-1, 1].
+    """
+    rate = max(_rate(fitted.series), _rate(fitted.first), 0.1)
+    wanted = rate * (error / fitted.error) ** (1.0 / fitted.series.degree())
+    here, there = (0.5 * (1.0 / r + r) for r in (rate, wanted))
+    return top * min(0.97, max(0.7, math.sqrt((here + 1.0) / (there + 1.0))))

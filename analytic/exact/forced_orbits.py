@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,10 +15,14 @@ from ..input_checks import finite_array, finite_number
 from ..loads import Gravity, HarmonicLoad
 from ..methods.driven import DrivenOrbit
 from ..methods.floquet import Multipliers, floquet_multipliers
+from ..plotting import axes_or_new
 from .backbone import Backbone
 from .loading import DrivenBeam
 from .periodic import periodic_orbits
 from .state import BeamState, orbit_state
+
+if TYPE_CHECKING:
+    from ..plotting import Axes
 
 
 class ResponsePoint(NamedTuple):
@@ -166,6 +170,45 @@ class ForcedResponse:
             np.linspace(0.0, highest, 13)[1:],
             inextensible=system.model.slenderness == 0.0,
         )
+
+    def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
+        """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        **line
+            As for matplotlib's `Axes.plot`, such as color and label.
+
+        Returns
+        -------
+        Axes
+            The frequency is the drive's, under gravity the rotation speed.
+        """
+        ax = axes_or_new(ax)
+        # At a fold, where a multiplier is 1, both parts end.
+        fold = np.array(self.marks) == "fold"
+        calm = self.stable | fold
+        firm = calm[1:] & calm[:-1]
+        stable, unstable = (
+            np.where(np.append(part, False) | np.append(False, part), self.amplitude, np.nan)
+            for part in (firm, ~firm)
+        )
+        (solid,) = ax.plot(self.frequency, stable, **{"label": str(self.load), **line})
+        dashed = {**line, "color": solid.get_color(), "ls": "--", "label": "_unstable"}
+        ax.plot(self.frequency, unstable, **dashed)
+        ax.plot(
+            self.frequency[fold], self.amplitude[fold], "o", color=solid.get_color(), mfc="white"
+        )
+        gravity = isinstance(self.load, Gravity)
+        ax.set(
+            xlabel="rotation speed ω [rad/s]" if gravity else "drive frequency ν [rad/s]",
+            ylabel="peak |q|/L",
+        )
+        ax.set_ylim(bottom=0.0)
+        ax.legend()
+        return ax
 
     def __str__(self) -> str:
         folds = ", ".join(f"{fold.frequency:.6g} rad/s" for fold in self.folds)

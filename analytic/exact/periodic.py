@@ -3,28 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
-from ..methods.continuation import (
-    DRIFT_BOUND,
-    MOST_FUNCTIONS,
-    Path,
-    linear_orbit,
-    meets_the_equations,
-)
-from ..methods.harmonic_balance import LastTangent, NoOrbitError, solve
-from .backbone import AmplitudeNotReachedError, Backbone
-from .continuum import Continuum
+from ..methods.harmonic_balance import NoOrbitError
+from .backbone import Backbone
+from .branch import AmplitudeNotReachedError, Branch, branch_of
 from .internal_resonance import nearest_resonance, warn_of_resonances
-from .modes import resolved_model, solve_modes
-from .steady import BeamOrbit, SteadyBeam, steady_rotation
-
-_LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
+from .modes import resolved_model
+from .steady import BeamOrbit
 
 
 def periodic_orbits(
@@ -88,7 +78,7 @@ def periodic_orbits(
     found, refused = _found(branch, ascending)
     warn_of_resonances(list(found.values()), branch.modes, mode, beam.frequency_scale)
     kept = [found[a] for a in ascending[place].tolist() if a in found]
-    backbone = branch.backbone(kept) if kept else None
+    backbone = _backbone(branch, kept) if kept else None
     if backbone is None or refused:
         raise AmplitudeNotReachedError(refused, backbone)
     return backbone
@@ -124,88 +114,26 @@ def _why(branch: Branch, a: float) -> str:
     return f"{nearest}; ask for amplitudes beyond it, or take backbone_branch, which follows it"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Branch:
-    """What grows out of one linear mode.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    omega : float
-    mode : int
-    modes : ndarray
-        Nondimensional frequencies that the functions resolve.
-    path : Path
-        The orbits, laid as far as they were asked for.
-    """
-
-    beam: AnyBlade
-    omega: float
-    mode: int
-    modes: FloatArray
-    path: Path[SteadyBeam]
-
-    @property
-    def name(self) -> str:
-        """What it is called in a sentence."""
-        return f"mode {self.mode} at omega = {self.omega:g} rad/s"
-
-    def backbone(self, orbits: Sequence[BeamOrbit]) -> Backbone:
-        """Return the orbits as a backbone; λ_ω is extrapolated from the two smallest."""
-        linear = float(self.modes[self.mode - 1])
-        near, far = (
-            (1.0 - o.frequency / linear) / o.amplitude**2
-            for o in (self.path.seed, self.path.double)
-        )
-        count = max(orbit.harmonics for orbit in orbits)
-        per_second = self.beam.frequency_scale
-        return Backbone(
-            beam=self.beam,
-            omega=self.omega,
-            mode=self.mode,
-            omega_n=linear * per_second,
-            amplitude=np.array([orbit.amplitude for orbit in orbits]),
-            frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
-            lambda_omega=float((4.0 * near - far) / 3.0),
-            lambda_omega_error=float(abs(near - far) / 3.0),
-            harmonics=np.array(
-                [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
-            ),
-            residual=np.array([orbit.residual for orbit in orbits]),
-            jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
-            _orbits=tuple(orbits),
-        )
-
-
-def branch_of(
-    beam: AnyBlade, omega: float, mode: int, model: Continuum, drift: float = DRIFT_BOUND
-) -> Branch:
-    """Return the branch of a mode, with as many functions as its smallest orbits need.
-
-    Larger orbits get harmonics until the Jacobi integral drifts by `drift` at most.
-    """
-    steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
-    while True:
-        modes = solve_modes(steady)
-        shape, linear = modes.coordinates[mode - 1], float(modes.frequencies[mode - 1])
-        try:
-            tangent = LastTangent()
-            seed = solve(linear_orbit(steady, shape, linear, small), small, tangent)
-            double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
-        except NoOrbitError as failed:
-            reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
-        else:
-            if meets_the_equations(double):
-                resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, drift=drift)
-                return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
-            reason = (
-                f"{steady.functions} functions meet the equations of motion to "
-                f"{double.residual:.1e} only; rotate slower"
-            )
-        steady = steady.refined()
-        if steady.functions > MOST_FUNCTIONS:
-            raise AmplitudeNotReachedError(
-                f"no periodic orbit grows out of mode {mode} at omega = {omega:g} rad/s even at "
-                f"a = {small:g}: {reason}"
-            )
+def _backbone(branch: Branch, orbits: Sequence[BeamOrbit]) -> Backbone:
+    """Return the orbits as a backbone; λ_ω is extrapolated from the two smallest."""
+    linear = float(branch.modes[branch.mode - 1])
+    near, far = (
+        (1.0 - o.frequency / linear) / o.amplitude**2
+        for o in (branch.path.seed, branch.path.double)
+    )
+    count = max(orbit.harmonics for orbit in orbits)
+    per_second = branch.beam.frequency_scale
+    return Backbone(
+        beam=branch.beam,
+        omega=branch.omega,
+        mode=branch.mode,
+        omega_n=linear * per_second,
+        amplitude=np.array([orbit.amplitude for orbit in orbits]),
+        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
+        lambda_omega=float((4.0 * near - far) / 3.0),
+        lambda_omega_error=float(abs(near - far) / 3.0),
+        harmonics=np.array([np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]),
+        residual=np.array([orbit.residual for orbit in orbits]),
+        jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
+        _orbits=tuple(orbits),
+    )

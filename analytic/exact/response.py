@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
 from ..ramps import AnyRamp, fastest, require_ramp
 from .discretization import blade_continuum
+from .stability_limit import planar_note
 from .steady import checked_share, section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
 
@@ -66,6 +68,17 @@ class SpinUpResponse:
     error: float
     steps: int
     functions: int
+
+    @cached_property
+    def out_of_plane(self) -> str:
+        """One sentence if the beam ends on a motion that leaves the plane, "" if not.
+
+        By half of |q| from peak to peak after the ramp; "" too where the times do not reach that
+        far or the section out of the plane is unknown. Computed when first asked for.
+        """
+        late = self.q[self.time >= self.spin_up.ramp_time]
+        size = 0.5 * float(np.ptp(late)) / self.beam.length if late.size else 0.0
+        return planar_note(self.beam, self.spin_up.omega, size)
 
 
 def spin_up_response(

@@ -12,15 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_undamped, undamped
+from ..beam import AnyBlade, require_undamped
 from ..blade import Blade
 from ..input_checks import finite_values, positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
 from ..out_of_plane import OutOfPlane
-from .backbone import AmplitudeNotReachedError
+from .branch import AmplitudeNotReachedError, branch_of
+from .growth import STEPS, grown, settled_functions
 from .modes import resolved_model
-from .periodic import branch_of
-from .planarity import STEPS, grown, settled_functions
 from .space import out_of_plane_of, require_out_of_plane
 from .steady import BeamOrbit
 
@@ -245,7 +244,7 @@ def limit_map(
 def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
     """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
 
-    "" too of a blade of which nothing is known out of its plane.
+    "" too of a blade of which nothing is known out of its plane, or that is damped.
 
     Parameters
     ----------
@@ -256,11 +255,14 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         Peak |q|/L of the motion, about that of an orbit of `mode`.
     mode : int
     """
-    if out_of_plane_of(blade) is None or blade.unit.setting != 1.0 or not 0.0 < amplitude < 1.0:
+    unit = blade.unit
+    if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
+        return ""
+    if not 0.0 < amplitude < 1.0:
         return ""
     try:
         largest = max(_LARGEST, math.ceil(20.0 * amplitude) / 20.0 - 0.01)  # few, to be kept
-        limit = stability_limit(undamped(blade), omega, mode, largest=largest)
+        limit = stability_limit(blade, omega, mode, largest=largest)
     except ValueError as unknown:
         return f"whether this motion stays in its plane is not known: {unknown}"
     except (AmplitudeNotReachedError, NoOrbitError):

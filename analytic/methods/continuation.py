@@ -6,7 +6,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
@@ -17,18 +17,36 @@ from .periodic_orbit import PeriodicOrbit, S
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
 
-DRIFT_BOUND = 2e-11
-"""Drift of the invariant at which the harmonics suffice."""
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
-_FEWEST_HARMONICS, _MOST_HARMONICS = 6, 64
+_FEWEST_HARMONICS = 6
 MOST_FUNCTIONS = 128
 """For θ; enough for the smallest orbits up to w̄ = 1000."""
 _MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
-_HALVINGS = 5
 _SAME_AMPLITUDE = 1e-14  # steps add up to 0.3 within round-off
 _GUESSED_FROM = 4  # nodes
 _FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the amplitudes
+
+
+class Care(NamedTuple):
+    """How well orbits are resolved, and how hard the next one is sought.
+
+    Attributes
+    ----------
+    drift : float
+        Of the invariant, at which the harmonics suffice.
+    harmonics : int
+        The most that are taken.
+    halvings : int
+        Of a step that finds nothing.
+    """
+
+    drift: float = 2e-11
+    harmonics: int = 64
+    halvings: int = 5
+
+
+THOROUGH = Care()
 
 
 def linear_orbit(
@@ -61,8 +79,8 @@ class Path(Generic[S]):
         The smallest orbits.
     longest : float
         Longest step of the amplitude.
-    drift : float
-        Drift of the invariant at which the harmonics suffice.
+    care : Care
+        With which they are.
     nodes : list of PeriodicOrbit
         Those found so far, ascending.
     """
@@ -70,7 +88,7 @@ class Path(Generic[S]):
     seed: PeriodicOrbit[S]
     double: PeriodicOrbit[S]
     longest: float
-    drift: float = DRIFT_BOUND
+    care: Care = THOROUGH
     nodes: list[PeriodicOrbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
@@ -127,7 +145,7 @@ class Path(Generic[S]):
         if last.amplitude + 1.1 * step > end:
             step = end - last.amplitude
         whole = step
-        while step > self.longest / 2.0**_HALVINGS:
+        while step > min(self.longest / 2.0**self.care.halvings, 0.9 * whole):
             try:
                 found = self._stepped(last.amplitude + step)
             except NoOrbitError as failed:
@@ -144,14 +162,14 @@ class Path(Generic[S]):
         guess = _through(self.nodes[-_GUESSED_FROM:], amplitude)
         # Cut at harmonic H, the invariant drifts as the next one, with a^(H + 1).
         growth = (amplitude / last.amplitude) ** (last.harmonics + 1)
-        if (last.invariant_drift - last.invariant_noise) * growth > self.drift:
-            guess = _on_more_harmonics(guess)
+        if (last.invariant_drift - last.invariant_noise) * growth > self.care.drift:
+            guess = _on_more_harmonics(guess, self.care.harmonics)
         return self._resolved(guess, amplitude)
 
     def _resolved(self, guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
         """Return the orbit near `guess` with as many harmonics and functions as it needs."""
         orbit = solve(guess, amplitude, self._tangent)
-        while (larger := refined(orbit, self.drift)) is not None:
+        while (larger := refined(orbit, self.care)) is not None:
             orbit = solve(larger, amplitude, self._tangent)
         return orbit
 
@@ -179,22 +197,22 @@ def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOr
     )
 
 
-def refined(orbit: PeriodicOrbit[S], drift: float = DRIFT_BOUND) -> PeriodicOrbit[S] | None:
+def refined(orbit: PeriodicOrbit[S], care: Care = THOROUGH) -> PeriodicOrbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
-    Harmonics until the invariant drifts by `drift` at most, functions until the residual is small.
+    Harmonics until the invariant is constant, functions until the residual is small.
 
     Raises
     ------
     NoOrbitError
         If it needs more than are taken.
     """
-    if orbit.invariant_drift > drift + orbit.invariant_noise:
-        most = orbit.harmonics >= _MOST_HARMONICS
-        if most and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
+    if orbit.invariant_drift > care.drift + orbit.invariant_noise:
+        last = orbit.harmonics >= care.harmonics
+        if last and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
             return None
-        larger = _on_more_harmonics(orbit)
-        if most or _too_large(larger):
+        larger = _on_more_harmonics(orbit, care.harmonics)
+        if last or _too_large(larger):
             raise NoOrbitError(
                 f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
                 f"{orbit.invariant_drift:.1e}"
@@ -203,9 +221,8 @@ def refined(orbit: PeriodicOrbit[S], drift: float = DRIFT_BOUND) -> PeriodicOrbi
     return None if meets_the_equations(orbit) else _on_more_functions(orbit)
 
 
-def _on_more_harmonics(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
-    count = orbit.harmonics + max(4, orbit.harmonics // 4)
-    return orbit.with_harmonics(min(count, _MOST_HARMONICS))
+def _on_more_harmonics(orbit: PeriodicOrbit[S], most: int) -> PeriodicOrbit[S]:
+    return orbit.with_harmonics(min(orbit.harmonics + max(4, orbit.harmonics // 4), most))
 
 
 def _on_more_functions(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:

@@ -21,7 +21,7 @@ from ..arrays import FloatArray
 from .fourier import half_period, unpacked
 from .periodic_orbit import PeriodicOrbit, S, highest, near_peak, peak_gradient
 
-_NEWTON_STEPS = 25
+_NEWTON_STEPS, _MOST_TANGENTS = 25, 8
 _CONVERGED = 4e-15  # of the odd coordinates and of Ω; in the energies they count a 1000 times
 _ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of the mean
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
@@ -135,7 +135,7 @@ def solve(
     orbit, last = highest(guess), np.inf
     own, fresh = False, not tangent.fits(orbit)
     half, odd = half_period(orbit.harmonics), orbit.system.odd
-    steps: list[FloatArray] = []
+    tangents, steps = 0, list[FloatArray]()
     for _ in range(_NEWTON_STEPS):
         orbit, peak = near_peak(orbit)
         defect = orbit.system.residual(*orbit.at_waves(half.waves))
@@ -143,6 +143,9 @@ def solve(
         if not np.all(np.isfinite(defect)):
             break
         if fresh:
+            tangents += 1
+            if tangents > _MOST_TANGENTS:
+                break
             tangent.factor(orbit)
             own, fresh = True, False
             steps = []

@@ -281,4 +281,9 @@ def _decimal_row(quantity: str, printed: str, derived: float, note: str) -> Tabl
 
 
 def _readable(expression: str) -> str:
-    return expression.replace("**", "^").replace("*", " ").replace("Omega", "Ω")
+    return (
+        expression.replace("**", "^")
+        .replace("*", "·")
+        .replace(")/(", ") / (")
+        .replace("Omega", "Ω")
+    )

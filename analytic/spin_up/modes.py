@@ -19,7 +19,7 @@ from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8
 """Of what is interpolated, the share of its last coefficients."""
-_FEWEST, _MOST = 17, 257
+_FEWEST, _MOST, _FASTEST = 17, 257, 1000.0
 _FUNCTIONS = 20
 """Twice as many as the modes in use, and four √w̄ more for the layer at the clamp."""
 
@@ -45,8 +45,12 @@ class ModesOverSpeed:
     coefficients: FloatArray = field(repr=False)
 
     def at(self, w: FloatArray) -> ModesAt:
-        """Return the modes at speeds `w`, (speeds,), whose sign does not matter."""
-        values = chebyshev.chebval(2.0 * np.abs(w) / self.top - 1.0, self.coefficients)
+        """Return the modes at speeds `w`, (speeds,), whose sign does not matter.
+
+        Beyond the top they are those at the top.
+        """
+        inside = np.minimum(2.0 * np.abs(w) / self.top - 1.0, 1.0)
+        values = chebyshev.chebval(inside, self.coefficients)
         return ModesAt(*np.asarray(values))
 
 
@@ -57,8 +61,13 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
     Raises
     ------
     ValueError
-        If 257 speeds do not resolve how they change.
+        If `top` is beyond 1000, or 257 speeds do not resolve how they change.
     """
+    if top > _FASTEST:
+        raise ValueError(
+            f"the modes over the speed are known up to w̄ = ω/√(EI/mL⁴) = {_FASTEST:g}, got "
+            f"{top:.4g}: rotate slower"
+        )
     solve, points = _eigenproblem(blade, top, count), _FEWEST
     while True:
         nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)

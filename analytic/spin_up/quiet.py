@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.signal import argrelmin
 
-from ..arrays import FloatArray
+from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..exact.modes import linear_modes
 from ..exact.response import spin_up_response
@@ -107,41 +107,52 @@ def _refined(
     What the closed form lacks changes slowly with the ramp time: a straight line through its last
     two values is added to the form.
     """
-    times: list[float] = []
-    lacks: list[complex] = []
-    while True:
-        here = complex(residuals(beam, ramp, modes, np.array([T]))[0, 0])
-        exact = exact_residual_vector(beam, SpinUp(omega=ramp.omega, ramp_time=T), tolerance)
-        times, lacks = [*times[-1:], T], [*lacks[-1:], exact - here]
-        slope = (lacks[-1] - lacks[0]) / (T - times[0]) if T != times[0] else 0.0
 
-        def left(at: float, T: float = T, slope: complex = slope) -> float:
-            form = complex(residuals(beam, ramp, modes, np.array([at]))[0, 0])
-            return abs(form + lacks[-1] + slope * (at - T)) ** 2
+    def form(at: float) -> complex:
+        return complex(residuals(beam, ramp, modes, np.array([at]))[0, 0])
 
+    def lacking(at: float) -> complex:
+        spin_up = SpinUp(omega=ramp.omega, ramp_time=at)
+        return complex(exact_residuals(beam, spin_up, 1, tolerance)[0]) - form(at)
+
+    def left(at: float, T: float, lack: complex, slope: complex) -> float:
+        return abs(form(at) + lack + slope * (at - T)) ** 2
+
+    slope, lack = 0.0j, lacking(T)
+    for _ in range(_REFINEMENTS):
         least = minimize_scalar(
-            left, bounds=(T - 2.0 * spacing, T + 2.0 * spacing), options={"xatol": 1e-8}
+            left,
+            args=(T, lack, slope),
+            bounds=(T - 2.0 * spacing, T + 2.0 * spacing),
+            options={"xatol": 1e-8},
         )
-        moved, T = abs(float(least.x) - T), float(least.x)
-        if moved <= _SETTLED * _A_PERIOD * spacing:
-            return T, math.sqrt(float(least.fun))
+        moved = float(least.x) - T
+        if abs(moved) <= _SETTLED * _A_PERIOD * spacing:
+            break
+        before, lack, T = lack, lacking(T + moved), T + moved
+        slope = (lack - before) / moved
+    return T, abs(form(T) + lack)
 
 
-def exact_residual_vector(beam: AnyBlade, ramp: AnyRamp, tolerance: float = 1e-6) -> complex:
-    """Return Z of the first mode over L, by the exact transient: q = -Im Z exp(iω_n(t - T)).
+def exact_residuals(
+    beam: AnyBlade, ramp: AnyRamp, count: int = 1, tolerance: float = 1e-6
+) -> ComplexArray:
+    """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
 
-    From place and velocity of the tip at the end of the ramp, for small oscillations: higher modes
-    hardly take part in them.
+    By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
+    with one mode more, whose share is so kept out of the others.
     """
-    modes = modes_for(beam, ramp, 1)
-    end = modes.at(np.array([ramp.omega / beam.frequency_scale]))
-    decay = float(end.decay[0, 0]) * beam.frequency_scale
-    omega_n = float(linear_modes(beam, ramp.omega, 1).frequencies[0])
-    # The times before the last tell how large the motion is, of which the tolerance is a share.
-    times = np.linspace(0.0, ramp.ramp_time, 33)
+    decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
+    omegas = linear_modes(beam, ramp.omega, count + 1).frequencies
+    during = np.linspace(0.0, ramp.ramp_time, 33)
+    # The times before tell how large the motion is, of which the tolerance is a share.
+    after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
+    times = np.append(during, ramp.ramp_time + after)
     response = spin_up_response(beam, ramp, times, tolerance=tolerance)
-    q, q_dot = response.q[-1] / beam.length, response.q_dot[-1] / beam.length
-    return complex(-(q_dot + decay * q) / omega_n, -q)
+    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * beam.frequency_scale))
+    shares = np.concatenate((-wave.imag, -wave.real), axis=1)
+    found = np.linalg.lstsq(shares, response.q[during.size :] / beam.length, rcond=None)[0]
+    return np.asarray(found[:count] + 1j * found[count + 1 : -1])
 
 
 def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6) -> float:

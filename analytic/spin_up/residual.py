@@ -11,6 +11,7 @@ and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every
 from __future__ import annotations
 
 import math
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +31,19 @@ _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
 
 
+@overload
+def residual_amplitude(
+    beam: AnyBlade, spin_up: AnyRamp, *, mode: int = 1, corrected: bool = False
+) -> float: ...
+@overload
+def residual_amplitude(
+    beam: AnyBlade,
+    spin_up: AnyRamp,
+    ramp_times: ArrayLike,
+    *,
+    mode: int = 1,
+    corrected: bool = False,
+) -> FloatArray: ...
 def residual_amplitude(
     beam: AnyBlade,
     spin_up: AnyRamp,
@@ -72,7 +86,7 @@ def residual_amplitude(
     left = np.abs(residuals(beam, spin_up, modes, times.ravel())[mode - 1]).reshape(times.shape)
     if corrected:
         left = _on_the_backbone(beam, spin_up.omega, left)
-    return left if left.ndim else float(left)
+    return float(left) if ramp_times is None else left
 
 
 def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:

@@ -11,11 +11,15 @@ ROOT = Path(__file__).parents[2]
 
 
 def modules(*packages: str) -> dict[str, Path]:
-    """Return the files of all modules of the packages by their dotted names."""
+    """Return the files of all modules of the packages by their dotted names.
+
+    A folder without __init__.py holds none: what it has is data.
+    """
     return {
         _named(path): path
         for package in packages
         for path in sorted((ROOT / package.replace(".", "/")).rglob("*.py"))
+        if path.with_name("__init__.py").exists()
     }
 
 

@@ -2,50 +2,42 @@
 
 from __future__ import annotations
 
-import ast
 import difflib
 import math
 import os
 import sys
 import warnings
 from collections.abc import Sequence
-from pathlib import Path
 
 import cyclopts
-from rich.text import Text
 
 from analytic.input_checks import RotbeamWarning
 
 from .. import __version__
-from .output import new_console, spell_what_cannot_be_encoded
+from .documented import documented, epilogue
+from .messages import Messages
+from .output import spell_what_cannot_be_encoded
 
 app = cyclopts.App(
     name="rotbeam",
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
     version=__version__,
+    help_epilogue="rotbeam COMMAND --help has examples. Speeds are in rad/s, all else in SI units.",
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
 _COMMANDS = (
-    "run", "backbone", "campbell", "respond", "sweep", "compare", "figure", "table", "explore",
-    "animate", "verify", "judge", "doctor",
+    "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
+    "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge", "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
-
-def _description(command: str) -> str:
-    """Return what a command's docstring says ahead of its parameters, without importing it."""
-    tree = ast.parse(Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8"))
-    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
-    (text,) = (ast.get_docstring(node) for node in functions if node.name == command)
-    return (text or "").partition("Parameters\n---")[0].strip()
-
-
 for _order, _command in enumerate(_COMMANDS):
+    _help, _examples = documented(_command)
     app.command(
         f"{__name__}.{_command}:{_command}",
-        name=_command, help=_description(_command), sort_key=_order,
+        name=_command, help=_help, help_epilogue=epilogue(_examples), sort_key=_order,
     )  # fmt: skip
 app.command(f"{__name__}.campbell:campbell", name="compare-modes", show=False)  # its former name
 
@@ -57,28 +49,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; bad input is one sentence and exit code 2, a failed run is 1."""
     arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
     spell_what_cannot_be_encoded()
-    errors = new_console(stderr=True)
-    said: set[str] = set()
-
-    def say(title: str, style: str, text: str) -> None:
-        errors.print(Text.assemble((title, style), " ", " ".join(text.split())))
-
-    def one_line(message: Warning | str, *_: object) -> None:
-        # Several of our functions may notice the same.
-        if str(message) not in said:
-            said.add(str(message))
-            say("warning:", "yellow", str(message))
+    messages = Messages()
 
     def stop(text: str, code: int) -> None:
-        say("rotbeam:", "red", text)
+        messages.count()
+        messages.say("rotbeam:", "red", text)
         sys.exit(code)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", RotbeamWarning)
-        warnings.showwarning = one_line  # type: ignore[assignment]
+        warnings.showwarning = messages.warn  # type: ignore[assignment]
         try:
             app(arguments, exit_on_error=False, print_error=False)
             sys.stdout.flush()
+            messages.count()
         except BrokenPipeError:
             # Who reads has read enough, as `head` does; the exit must not flush into it again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

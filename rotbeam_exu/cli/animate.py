@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from cyclopts import Parameter
 from rich.progress import Progress
 
-from analytic import Beam, spin_up_response
+from analytic import spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.beam_file import load_beam
 from ..files.results import whole_file, writable_folder
+from .configuration import configured, motion_of
 from .cost import require_affordable
-from .motion import chosen_motion, chosen_times, slower_than_paper
+from .motion import chosen_times, slower_than_paper
 from .options import Whole
 from .output import new_console
 from .targets import Force, refuse_to_replace_unread
@@ -33,7 +35,7 @@ def animate(
     rate: Whole = 20,
     slow_motion: float | None = None,
     config: Path | None = None,
-    out: Path | None = None,
+    out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Force = False,
 ) -> None:
     """Write the spin-up as GIF or MP4.
@@ -46,7 +48,7 @@ def animate(
     Parameters
     ----------
     omega
-        Steady angular velocity [rad/s].
+        Steady angular velocity [rad/s]; without it that of the file's [motion], or the paper's.
     ramp_time
         Time from rest to the steady angular velocity, T in Eq. 1 [s].
     duration
@@ -56,15 +58,21 @@ def animate(
     slow_motion
         Seconds of the film per second of the motion.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force
         Replace a file that is there.
+
+    Examples
+    --------
+    $ rotbeam animate
+    $ rotbeam animate --omega 6 --ramp-time 3 --duration 4 --rate 10 -o film.gif
     """
     whole_number("rate", rate)
-    beam = Beam.reference() if config is None else load_beam(config)
-    spin_up = chosen_motion(beam, omega=omega, ramp_time=ramp_time).spin_up
+    file = configured(config)
+    beam = file.beam
+    spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
     if duration is None:
         duration = max(chosen_times(beam, 12.0)[0], 2.0 * spin_up.ramp_time)
     duration = positive("duration", duration, "s")

@@ -1,80 +1,237 @@
-"""`rotbeam backbone`: nonlinear frequencies of the reduced models."""
+"""`rotbeam backbone`: nonlinear frequencies of the reduced models and of the exact beam."""
 
 from __future__ import annotations
 
+import math
+import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 
-from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
+from analytic import (
+    VARIANTS,
+    AmplitudeNotReachedError,
+    AnyBlade,
+    Backbone,
+    ReducedModel,
+    periodic_orbits,
+    reduced_model,
+)
+from analytic.input_checks import RotbeamWarning, whole_number
 
-from ..files.beam_file import load_beam
+from .configuration import configured, omega_of
 from .cost import require_affordable
-from .options import Whole
-from .output import Format, print_columns
+from .options import Flag, VariantName, Whole
+from .output import Format, new_console, print_columns
+
+Refusal = tuple[str, str]
+"""A model's name, and why it has no answer."""
 
 _SECONDS_PER_ORBIT = 0.05
+_NOTE = (
+    "a/L is the first harmonic of q in Eq. 63, its peak in Eq. 41 and of the exact beam; λ_ω > 0 "
+    "softens"
+)
+_FIFTH = "; FrM5 has Eq. 63 with -κ (a/L)⁴"
 
 
 def backbone(
     *,
-    omega: float,
+    omega: float | None = None,
     amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
-    variant: str = "FrE",
-    all_variants: Annotated[bool, Parameter(negative=())] = False,
-    exact: Annotated[bool, Parameter(negative=())] = False,
+    variant: VariantName | None = None,
+    all_variants: Flag = False,
+    exact: Flag = False,
+    mode: Whole = 1,
     functions: Whole = 16,
     config: Path | None = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the frequency over the amplitude, reduced and exact.
 
+    The coefficients of the models, then their frequencies. Where a model has no answer there is a
+    dash, and the reason below.
+
     Parameters
     ----------
     omega
-        Rotation speed [rad/s].
+        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE, P3, P4, P5, FrC or FrM.
+        CI, CE, FrI, FrE (unless given), P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours.
     all_variants
         Every variant, one below the other.
     exact
         Add the exact backbone, by harmonic balance on the exact beam.
+    mode
+        Mode from which the exact backbone grows; beyond 1 it comes alone, without the models.
     functions
-        Functions that resolve the exact beam along its length.
+        Functions that resolve the exact beam along its length, at least.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
     form
         A table for the reader, or CSV with all digits.
+
+    Examples
+    --------
+    $ rotbeam backbone --omega 6
+    $ rotbeam backbone --omega 6 --all-variants --exact
+    $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
+    $ rotbeam backbone --omega 6 --mode 2 --amplitude 0.02 0.05
     """
-    beam = Beam.reference() if config is None else load_beam(config)
-    if exact:
-        require_affordable(
-            f"{len(amplitude)} exact orbits with {functions} functions",
-            memory=8.0 * (16.0 * functions) ** 2,
-            seconds=_SECONDS_PER_ORBIT * len(amplitude) * (functions / 16.0) ** 2,
-            remedy="take fewer",
-        )
-    names = list(VARIANTS) if all_variants else [variant]
-    models = [reduced_model(beam, omega, name) for name in names]
-    perturbed = np.concatenate([model.frequency(amplitude) for model in models])
-    title = "\n".join(map(repr, models))
-    columns: dict[str, list[str] | list[float]] = {
-        "variant": [name for name in names for _ in amplitude],
+    file = configured(config)
+    omega = omega_of(file, omega)
+    if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
+        raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
+    names = list(VARIANTS) if all_variants else [] if mode > 1 else [variant or "FrE"]
+    refused: list[Refusal] = []
+    models = _models(file.beam, omega, names, refused)
+    if names and not models:
+        raise ValueError("; ".join(_grouped(refused)))
+    truth, failure = None, ""
+    if exact or mode > 1:
+        truth, failure = _exact(file.beam, omega, amplitude, mode, functions)
+    columns = _frequencies(models, amplitude, refused)
+    if truth is not None:
+        columns |= _exact_columns(truth, amplitude, max(len(models), 1))
+    if form == "table":
+        _print_coefficients(models, truth, omega)
+    print_columns(columns, form, title="" if models else str(truth))
+    if form == "table" and models:
+        fifth = any(model.kappa for model in models)
+        new_console().print(_NOTE + (_FIFTH if fifth else ""), soft_wrap=False)
+    # All variants were asked for, one of them was not: only what was asked for by name must be had.
+    if refused and not all_variants:
+        raise ValueError("; ".join(_grouped(refused)))
+    for sentence in _grouped(refused):
+        warnings.warn(f"no answer: {sentence}", RotbeamWarning, stacklevel=2)
+    if failure:
+        raise RuntimeError(failure)
+
+
+def _models(
+    beam: AnyBlade, omega: float, names: list[str], refused: list[Refusal]
+) -> list[ReducedModel]:
+    """Return the models that there are, and add to `refused` why others are not."""
+    models = []
+    for name in names:
+        try:
+            models.append(reduced_model(beam, omega, name))
+        except ValueError as error:
+            refused.append((name, str(error)))
+    return models
+
+
+def _grouped(refused: list[Refusal]) -> list[str]:
+    """Return one sentence for all models that were refused for the same reason."""
+    kinds: dict[str, list[Refusal]] = {}
+    for name, sentence in dict.fromkeys(refused):
+        kinds.setdefault(sentence.replace(name, "#"), []).append((name, sentence))
+    sentences = []
+    for group in kinds.values():
+        names = list(dict.fromkeys(name for name, _ in group))
+        _, first = group[0]
+        told = len(names) == 1 and names[0] in first
+        sentences.append(first if told else f"{', '.join(names)}: {first}")
+    return sentences
+
+
+def _exact(
+    beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
+) -> tuple[Backbone, str]:
+    """Return the orbits that were found, and why others were not."""
+    require_affordable(
+        f"{len(amplitude)} exact orbits with {functions} functions",
+        memory=8.0 * (16.0 * functions) ** 2,
+        seconds=_SECONDS_PER_ORBIT * len(amplitude) * (functions / 16.0) ** 2,
+        remedy="take fewer",
+    )
+    try:
+        return periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
+    except AmplitudeNotReachedError as error:
+        if error.backbone is None:
+            raise
+        return error.backbone, str(error)
+
+
+def _frequencies(
+    models: list[ReducedModel], amplitude: list[float], refused: list[Refusal]
+) -> dict[str, list[Any]]:
+    """Return the columns of the models, and add to `refused` why some have no number."""
+    if not models:
+        return {"amplitude a/L": list(amplitude)}
+    perturbed, exactly, ratio = [], [], []
+    for model in models:
+        name = model.variant.name
+        found = _each(model.frequency, amplitude, name, refused)
+        perturbed += found
+        ratio += [frequency / model.omega_n for frequency in found]
+        exactly += _each(model.exact_frequency, amplitude, name, refused)
+    return {
+        "variant": [model.variant.name for model in models for _ in amplitude],
         "amplitude a/L": amplitude * len(models),
-        "Eq. 63 [rad/s]": perturbed.tolist(),
-        "Eq. 41 exactly [rad/s]": np.concatenate(
-            [model.exact_frequency(amplitude) for model in models]
-        ).tolist(),
-        "ω_NL/ω_n": (
-            perturbed / np.repeat([model.omega_n for model in models], len(amplitude))
-        ).tolist(),
+        "Eq. 63 [rad/s]": perturbed,
+        "Eq. 41 exactly [rad/s]": exactly,
+        "Eq. 63 / ω_n": ratio,
     }
-    if exact:
-        truth = periodic_orbits(beam, omega, amplitude, functions=functions)
-        columns["exact beam [rad/s]"] = truth.frequency.tolist() * len(models)
-        title = f"{title}\n{truth}"
-    print_columns(columns, form, title=title)
+
+
+def _each(
+    frequency: Callable[[Any], Any], amplitude: list[float], name: str, refused: list[Refusal]
+) -> list[float]:
+    """Return the frequency at each amplitude, NaN where there is none; together if they can be."""
+    try:
+        return [float(one) for one in frequency(amplitude)]
+    except ValueError:
+        if len(amplitude) > 1:
+            return [_each(frequency, [a], name, refused)[0] for a in amplitude]
+        try:
+            frequency(amplitude)
+        except ValueError as error:
+            refused.append((name, str(error)))
+        return [math.nan]
+
+
+def _exact_columns(truth: Backbone, amplitude: list[float], times: int) -> dict[str, list[float]]:
+    found = [
+        truth.frequency[near[0]] if near.size else math.nan
+        for a in amplitude
+        for near in [np.flatnonzero(np.isclose(truth.amplitude, a, rtol=1e-6))]
+    ]
+    column = {"exact beam [rad/s]": found * times}
+    return (
+        column if truth.mode == 1 else {**column, "exact/ω_n": [f / truth.omega_n for f in found]}
+    )
+
+
+def _print_coefficients(models: list[ReducedModel], truth: Backbone | None, omega: float) -> None:
+    """Print one row of coefficients for each model, and one for the exact beam."""
+    if not models:
+        return
+    rows: list[tuple[str, ...]] = [
+        (
+            model.variant.name, f"{model.omega_n:.6f}", f"{model.g1:.6g}", f"{model.g2:.6g}",
+            f"{model.lambda_omega:.6f}", f"{model.lambda_x:.6f}",
+            f"{model.kappa:.6f}" if model.kappa else "-",
+        )
+        for model in models
+    ]  # fmt: skip
+    if truth is not None:
+        rows.append(
+            ("exact", f"{truth.omega_n:.6f}", "-", "-", f"{truth.lambda_omega:.6f}", "-", "-")
+        )
+    titles = [
+        "variant", "ω_n\n[rad/s]", "Eq. 41's\ng1", "Eq. 41's\ng2", "Eq. 64's\nλ_ω", "Eq. 65's\nλ_x",
+        "κ",
+    ]  # fmt: skip
+    shown = len(titles) if any(model.kappa for model in models) else len(titles) - 1
+    whose = models[0].variant.name if len(models) == 1 else f"{len(models)} models"
+    print_columns(
+        {title: [row[i] for row in rows] for i, title in enumerate(titles[:shown])},
+        "table",
+        title=f"{whose} at ω = {omega:g} rad/s (Ω = {models[0].speed_ratio:.4g})",
+    )

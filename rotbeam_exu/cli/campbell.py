@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import Beam, Campbell
+from analytic import Campbell
 from analytic import campbell as campbell_diagram
 from analytic.input_checks import rotation_speed, whole_number
 
-from ..files.beam_file import load_beam
+from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds
 from .options import Whole
@@ -35,12 +35,15 @@ def campbell(
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 
-    Exact, extensible beam about its steady rotation; modes are tracked by shape.
+    Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
+    half as many functions again change no frequency by 1e-9.
 
     Parameters
     ----------
-    omega_min, omega_max
-        Lowest and highest rotation speed [rad/s]; the paper's beam goes up to 12.
+    omega_min
+        Lowest rotation speed [rad/s].
+    omega_max
+        Highest rotation speed [rad/s], 12 for the paper's beam unless given.
     points
         Number of speeds.
     count
@@ -51,6 +54,11 @@ def campbell(
         TOML file with the beam; without it, the paper's beam.
     format
         A table to read, or CSV.
+
+    Examples
+    --------
+    $ rotbeam campbell
+    $ rotbeam campbell --omega-max 8 --points 5 --count 2 --format csv
     """
     if points < 2:
         raise ValueError(f"points must be at least 2, got {points}")
@@ -64,7 +72,7 @@ def campbell(
         seconds=_SECONDS_PER_SPEED * points + _SECONDS_PER_LINE * orders * count**2,
         remedy="take fewer",
     )
-    beam = Beam.reference() if config is None else load_beam(config)
+    beam = configured(config).beam
     highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
     speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)
     _print(campbell_diagram(beam, speeds, count, orders), format)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
-from .. import comparison
+import numpy as np
+import xarray as xr
+
+from analytic import AnyBlade, Beam
+
+from .. import comparison, paper
 from ..files.results import save, save_tables, writable_folder
+from ..verdict import beam_attributes
+from .configuration import configured
+from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
 from .options import Results, Workers
-from .output import new_console, print_columns
-from .sweep import counter
-from .targets import listed, refuse_to_replace, telling_what_is_kept
+from .output import new_console, print_columns, print_written
+from .progress import counter
+from .targets import refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()
 
@@ -17,37 +26,82 @@ _WORKERS, _RESULTS = Workers(), Results()
 def compare(
     *,
     amplitude: float = 0.1,
+    config: Path | None = None,
     workers: Workers = _WORKERS,
     results: Results = _RESULTS,
 ) -> None:
     """Print all models' errors, and write Figures 14 and 15's data.
 
+    Of the paper's beam or another uniform one, whose speeds, ramps and step follow its ω_0.
+
     Parameters
     ----------
     amplitude
         Amplitude over the length at which the models' budget is printed.
+    config
+        TOML file with the beam; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam compare --jobs 2
+    $ rotbeam compare --config beam.toml --amplitude 0.2 -o mine
     """
     folder = writable_folder(results.out)
     console = new_console()
-    models = comparison.model_budget(amplitudes=(amplitude,))
+    beam = _uniform(configured(config).beam)
+    mine = {} if config is None else beam_attributes(beam)
+    omegas = chosen_speeds(beam, *paper.SPEEDS)
+    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
+    models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
+    models = models.assign_attrs(mine)
     refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
+    motion = _even(grid_motion(beam, omegas, ramp_times))
+    main = chosen_motion(beam)
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
     with telling_what_is_kept(lambda: spin_ups), counter(console, "spin-ups") as progress:
         options: dict[str, Any] = {
-            "jobs": workers.jobs,
-            "cache": workers.cache,
-            "progress": progress,
-        }
+            "omegas": omegas, "ramp_times": ramp_times, "duration": motion.duration,
+            "step": motion.step, "jobs": workers.jobs, "cache": workers.cache, "progress": progress,
+        }  # fmt: skip
         data = {
-            "figure_14": comparison.figure_14(**options),
-            "figure_15": comparison.figure_15(),
+            "figure_14": comparison.figure_14(beam, **options),
+            "figure_15": comparison.figure_15(
+                beam, omega=main.spin_up.omega, ramp_time=main.spin_up.ramp_time,
+                duration=main.duration, step=main.step,
+            ),
             "budget_models": models,
-            "budget_finite_elements": comparison.finite_element_budget(**options),
-        }
+            "budget_finite_elements": comparison.finite_element_budget(beam, **options),
+        }  # fmt: skip
     written = []
     for name, table in data.items():
-        written.append(save(table, folder / f"{name}.nc"))
-        written += save_tables(table, folder / f"{name}.csv")
+        written.append(save(table.assign_attrs(mine), folder / f"{name}.nc"))
+        written += save_tables(table.assign_attrs(mine), folder / f"{name}.csv")
+    _print_models(models, amplitude)
+    _print_elements(data["budget_finite_elements"], motion.step)
+    print_written(console, written)
+
+
+def _uniform(beam: AnyBlade) -> Beam:
+    """Refuse a blade: of it the paper's models have nothing to say."""
+    if not isinstance(beam, Beam):
+        raise ValueError(
+            "compare holds the paper's models against the exact beam, and they are for the uniform "
+            "beam of [beam] only: for a [blade] take rotbeam backbone --variant FrM --exact"
+        )
+    return beam
+
+
+def _even(motion: Motion) -> Motion:
+    """Return the motion with an even number of steps, for twice the step has to fit as well."""
+    steps = round(motion.duration / motion.step)
+    if steps % 2 == 0:
+        return motion
+    return Motion(
+        spin_up=motion.spin_up, duration=motion.duration, step=motion.duration / (steps + 1)
+    )
+
+
+def _print_models(models: xr.Dataset, amplitude: float) -> None:
     for omega in models["omega"].to_numpy():
         here = models.sel(omega=omega, a=amplitude)
         sources = here["source"].to_numpy().tolist()
@@ -55,24 +109,33 @@ def compare(
         for model in here["model"].to_numpy():
             one = here.sel(model=model)
             errors = [*one["error"].to_numpy(), one["total"].item()]
-            rows[str(model)] = [f"{error:+.1e}" for error in errors]
+            rows[str(model)] = [_signed(error) for error in errors]
         print_columns(
             rows,
             "table",
             title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
         )
-    elements = data["budget_finite_elements"]
+
+
+def _print_elements(elements: xr.Dataset, step: float) -> None:
     frame = elements["error"].to_series().unstack("source").reset_index()
     print_columns(
         {
             "ω [rad/s]": frame["omega"].tolist(),
             "T [s]": frame["ramp_time"].tolist(),
             **{
-                str(source): [f"{e:+.1e}" for e in frame[source]]
+                str(source): [_signed(error) for error in frame[source]]
                 for source in elements["source"].to_numpy()
             },
         },
         "table",
-        title="16 elements, 1 ms: distance from the exact ω_NL/ω_n at the same amplitude",
+        title=(
+            f"16 elements, {1e3 * step:g} ms: distance from the exact ω_NL/ω_n at its amplitude"
+        ),
     )
-    console.print("written " + listed(written))
+    if np.isnan(elements["error"]).any():
+        new_console().print("-: the amplitude is above 0.6, where the budget ends", soft_wrap=False)
+
+
+def _signed(error: float) -> str:
+    return "-" if np.isnan(error) else f"{error:+.1e}"

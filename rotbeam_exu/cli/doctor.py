@@ -11,7 +11,12 @@ from .output import new_console
 
 
 def doctor() -> None:
-    """Print versions and run one short spin-up with all its checks."""
+    """Print versions and run one short spin-up with all its checks.
+
+    Examples
+    --------
+    $ rotbeam doctor
+    """
     console = new_console()
     for name, version in versions().items():
         console.print(f"{name:<14}{version}")

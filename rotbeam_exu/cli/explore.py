@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated, Any
 
-from rich.progress import Progress
+from cyclopts import Parameter
 
-from ..explorer import explorer_page
+from analytic import AnyBlade
+
+from .. import paper
+from ..explorer import OMEGAS, explorer_page
 from ..files.results import whole_file, writable_folder
+from .configuration import configured
+from .motion import chosen_speeds, chosen_times, grid_motion
 from .options import Jobs
 from .output import new_console
+from .progress import counter
 from .targets import Force, refuse_to_replace_unread, telling_what_is_kept
 
 
 def explore(
     *,
-    out: Path = Path("explorer.html"),
+    out: Annotated[Path | None, Parameter(alias="-o")] = None,
+    config: Path | None = None,
     cache: Path | None = None,
     jobs: Jobs = None,
     force: Force = False,
@@ -27,35 +35,56 @@ def explore(
     Parameters
     ----------
     out
-        The page.
+        The page; explorer.html, or with a beam of one's own explorer- and its file's name.
+    config
+        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's.
     cache
         Folder that keeps the finite element runs, for the next time.
     jobs
         Number of processes; by default, all cores.
     force
         Replace a page that is not the Explorer.
+
+    Examples
+    --------
+    $ rotbeam explore --jobs 1
+    $ rotbeam explore --config beam.toml --cache results/cache -o mine.html
     """
+    if out is None:
+        out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
         raise ValueError(f"cannot write {out.name!r}: the ending must be .html")
     writable_folder(out.parent)
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
     if not _is_explorer(out):
         refuse_to_replace_unread(out, force)
+    beam = configured(config).beam
+    options = {} if config is None else _scaled(beam)
     console = new_console()
     kept = f"finished spin-ups are kept in the cache {cache}" if cache else ""
     with (
         telling_what_is_kept(lambda: kept),
-        Progress(console=console, transient=True, disable=not console.is_terminal) as bar,
+        counter(console, "exact orbits and spin-ups") as progress,
     ):
-        task = bar.add_task("exact orbits and spin-ups", total=None)
-        page = explorer_page(
-            cache=cache,
-            jobs=jobs,
-            progress=lambda done, total: bar.update(task, completed=done, total=total),
-        )
+        page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
         partial.write_text(page, encoding="utf-8")
     console.print(f"{out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
+
+
+def _scaled(beam: AnyBlade) -> dict[str, Any]:
+    """Return the page's speeds, the points' grid, their end and step, scaled by ω_0."""
+    (interval,) = chosen_speeds(beam, OMEGAS[1])
+    omegas = chosen_speeds(beam, *paper.SPEEDS)
+    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
+    motion = grid_motion(beam, omegas, ramp_times)
+    return {
+        "omegas": [interval * i for i in range(len(OMEGAS))],
+        "finite_element_omegas": omegas,
+        "ramp_times": ramp_times,
+        "duration": motion.duration,
+        "step": motion.step,
+    }
 
 
 def _is_explorer(page: Path) -> bool:

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
 
+from cyclopts import Parameter
 from rich.console import Console
 
-from ..figures.style import save_figure
+from ..figures.descriptions import caption
+from ..figures.style import STYLES, save_figure
+from ..figures.style import style as drawn_in
 from ..files.results import save, save_tables, whole_file, writable_folder
 from ..paper_figures import PAPER_FIGURES
-from .options import Results, Workers
-from .output import new_console
-from .sweep import counter
+from .options import Results, Workers, spelled_as
+from .output import new_console, print_written
+from .progress import counter
 from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()
+
+StyleName = Annotated[str, Parameter(converter=spelled_as(STYLES))]
+"""Name of a style; what is none is refused by `figures.style`."""
 
 
 def figure(
@@ -23,16 +30,27 @@ def figure(
     *,
     workers: Workers = _WORKERS,
     results: Results = _RESULTS,
+    style: StyleName = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
+
+    It is of the paper's beam by definition, and takes no other: for one's own there are run,
+    respond, compare and explore.
 
     Parameters
     ----------
     number
         3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
+    style
+        house: PNG and PDF; journal: a journal's column width, PDF and SVG; grey: that in greys.
+
+    Examples
+    --------
+    $ rotbeam figure 9
+    $ rotbeam figure 14 --jobs 2 -o paper
     """
     every = list(PAPER_FIGURES)
-    wanted = every if number == "all" else [int(number)] if number.isdecimal() else []
+    wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
     if not wanted or wanted[0] not in PAPER_FIGURES:
         raise ValueError(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
@@ -42,7 +60,8 @@ def figure(
     console = new_console()
     done: list[Path] = []
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
-    with telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])])):
+    kept = telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])]))
+    with drawn_in(style), kept:
         for n in wanted:
             done += _made(n, folder, console, workers, force=results.force)
 
@@ -63,9 +82,10 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
     written += save_tables(data, name.with_suffix(".csv"))
     axes = made.draw(data)
     written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
-    caption = name.with_suffix(".txt")
-    with whole_file(caption) as partial:
-        partial.write_text(f"Figure {n}. {made.caption}\n", encoding="utf-8")
-    written.append(caption)
-    console.print(f"figure {n}: {listed(written)}")
+    words = name.with_suffix(".txt")
+    with whole_file(words) as partial:
+        text = " ".join(filter(None, (caption(n, data), data.attrs.get("out_of_plane"))))
+        partial.write_text(f"Figure {n}. {text}\n", encoding="utf-8")
+    written.append(words)
+    print_written(console, written)
     return written

@@ -16,6 +16,7 @@ from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
 from ..verification.mistakes.mistake import Mistake
 from ..verification.mistakes.search import mistakes_in
+from ..verification.submission_files.commands import run_what_is_missing
 from ..verification.submission_files.faults import MalformedSubmissionError
 from ..verification.submission_files.reading import digests, read_submission
 from .output import new_console
@@ -31,7 +32,7 @@ def judge(
     case: list[str] | None = None,
     run: bool = False,
 ) -> None:
-    """Judge a submission of files, from any code, by what it tends to.
+    """Judge the files that any code handed in, by what it tends to.
 
     Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
     malformed, and all their faults are told.
@@ -54,6 +55,9 @@ def judge(
         if target is not None:
             _may_write(target, ending)
     try:
+        if run:
+            for done in run_what_is_missing(folder):
+                print_note(done)
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
         _print_faults(error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from analytic import AnyBlade, Beam, SpinUp
@@ -88,6 +89,24 @@ def chosen_motion(
         # The number as printed, where round-off is all that sets them apart.
         step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
     return Motion(spin_up=spin_up, duration=duration, step=step)
+
+
+def grid_motion(
+    beam: AnyBlade,
+    omegas: Sequence[float],
+    ramp_times: Sequence[float],
+    *,
+    duration: float | None = None,
+    step: float | None = None,
+) -> Motion:
+    """Return duration and step for a whole grid: of the longest ramp and of the shortest."""
+    for omega in omegas:
+        SpinUp(omega=omega, ramp_time=1.0)
+    checked = [positive("ramp_time", time, "s") for time in ramp_times]
+    longest, shortest = max(checked, default=None), min(checked, default=None)
+    if step is None:
+        step = chosen_motion(beam, ramp_time=shortest, duration=duration).step
+    return chosen_motion(beam, ramp_time=longest, duration=duration, step=step)
 
 
 def slower_than_paper(beam: AnyBlade) -> float:

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
-from analytic import AnyBlade
+from analytic import VARIANTS, AnyBlade
 
 from ..fem.case import Case
-from ..fem.elements import formulation
+from ..fem.elements import ALIASES, FORMULATIONS, formulation
 from ..fem.solver import Frame
 from .motion import Motion
+from .output import choice
 from .targets import Force
 
 
-def _whole(_: Any, tokens: Sequence[Token]) -> int:
+def whole(_: Any, tokens: Sequence[Token]) -> int:
     """Read a whole number in decimal digits: 2.5 is none, and neither are 1e3 and 0x10."""
     text = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", text):
@@ -29,37 +30,50 @@ def _whole(_: Any, tokens: Sequence[Token]) -> int:
     return int(text)
 
 
-Whole = Annotated[int, Parameter(converter=_whole)]
+Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
 
-Jobs = Annotated[int | None, Parameter(converter=_whole)]
+Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class Discretization:
-    """How a run is computed.
+Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
+"""A switch, off unless it is given."""
 
-    Parameters
-    ----------
-    element
-        Beam formulation.
-    option
-        Option of the formulation as name=value; may be given again for another.
-    elements
-        Number of elements.
-    step
-        Step size of the integrator [s].
-    duration
-        End of the run [s].
-    frame
-        Coordinates of the model.
-    """
+NoFigure = Annotated[
+    bool,
+    Parameter(
+        name="--no-figure", negative=(), show_default=False, help="Write no figure, data only."
+    ),
+]
+"""A switch of the commands that write a figure beside their data."""
+
+
+def spelled_as(known: Iterable[str]) -> Callable[[Any, Sequence[Token]], str]:
+    """Return a converter to the known name that differs in upper and lower case only, if any."""
+    names = tuple(known)
+    return lambda _, tokens: _spelled(tokens[0].value, names)
+
+
+def _spelled(text: str, known: Iterable[str]) -> str:
+    return {name.lower(): name for name in known}.get(text.lower(), text)
+
+
+_ELEMENTS = (*FORMULATIONS, *ALIASES)
+Element = Annotated[str, Parameter(converter=spelled_as(_ELEMENTS))]
+"""Name of a formulation; what is none is refused by `formulation`."""
+
+VariantName = Annotated[str, Parameter(converter=spelled_as(VARIANTS))]
+"""Name of a variant; what is none is refused by `reduced_model`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Numerics:
+    """How a run is computed; step and duration may be left to `chosen_motion`."""
 
     element: str = "cable"
-    option: list[str] | None = None
-    elements: Whole = 16
+    option: Mapping[str, object] = field(default_factory=dict)
+    elements: int = 16
     step: float | None = None
     duration: float | None = None
     frame: Frame = "inertial"
@@ -67,25 +81,73 @@ class Discretization:
     @property
     def name(self) -> str:
         """Formulation, options and mesh as part of a file's name."""
-        options = [text.replace("=", "-") for text in self.option or []]
+        options = [f"{name}-{value}" for name, value in self.option.items()]
         return "-".join([self.element, *options, str(self.elements)])
 
     @property
     def title(self) -> str:
         """Formulation and options for a reader."""
-        return ", ".join([self.element, *(self.option or [])])
+        return ", ".join([self.element, *(f"{k}={v}" for k, v in self.option.items())])
 
     def case(self, beam: AnyBlade, motion: Motion) -> Case:
         """Return the case of a motion, whose step and duration are chosen."""
         return Case(
             beam=beam,
             spin_up=motion.spin_up,
-            element=formulation(self.element, dict(map(_name_and_value, self.option or []))),
+            element=formulation(self.element, self.option),
             elements=self.elements,
             duration=motion.duration,
             step=motion.step,
             frame=self.frame,
         )
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Discretization:
+    """How a run is computed, as far as it is given.
+
+    Parameters
+    ----------
+    element
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
+    option
+        Option of the formulation as name=value; may be given again for another.
+    elements
+        Number of elements, 16 unless given.
+    step
+        Step size of the integrator [s].
+    duration
+        End of the run [s].
+    frame
+        Coordinates of the model, inertial unless given.
+    """
+
+    element: Element | None = None
+    option: list[str] | None = None
+    elements: Whole | None = None
+    step: float | None = None
+    duration: float | None = None
+    frame: Annotated[Frame | None, Parameter(converter=choice)] = None
+
+    def over(self, numerics: Mapping[str, Any]) -> Numerics:
+        """Return what is given here, over what is given in a file, over the paper's."""
+        mine = given(
+            element=self.element, elements=self.elements, step=self.step, duration=self.duration,
+            frame=self.frame,
+        )  # fmt: skip
+        options = dict(map(_name_and_value, self.option or []))
+        chosen = Numerics(**{**numerics, **mine}, option=options)
+        return replace(
+            chosen,
+            element=_spelled(chosen.element, _ELEMENTS),
+            frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
+        )
+
+
+def given(**options: Any) -> dict[str, Any]:
+    """Return the options that are not None."""
+    return {name: value for name, value in options.items() if value is not None}
 
 
 @Parameter(name="*")

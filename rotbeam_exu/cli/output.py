@@ -5,18 +5,35 @@ from __future__ import annotations
 import codecs
 import csv
 import io
+import math
 import sys
 import unicodedata
-from collections.abc import Mapping, Sequence
-from typing import Literal
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
 
+from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-Format = Literal["table", "csv"]
+
+def choice(kind: Any, tokens: Sequence[Token]) -> str:
+    """Read one of the texts of a Literal, in upper or lower case: a converter."""
+    inner = next((one for one in get_args(kind) if get_args(one)), kind)  # Literal[...] | None
+    text, known = tokens[0].value, get_args(inner)
+    found = {str(one).lower(): str(one) for one in known}.get(text.lower())
+    if found is None:
+        raise ValueError(f"it must be {' or '.join(map(str, known))}, got {text!r}")
+    return found
+
+
+Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
+
+_MOST_LINES = 40
+"""Of a cell: one that needs more is given its longest word's width."""
 
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
@@ -64,15 +81,17 @@ def print_columns(
     form: Format,
     title: str = "",
     frame: box.Box = box.HEAVY_HEAD,
+    header: bool = True,
 ) -> None:
     """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
 
     Where a terminal is too narrow for the table, it comes in parts that repeat the first column;
-    lines are broken between words only, never in a number.
+    lines are broken between words only, never in a number. A CSV may go on without its `header`.
     """
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
-        writer.writerow(columns)
+        if header:
+            writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
         return
     console = new_console()
@@ -89,9 +108,7 @@ def print_columns(
     room = console.width
     for part in _parts(least, room):
         widths = _widths(
-            [max(map(cell_len, (names[i], *readable[names[i]]))) for i in part],
-            [least[i] for i in part],
-            room,
+            [(names[i], *readable[names[i]]) for i in part], [least[i] for i in part], room
         )
         table = Table(box=frame)
         for i, width in zip(part, widths, strict=True):
@@ -103,7 +120,15 @@ def print_columns(
         console.print(table, soft_wrap=False)
 
 
+def print_written(console: Console, paths: Iterable[Path]) -> None:
+    """Print what was written, one path a line."""
+    for path in paths:
+        console.print(f"written {path}")
+
+
 def _cell(cell: str | float) -> str:
+    if isinstance(cell, float) and math.isnan(cell):
+        return "-"
     return f"{cell:.7g}" if isinstance(cell, float) else str(cell)
 
 
@@ -138,12 +163,30 @@ def _parts(least: Sequence[int], room: int) -> list[list[int]]:
     return parts
 
 
-def _widths(natural: Sequence[int], least: Sequence[int], room: int) -> list[int]:
-    """Return the width of each column: its longest word, and of what is left as much as it can."""
-    spare = max(room - _total(least), 0)
-    widths = []
-    for wanted, needed in zip(natural, least, strict=True):
-        more = min(wanted - needed, spare)
-        widths.append(needed + more)
-        spare -= more
-    return widths
+def _widths(columns: Sequence[Sequence[str]], least: Sequence[int], room: int) -> list[int]:
+    """Return the widths at which no cell needs more lines than it must for the table to fit."""
+    for lines in range(1, _MOST_LINES):
+        widths = [max(_narrowest(cell, lines) for cell in cells) for cells in columns]
+        if _total(widths) <= room:
+            return widths
+    return list(least)
+
+
+def _narrowest(text: str, lines: int) -> int:
+    """Return the least width at which a text, broken between words only, has so many lines."""
+    parts = [[cell_len(word) for word in part.split()] or [0] for part in text.split("\n")]
+    longest = max(sum(words) + len(words) for words in parts)
+    for width in range(max(map(max, parts)), longest):
+        if sum(_lines(words, width) for words in parts) <= lines:
+            return width
+    return longest - 1
+
+
+def _lines(words: Sequence[int], width: int) -> int:
+    """Return how many lines words of these lengths take."""
+    used, free = 0, -1
+    for word in words:
+        if word > free:
+            used, free = used + 1, width
+        free -= word + 1
+    return used

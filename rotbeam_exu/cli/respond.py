@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
@@ -12,7 +12,6 @@ from cyclopts import Parameter
 
 from analytic import (
     AnyBlade,
-    Beam,
     Damping,
     DistributedForce,
     ForcedResponse,
@@ -29,12 +28,12 @@ from analytic.loads import HarmonicLoad
 
 from .. import comparison
 from ..comparison.response import response_inputs
-from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
+from .configuration import configured, omega_of
 from .cost import require_affordable
-from .options import Results, Whole
-from .output import new_console, print_columns
-from .targets import free_name, listed, refuse_to_replace
+from .options import Flag, NoFigure, Results, Whole
+from .output import new_console, print_columns, print_written
+from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
 
 _SECONDS_PER_POINT = 0.02
 """From below."""
@@ -128,8 +127,10 @@ def respond(
     loads: Loads = _LOADS,
     dampings: Dampings = _DAMPINGS,
     points: Whole = 41,
-    inextensible: Annotated[bool, Parameter(negative=())] = False,
+    inextensible: Flag = False,
+    functions: Whole = 10,
     config: Path | None = None,
+    no_figure: NoFigure = False,
     results: Results = _RESULTS,
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
@@ -146,33 +147,45 @@ def respond(
     last
         The one at which it ends [rad/s].
     omega
-        Rotation speed [rad/s]; not under gravity.
+        Rotation speed [rad/s], unless [motion] of the file has it; not under gravity.
     points
         Frequencies, ends included, at which the curve has points wherever it passes them.
     inextensible
         Leave the axial motion out.
+    functions
+        Functions that resolve the beam along its length, at least.
     config
-        TOML file with the beam or blade; without it, the paper's beam.
+        TOML file with the beam or blade, and if it likes with [motion]; without it, the paper's
+        beam.
+
+    Examples
+    --------
+    $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
+    $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
     load = loads.one()
-    beam = dampings.on(Beam.reference() if config is None else load_beam(config))
+    file = configured(config)
+    beam = dampings.on(file.beam)
     if isinstance(load, Gravity):
         if omega is not None:
             raise ValueError(
                 "under --gravity the rotation speeds are those --from one --to another: leave "
                 "--omega out"
             )
-    elif omega is None:
-        raise ValueError("give the rotation speed in rad/s with --omega")
+    else:
+        omega = omega_of(file, omega)
     frequencies = _frequencies(first, last, points)
     inputs = {
         **response_inputs(beam, load, omega),
         "from": first, "to": last, "points": points, "inextensible": int(inextensible),
+        "functions": functions,
     }  # fmt: skip
     path = writable_folder(results.out) / f"{_name(load, omega)}-from-{first:g}-to-{last:g}"
     refuse_to_replace(inputs, *_data_files(path), force=results.force)
     try:
-        found = _response(beam, omega, load, frequencies, inextensible)
+        found = _response(
+            beam, omega, load, frequencies, inextensible=inextensible, functions=functions
+        )
     except ResponseNotReachedError as error:
         if error.response is None:
             raise
@@ -184,12 +197,13 @@ def respond(
         raise RuntimeError(f"{error}; what was found is in {kept}, marked failed") from error
     data = comparison.forced_response(found).assign_attrs(inputs)
     written = _saved(data, path)
+    with telling_what_is_kept(lambda: f"kept: {listed(written)}"):
+        _print(data, str(found))
+        if not no_figure:
+            from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
-
-    written += figures.save_figure(figures.forced_response(data), path)
-    _print(data, str(found))
-    new_console().print("written " + listed(written))
+            written += figures.save_figure(figures.forced_response(data), path)
+    print_written(new_console(), written)
 
 
 def _response(
@@ -197,12 +211,12 @@ def _response(
     omega: float | None,
     load: HarmonicLoad | Gravity,
     frequencies: FloatArray,
-    inextensible: bool,
+    **options: Any,
 ) -> ForcedResponse:
     if isinstance(load, Gravity):
-        return gravity_response(beam, frequencies, load.gravity, inextensible=inextensible)
+        return gravity_response(beam, frequencies, load.gravity, **options)
     assert omega is not None
-    return forced_response(beam, omega, load, frequencies, inextensible=inextensible)
+    return forced_response(beam, omega, load, frequencies, **options)
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:

@@ -13,22 +13,21 @@ from typing import Annotated, Any, Literal
 import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
-from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from analytic import AnyBlade, Beam, SpinUp
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import whole_number
 
 from .. import paper
-from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..sweeps.dask import dask_executor
-from ..sweeps.grid import failures
+from ..sweeps.grid import failed_cases
 from ..sweeps.grid import sweep as run_sweep
+from .configuration import configured
 from .cost import require_affordable
-from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, refuse_rest
-from .options import Discretization, Results, Workers
-from .output import new_console, print_columns
-from .targets import listed, refuse_to_replace, telling_what_is_kept
+from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
+from .options import Discretization, Flag, Results, Workers
+from .output import choice, new_console, print_columns, print_written
+from .progress import counter
+from .targets import refuse_to_replace, telling_what_is_kept
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -46,16 +45,17 @@ def sweep(
     ramp_time: Values = None,
     discretization: Discretization = _DISCRETIZATION,
     workers: Workers = _WORKERS,
-    executor: Literal["processes", "dask"] = "processes",
+    executor: Annotated[Literal["processes", "dask"], Parameter(converter=choice)] = "processes",
     scheduler: str | None = None,
     shard: str = "1/1",
-    history: Annotated[bool, Parameter(negative=())] = False,
+    history: Flag = False,
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
-    Failed cases stay on record; a sweep that was stopped goes on where it stopped.
+    The paper's grid unless another is given. Failed cases stay on record and end in exit code 1; a
+    sweep that was stopped goes on where it stopped.
 
     Parameters
     ----------
@@ -72,22 +72,35 @@ def sweep(
     history
         Also keep q over time.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [numerics]; a speed or ramp time in its
+        [motion] is the grid's only one, unless others are given.
+
+    Examples
+    --------
+    $ rotbeam sweep
+    $ rotbeam sweep --omega 4 6 --ramp-time 2.5 3 --step 2e-3 -o quick
+    $ rotbeam sweep --config beam.toml --shard 1/24 --jobs 1
     """
-    beam = Beam.reference() if config is None else load_beam(config)
+    file = configured(config)
+    beam = file.beam
+    if omega is None and "omega" in file.motion:
+        omega = [file.motion["omega"]]
+    if ramp_time is None and "ramp_time" in file.motion:
+        ramp_time = [file.motion["ramp_time"]]
+    numerics = discretization.over(file.numerics)
     omegas = chosen_speeds(beam, *paper.SPEEDS) if omega is None else omega
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
     refuse_rest(*omegas)
-    motion = _motion(beam, omegas, ramp_times, discretization)
+    motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
     if executor == "dask" and scheduler is None:
         raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
     count = len(omegas) * len(ramp_times)
     at_once = math.inf if executor == "dask" else _cores(workers.jobs)
-    steps = discretization.elements * motion.duration / motion.step
+    steps = numerics.elements * motion.duration / motion.step
     _require_affordable(steps, count, count // part[1], at_once)
-    one = discretization.case(beam, motion)
-    name = f"sweep-{discretization.name}"
+    one = numerics.case(beam, motion)
+    name = f"sweep-{numerics.name}"
     name += "" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}"
     path = writable_folder(results.out) / f"{name}.nc"
     grid = {"omega": omegas, "ramp_time": ramp_times}
@@ -124,14 +137,21 @@ def sweep(
 
 
 def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
-    """Write and print the result; refuse to call a sweep of which nothing passed a success."""
+    """Write and print the result; a sweep with a failed case is no success."""
     measured = result.drop_dims("time", errors="ignore")
     written = [save(result, path), save(measured, path.with_name(f"{path.stem}.csv"))]
-    _print_result(console, measured)
-    console.print("written " + listed(written))
-    verdicts = measured["verdict"].to_numpy()
-    if not (verdicts == "passed").any() and (verdicts == "failed").any():
-        raise RuntimeError(f"no spin-up passed its checks; why is in {written[0]}")
+    _print_result(measured)
+    failed = failed_cases(measured)
+    for sentence, points in failed.items():
+        where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
+        console.print(f"failed at {where}: {sentence}")
+    print_written(console, written)
+    if failed:
+        count = sum(map(len, failed.values()))
+        cases = measured["verdict"].size
+        raise RuntimeError(
+            f"{count} of {cases} spin-ups failed; why is above, and as `failure` in {written[0]}"
+        )
 
 
 def _cores(jobs: int | None) -> int:
@@ -183,25 +203,11 @@ def _kept_and_counted(
         yield progress
 
 
-def _motion(
-    beam: AnyBlade, omegas: list[float], ramp_times: list[float], discretization: Discretization
-) -> Motion:
-    """Return duration and step for a whole grid: of the longest ramp and the shortest."""
-    for omega in omegas:
-        SpinUp(omega=omega, ramp_time=1.0)
-    checked = [positive("ramp_time", time, "s") for time in ramp_times]
-    longest, shortest = max(checked, default=None), min(checked, default=None)
-    step, duration = discretization.step, discretization.duration
-    if step is None:
-        step = chosen_motion(beam, ramp_time=shortest, duration=duration).step
-    return chosen_motion(beam, ramp_time=longest, duration=duration, step=step)
-
-
 def _values(values: list[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
-def _print_result(console: Console, measured: xr.Dataset) -> None:
+def _print_result(measured: xr.Dataset) -> None:
     rows = measured.to_dataframe().reset_index()
     columns: dict[str, Any] = {
         "ω [rad/s]": rows["omega"],
@@ -213,8 +219,6 @@ def _print_result(console: Console, measured: xr.Dataset) -> None:
         "verdict": rows["verdict"],
     }
     print_columns({title: values.tolist() for title, values in columns.items()}, "table")
-    for cause, count in failures(measured).items():
-        console.print(f"failed {count} ×: {cause} …")
 
 
 def _shard(text: str) -> tuple[int, int]:
@@ -222,23 +226,3 @@ def _shard(text: str) -> tuple[int, int]:
     if not (part.isdecimal() and parts.isdecimal()):
         raise ValueError(f"shard must read k/n, as 1/4, got {text!r}")
     return int(part), int(parts)
-
-
-@contextmanager
-def counter(console: Console, title: str) -> Iterator[Callable[[int, int], None]]:
-    """Show how many of a number of things are done, on a terminal."""
-    with Progress(
-        *Progress.get_default_columns(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn(""),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    ) as bar:
-        task = bar.add_task(title, total=None)
-
-        def progress(done: int, number: int) -> None:
-            bar.update(task, completed=done, total=number)
-
-        yield progress

@@ -2,37 +2,67 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Sequence
+from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 from analytic import paper_table
+from analytic.reduced.tables import PaperTable
 
-from .options import Whole
-from .output import Format, print_columns
+from .options import whole
+from .output import Format, new_console, print_columns
+
+_ALL = 0
+_TABLES = range(1, 6)
 
 
-def table(number: Whole, *, form: Annotated[Format, Parameter(name="--format")] = "table") -> None:
+def _number(kind: Any, tokens: Sequence[Token]) -> int:
+    """Read a number from 1 on, or all."""
+    if tokens[0].value.lower() == "all":
+        return _ALL
+    number = whole(kind, tokens)
+    if number == _ALL:
+        raise ValueError("it must be 1 to 5, or all")
+    return number
+
+
+def table(
+    number: Annotated[int, Parameter(converter=_number)],
+    *,
+    form: Annotated[Format, Parameter(name="--format")] = "table",
+) -> None:
     """Print a table of the paper, as printed and as derived.
 
-    Differences and errata are marked.
+    Differences and errata are marked; what the marks mean is below the table.
 
     Parameters
     ----------
     number
-        1 to 5.
+        1 to 5, or all.
     form
         A table for the reader, or CSV.
+
+    Examples
+    --------
+    $ rotbeam table 3
+    $ rotbeam table all --format csv
     """
-    result = paper_table(number)
-    columns = {
-        heading: [getattr(row, field) for row in result.rows]
-        for heading, field in (
-            ("quantity", "quantity"),
-            ("printed", "printed"),
-            ("derived", "derived"),
-            ("difference", "difference"),
-            ("note", "note"),
-        )
-    }
+    for one in _TABLES if number == _ALL else (number,):
+        _print(paper_table(one), form, several=number == _ALL)
+
+
+def _print(result: PaperTable, form: Format, *, several: bool) -> None:
+    names = ("quantity", "printed", "derived", "difference", "note")
+    columns = {name: [getattr(row, name) for row in result.rows] for name in names}
+    notes = [note for note in dict.fromkeys(columns["note"]) if note]
+    if form == "csv":
+        if several:
+            columns = {"table": [str(result.number)] * len(result.rows), **columns}
+        print_columns(columns, form, header=not several or result.number == _TABLES[0])
+        return
+    marks = {note: chr(ord("a") + i) for i, note in enumerate(notes)}
+    columns["note"] = [marks.get(note, "") for note in columns["note"]]
     print_columns(columns, form, title=f"Table {result.number}: {result.title}")
+    for note, mark in marks.items():
+        new_console().print(f"{mark}: {note}", soft_wrap=False)

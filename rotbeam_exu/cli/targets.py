@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from ..files.results import differing_inputs
 
-Force = Annotated[bool, Parameter(negative=())]
+Force = Annotated[bool, Parameter(negative=(), show_default=False)]
 """Replace files even if they hold what other inputs gave."""
 
 _MOST_NAMED = 4

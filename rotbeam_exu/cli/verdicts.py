@@ -9,6 +9,7 @@ from rich import box
 
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.submission import Run
 from .output import new_console, print_columns
 
 _SHORT = {
@@ -44,10 +45,11 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
         {
             "code": [one.declaration.code for one in found],
             "theory": [one.declaration.theory.name for one in found],
-            "finest": [_finest(one) for one in found],
+            "mesh": [_finest(one, lambda run: str(run.elements)) for one in found],
+            "h [ms]": [_finest(one, lambda run: f"{1e3 * run.step:g}") for one in found],
             "order l": [_order(one, "mesh") for one in found],
             "order h": [_order(one, "step") for one in found],
-            "s": [_seconds(one) for one in found],
+            "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
             "outcome": [one.outcome for one in found],
         },
         "Orders of q(t) observed of declared, and time, of the finest run of the first history",
@@ -95,17 +97,9 @@ def _largest(values: Iterable[float]) -> str:
     return f"{max(finite):.0e}" if finite else "-"
 
 
-def _finest(one: Judgement) -> str:
-    if not one.histories:
-        return "-"
-    run = next(iter(one.histories.values())).rows.finest
-    return f"{run.elements} × {1e3 * run.step:g} ms"
-
-
-def _seconds(one: Judgement) -> str:
-    if not one.histories:
-        return "-"
-    return f"{next(iter(one.histories.values())).rows.finest.wall:.1f}"
+def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
+    """Return what there is to say of the finest run of the first history."""
+    return cell(next(iter(one.histories.values())).rows.finest) if one.histories else "-"
 
 
 def _order(one: Judgement, name: str) -> str:

@@ -3,32 +3,37 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Annotated
 
+from cyclopts import Parameter
 from rich import box
 from rich.console import Console
-from rich.progress import track
 
-from analytic import AnyBlade, Beam
+from analytic import AnyBlade
 from analytic.input_checks import positive
 
 from ..fem.elements import ALIASES, FORMULATIONS, formulation
-from ..files.beam_file import load_beam
 from ..verification.cost import LADDER, cost_at_error
 from ..verification.entries import entries_at_hand, formulation_entry
 from ..verification.measures import verify as verification_of
 from ..verification.peers import PEERS, Entry, peer
-from .motion import Motion, chosen_motion, slower_than_paper
+from .configuration import configured, motion_of
+from .motion import Motion, slower_than_paper
+from .options import Flag, spelled_as
 from .output import new_console, print_columns
+from .progress import counted
 from .verdicts import print_judgements
+
+Judged = Annotated[str, Parameter(converter=spelled_as([*FORMULATIONS, *ALIASES, *PEERS]))]
 
 
 def verify(
     *,
-    element: list[str] | None = None,
-    cost: bool = False,
+    element: list[Judged] | None = None,
+    cost: Flag = False,
     error: float = 1e-2,
     config: Path | None = None,
 ) -> None:
@@ -41,18 +46,26 @@ def verify(
     Parameters
     ----------
     element
-        A formulation, or another code; may be given again. All that are at hand without it.
+        A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
+        kratos. May be given again; without it all that are at hand.
     cost
         Print the cost at equal error instead.
     error
         That error, of q(t) over max|q|.
     config
-        TOML file with the beam; without it, the paper's beam. Speeds and times follow its ω_0.
+        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam. Speeds
+        and times that are not given follow its ω_0.
+
+    Examples
+    --------
+    $ rotbeam verify --element cable
+    $ rotbeam verify --element cable --element ancf3 --cost
     """
     entries = entries_at_hand() if element is None else tuple(map(_entry, element))
     error = positive("error", error)
-    beam = Beam.reference() if config is None else load_beam(config)
-    motion = chosen_motion(beam)
+    file = configured(config)
+    beam = file.beam
+    motion = motion_of(file)
     entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
     console = new_console()
     if cost:
@@ -115,7 +128,5 @@ def _print_rows(headers: list[str], rows: list[list[str]], title: str) -> None:
     print_columns(columns, "table", title=title, frame=box.SIMPLE)
 
 
-def _tracked(console: Console, entries: tuple[Entry, ...]) -> Iterable[Entry]:
-    return track(
-        entries, "verifying", console=console, transient=True, disable=not console.is_terminal
-    )
+def _tracked(console: Console, entries: tuple[Entry, ...]) -> Iterator[Entry]:
+    return counted(console, "verifying", entries, len(entries))

@@ -8,11 +8,12 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from analytic import Beam, periodic_orbits, reduced_model
+from analytic import Beam, periodic_orbits, planar_note, reduced_model
 
 from ..fem.solver import Frame
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
+from ..verdict import beam_attributes
 from .theory import beyond_range
 
 _FITTED = 0.6
@@ -26,7 +27,7 @@ _SAFETY = 1.25
 """Roache's factor (1994) on errors of discretization whose order is known, not observed."""
 
 _RATIO = {"units": "1", "long_name": "frequency ratio ω_NL/ω_n"}
-_AMPLITUDE = {"units": "1", "long_name": "amplitude a = q/L"}
+_AMPLITUDE = {"units": "1", "long_name": "peak amplitude a = |q|/L"}
 
 
 def finite_element_points(
@@ -35,6 +36,7 @@ def finite_element_points(
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     mesh: Mesh = "paper",
+    step: float = 1e-3,
     **options: Any,
 ) -> xr.Dataset:
     """Points of the backbone from spin-ups of the finite element model, with error bars.
@@ -51,8 +53,10 @@ def finite_element_points(
         rotating frame, the same steps extrapolated to zero; the bars hold a tenth of the
         extrapolation. Both add, for the mesh, the fifteenth of what half the elements change that
         a fourth-order error leaves, and the estimator's own bar.
+    step : float
+        The smaller step [s], for a beam that is faster or slower than the paper's.
     **options
-        `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
+        `duration`, `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
 
     Returns
     -------
@@ -83,9 +87,9 @@ def finite_element_points(
             xr.Dataset({"amplitude": grid["amplitude_error"], "ratio": bar}),
         )
 
-    points, bar = measured(elements, 1e-3)
-    coarse_step, _ = measured(elements, 2e-3)
-    coarse_mesh, _ = measured(elements // 2, 2e-3)
+    points, bar = measured(elements, step)
+    coarse_step, _ = measured(elements, 2.0 * step)
+    coarse_mesh, _ = measured(elements // 2, 2.0 * step)
     # The step's error is of second order, the mesh's of fourth.
     to_zero_step = (points - coarse_step) / 3.0
     mesh_left = abs(coarse_step - coarse_mesh) / 15.0
@@ -102,8 +106,14 @@ def finite_element_points(
     points["estimator_error"] = bar["ratio"].assign_attrs(
         {"units": "1", "long_name": "error of the ratio: estimator alone"}
     )
-    points.attrs = {"mesh": mesh}
+    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh)}
     return points
+
+
+def _numerics(mesh: Mesh) -> str:
+    elements, frame = _MESHES[mesh]
+    steps = "step 1 ms" if mesh == "paper" else "steps of 1 and 2 ms extrapolated to zero"
+    return f"{elements} cable elements, {frame} frame, {steps}"
 
 
 def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = True) -> xr.Dataset:
@@ -168,9 +178,11 @@ def figure_14(
     Dataset
         `backbone`, ω_NL/ω_n [-] by Eq. 63, over (model, omega, a), model "exact" included;
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
-        (mesh, omega, ramp_time). The models' a is the first harmonic, as in the paper, that of
-        the points and of the exact backbone the peak. Options are those of
-        `finite_element_points`.
+        (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L, and Eq. 63 is taken at the
+        first harmonic that has it; `as_printed` is Eq. 63 with a itself for the first harmonic, as
+        the paper draws it among the points. Options are those of `finite_element_points`. The
+        attribute `out_of_plane` is there if the section of a blade is known to leave the plane,
+        and says at which speeds from which amplitudes on.
     """
     beam = beam or Beam.reference()
     points = xr.concat(
@@ -181,26 +193,38 @@ def figure_14(
         dim="mesh",
     )
     points["mesh"] = ("mesh", list(meshes), {"units": "1", "long_name": "finite element mesh"})
-    return points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(mesh="")
+    data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
+        mesh="", meshes="; ".join(map(_numerics, meshes))
+    )
+    notes = [planar_note(beam, omega, max(amplitudes)) for omega in omegas]
+    return data.assign_attrs(out_of_plane="; ".join(filter(None, notes))) if any(notes) else data
 
 
 def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
-    """Backbones of the reduced models by Eq. 63, and the exact one, over (model, omega, a)."""
+    """Backbones of the reduced models by Eq. 63, and the exact one, over (model, omega, a).
+
+    Over the peak of |q|/L, and as printed: over the first harmonic of the models, which is called
+    by the same letter.
+    """
     names = (*MODELS, "exact")
-    ratio = np.empty((len(names), len(omegas), len(amplitudes)))
+    a = list(amplitudes)
+    ratio = np.empty((2, len(names), len(omegas), len(a)))
     linear = np.empty((len(names), len(omegas)))
     with beyond_range():
         for j, omega in enumerate(omegas):
             for i, name in enumerate(MODELS):
                 model = reduced_model(beam, omega, name)
                 linear[i, j] = model.omega_n
-                ratio[i, j] = model.frequency(list(amplitudes)) / model.omega_n
-            exact = periodic_orbits(beam, omega, list(amplitudes))
+                ratio[:, i, j] = (
+                    model.frequency(np.array([model.first_harmonic(a), a])) / model.omega_n
+                )
+            exact = periodic_orbits(beam, omega, a)
             linear[-1, j] = exact.omega_n
-            ratio[-1, j] = exact.frequency / exact.omega_n
+            ratio[:, -1, j] = exact.frequency / exact.omega_n
     return xr.Dataset(
         {
-            "backbone": (("model", "omega", "a"), ratio, _RATIO),
+            "backbone": (("model", "omega", "a"), ratio[0], _RATIO),
+            "as_printed": (("model", "omega", "a"), ratio[1], _RATIO),
             "linear_frequency": (
                 ("model", "omega"),
                 linear,
@@ -210,6 +234,6 @@ def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) 
         coords={
             "model": ("model", list(names), {"units": "1", "long_name": "model"}),
             "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "a": ("a", list(amplitudes), _AMPLITUDE),
+            "a": ("a", a, _AMPLITUDE),
         },
     )

@@ -40,16 +40,17 @@ def model_budget(
 
     Each model is changed into the exact one step by step; a source is the difference of the two
     frequencies before and after its step, so that the sources add up to the whole error:
-    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63 less
-    Eq. 41 solved exactly), shape (the cantilever's mode for the rotating one), elongation (the
-    sine for the static solution), foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC
-    less FrM), and what is left between FrM and the exact beam.
+    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63, at
+    the first harmonic that has the peak a, less Eq. 41 solved exactly from the peak a), shape (the
+    cantilever's mode for the rotating one), elongation (the sine for the static solution),
+    foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC less FrM), and what is left
+    between FrM and the exact beam.
 
     Returns
     -------
     Dataset
         `error`, (ω_NL - ω_NL,exact)/ω_n,exact [-], over (model, source, omega, a), and `total`
-        over (model, omega, a).
+        over (model, omega, a); a is the peak of |q|/L in all of them.
     """
     beam = beam or Beam.reference()
     a = list(amplitudes)
@@ -61,11 +62,12 @@ def model_budget(
             for i, name in enumerate(MODELS):
                 stages = [reduced_model(beam, omega, stage) for stage in _stages(VARIANTS[name])]
                 model = stages[0]
-                ratios = [model.frequency(a) / model.omega_n]
+                perturbed = model.frequency(model.first_harmonic(a))
+                ratios = [perturbed / model.omega_n]
                 ratios += [stage.exact_frequency(a) / stage.omega_n for stage in stages]
                 ratios.append(exact.frequency / exact.omega_n)
                 steps = [before - after for before, after in pairwise(ratios)]
-                total[i, j] = (model.frequency(a) - exact.frequency) / exact.omega_n
+                total[i, j] = (perturbed - exact.frequency) / exact.omega_n
                 error[i, :, j] = [total[i, j] - sum(steps), *steps]
     attrs = {"units": "1", "long_name": "error of ω_NL over ω_n"}
     return xr.Dataset(
@@ -77,7 +79,7 @@ def model_budget(
             "model": ("model", list(MODELS), {"units": "1", "long_name": "model"}),
             "source": ("source", list(SOURCES), {"units": "1", "long_name": "source of error"}),
             "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "a": ("a", a, {"units": "1", "long_name": "amplitude a = q/L"}),
+            "a": ("a", a, {"units": "1", "long_name": "peak amplitude a = |q|/L"}),
         },
     )
 
@@ -96,16 +98,17 @@ def finite_element_budget(
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
     largest_amplitude: float = 0.6,
+    step: float = 1e-3,
     **options: Any,
 ) -> xr.Dataset:
     """Distance of the paper's mesh from the exact backbone, step and mesh apart.
 
     The distance of a point is its ratio less the exact one at its own amplitude, positive where
-    the point is too high. Step: 16 elements at 1 ms less the same with the step extrapolated to
-    zero. Mesh: that less 64 elements, step to zero. Rest: what those still differ. The three add up
-    to the distance, and step and mesh have opposite signs: their sum may vanish where neither does.
-    Estimator: the bar ± of the frequency's estimate, not a part of the sum. Amplitudes are half
-    peak to peak on both sides.
+    the point is too high. Step: 16 elements at `step` [s] less the same with the step extrapolated
+    to zero. Mesh: that less 64 elements, step to zero. Rest: what those still differ. The three
+    add up to the distance, and step and mesh have opposite signs: their sum may vanish where
+    neither does. Estimator: the bar ± of the frequency's estimate, not a part of the sum.
+    Amplitudes are half peak to peak on both sides.
 
     Returns
     -------
@@ -115,13 +118,13 @@ def finite_element_budget(
     """
     beam = beam or Beam.reference()
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
-    paper = finite_element_points(beam, mesh="paper", **grid)
-    twice = sweep(beam, elements=16, step=2e-3, frame="inertial", **grid)
+    paper = finite_element_points(beam, mesh="paper", step=step, **grid)
+    twice = sweep(beam, elements=16, step=2.0 * step, frame="inertial", **grid)
     doubled = xr.Dataset(
         {"amplitude": twice["amplitude"], "ratio": twice["frequency"] / twice["omega_n"]}
     )
     no_step = paper[["amplitude", "ratio"]] + (paper[["amplitude", "ratio"]] - doubled) / 3.0
-    converged = finite_element_points(beam, mesh="converged", **grid)
+    converged = finite_element_points(beam, mesh="converged", step=step, **grid)
     distances = [
         _distance(beam, points, largest_amplitude) for points in (paper, no_step, converged)
     ]

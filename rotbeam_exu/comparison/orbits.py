@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy import interpolate, optimize
+from scipy import interpolate
 
 from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
-from analytic.reduced.model import ReducedModel
 
 from ..fem.simulation import simulate
 from ..oscillation import steady_oscillation
 from ..paper import MODELS
+from ..verdict import beam_attributes
 from .theory import beyond_range
 
 
@@ -93,8 +93,8 @@ def figure_15(
             "omega": omega,
             "ramp_time": ramp_time,
             "amplitude": steady.amplitude,
-            "elements": run.attrs["elements"],
-            "element": run.attrs["element"],
+            **{name: run.attrs[name] for name in ("elements", "element", "step", "frame")},
+            **beam_attributes(beam),
         },
     )
 
@@ -107,13 +107,11 @@ def _of_theory(
     with beyond_range():
         for name in MODELS:
             model = reduced_model(beam, omega, name)
-            a0 = first_harmonic_of_peak(model, amplitude)
+            tip, a0 = model.perturbation, float(model.first_harmonic(amplitude))
             frequency = model.frequency(a0)
-            velocity = -frequency * (
-                a0 * np.sin(frequency * time)
-                - 3.0 * model.lambda_x * a0**3 * np.sin(3.0 * frequency * time)
-            )
-            orbits[name] = (model.response(time, a0), velocity / beam.omega_0)
+            psi = frequency * time + tip.peak_phase(np.array(a0))
+            velocity = frequency * tip.rate(psi, a0)
+            orbits[name] = (tip.deflection(psi, a0), velocity / beam.omega_0)
             periods[name] = 2.0 * np.pi / frequency
         exact = periodic_orbits(beam, omega, [amplitude])
     x, x_rate = _from_exact_peak(exact, time)
@@ -126,13 +124,6 @@ def _distance(path: FloatArray, other: FloatArray) -> float:
     """Return the largest distance of a point of `path` from the nearest of `other`, (n, 2) each."""
     apart = np.linalg.norm(path[:, None] - other[None], axis=2)
     return float(apart.min(axis=1).max())
-
-
-def first_harmonic_of_peak(model: ReducedModel, peak: float) -> float:
-    """Return a0 for which the peak of Eq. 65, a0 (1 - λ_x a0²), is `peak` [-]."""
-    return float(
-        optimize.brentq(lambda a: a * (1.0 - model.lambda_x * a * a) - peak, 0.0, 1.2 * peak)
-    )
 
 
 def _from_the_peak(

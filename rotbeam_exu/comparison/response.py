@@ -96,7 +96,8 @@ def _backbone(response: ForcedResponse) -> Backbone | None:
     try:
         return response.backbone
     except AmplitudeNotReachedError as error:
-        return error.backbone
+        reached: Backbone | None = error.backbone
+        return reached
 
 
 def _marks(response: ForcedResponse) -> list[str]:

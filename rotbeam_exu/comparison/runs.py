@@ -11,6 +11,8 @@ import xarray as xr
 from analytic import Beam, SpinUp
 
 from ..fem.simulation import simulate
+from ..oscillation import steady_oscillation
+from ..verdict import beam_attributes
 
 
 def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:
@@ -49,12 +51,15 @@ def figure_3(
         `q` [m] over (elements, time).
     """
     beam, spin_up = beam or Beam.reference(), spin_up or SpinUp(omega=4.0, ramp_time=15.0)
-    runs = [
-        simulate(beam, spin_up, element=element, elements=n, duration=duration)["q"] for n in meshes
-    ]
-    data = xr.concat(runs, dim="elements").to_dataset(name="q")
+    runs = [simulate(beam, spin_up, element=element, elements=n, duration=duration) for n in meshes]
+    data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
     data["elements"] = ("elements", list(meshes), {"units": "1", "long_name": "elements"})
-    data.attrs = {"omega": spin_up.omega, "ramp_time": spin_up.ramp_time, "element": element}
+    data.attrs = {
+        **beam_attributes(beam),
+        **{
+            name: runs[0].attrs[name] for name in ("omega", "ramp_time", "element", "step", "frame")
+        },
+    }
     return data
 
 
@@ -66,7 +71,8 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
     Dataset
         `q_bar` and `q_dot_bar` [-] over (case, sample): first ω = 4 rad/s with T = 1.5, 2 and
         3 s (a), then T = 3 s with ω = 4, 6 and 8 rad/s (b). `sample` counts from the end of the
-        ramp, and what a shorter steady phase lacks is NaN.
+        ramp, and what a shorter steady phase lacks is NaN. `smear` over case: the largest velocity
+        that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
     beam = beam or Beam.reference()
     panels = ["a", "a", "a", "b", "b", "b"]
@@ -84,6 +90,7 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
                         "sample",
                         steady["q_dot"].data / reference_velocity(beam, spin_up),
                     ),
+                    "smear": _unexplained(steady["q_dot"], steady_oscillation(run).frequency),
                 },
                 coords={"sample": np.arange(steady.sizes["time"])},
             )
@@ -91,11 +98,24 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
     data = xr.concat(orbits, dim="case", join="outer")
     data["q_bar"].attrs = {"units": "1", "long_name": "tip displacement q/q₀"}
     data["q_dot_bar"].attrs = {"units": "1", "long_name": "tip velocity q̇/q̇₀"}
+    data["smear"].attrs = {"units": "1", "long_name": "share of other modes in the velocity"}
     data["panel"] = ("case", panels, {"units": "1", "long_name": "panel"})
     for index, (name, long_name, unit) in enumerate(
         (("omega", "angular velocity ω", "rad/s"), ("ramp_time", "ramp time T", "s"))
     ):
         values = [case[index] for case in cases]
         data[name] = ("case", values, {"units": unit, "long_name": long_name})
-    data.attrs = {"element": element, "elements": elements}
+    data.attrs = {
+        **beam_attributes(beam),
+        **{name: run.attrs[name] for name in ("element", "elements", "step", "frame")},
+    }
     return data
+
+
+def _unexplained(rate: xr.DataArray, frequency: float) -> float:
+    """Return what twelve harmonics leave of a velocity, over its largest value."""
+    psi = frequency * rate["time"].to_numpy()[:, None] * np.arange(1, 13)
+    harmonics = np.hstack([np.ones((psi.shape[0], 1)), np.cos(psi), np.sin(psi)])
+    velocity = rate.to_numpy()
+    left = velocity - harmonics @ np.linalg.lstsq(harmonics, velocity)[0]
+    return float(np.abs(left).max() / np.abs(velocity).max())

@@ -1,4 +1,4 @@
-"""λ_ω over hub radius and speed, and where the second mode meets the first one's harmonics."""
+"""λ_ω over hub radius and speed, in lag and in flap, and where the second mode meets harmonics."""
 
 from __future__ import annotations
 
@@ -54,6 +54,53 @@ def softening_map(
         },
         coords={
             "hub_ratio": ("hub_ratio", hubs, {"units": "1", "long_name": "hub radius R/L"}),
+            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/mL⁴)"}),
+        },
+    )
+
+
+def softening_by_plane(
+    beam: AnyBlade | None = None, *, w_bars: Sequence[float] | None = None
+) -> xr.Dataset:
+    """Return λ_ω of FrM of lag alone and of flap alone, over the speed.
+
+    Flap alone is the blade set at a right angle: it bends out of the plane of rotation only, whose
+    Coriolis force then does nothing and whose centrifugal force does not soften the deflection.
+
+    Parameters
+    ----------
+    beam : Beam or Blade, optional
+        By default the paper's beam; its own setting angle is replaced.
+    w_bars : sequence of float, optional
+        w̄ = ω/√(EI/mL⁴), by default 0 to 10.
+
+    Returns
+    -------
+    Dataset
+        `lambda_omega` over (plane, w_bar).
+    """
+    blade = Beam.reference() if beam is None else beam
+    speeds = np.linspace(0.0, 10.0, 101) if w_bars is None else np.asarray(w_bars)
+    planes = {"lag": 0.0, "flap": 0.5 * np.pi}
+    coefficients = [
+        [
+            blade_oscillator(
+                blade.with_setting_angle(angle).unit, w_bar, coriolis=True
+            ).oscillator.lambda_omega
+            for w_bar in speeds.tolist()
+        ]
+        for angle in planes.values()
+    ]
+    return xr.Dataset(
+        {
+            "lambda_omega": (
+                ("plane", "w_bar"),
+                np.array(coefficients),
+                {"units": "1", "long_name": "λ_ω"},
+            )
+        },
+        coords={
+            "plane": list(planes),
             "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/mL⁴)"}),
         },
     )

@@ -51,9 +51,9 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
     numbers = {
         name: _packed(data[name], "float64")
         for name in (
-            "omega", "a", "omega_n", "lambda_omega", "lambda_x", "exact_omega_n",
-            "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude", "fe_frequency",
-            "fe_omega_n",
+            "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x",
+            "exact_omega_n", "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude",
+            "fe_frequency", "fe_omega_n",
         )
     }  # fmt: skip
     return {
@@ -67,6 +67,7 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
         "axisStep": _AXIS_STEP,
         "arrays": {
             **numbers,
+            "first_harmonic": _packed(data["first_harmonic"], "float32"),
             "harmonics": _packed(data["harmonics"], "float32"),
             "axis_x": _packed(np.rint(data["axis_x"] / _AXIS_STEP), "int16"),
             "axis_y": _packed(np.rint(data["axis_y"] / _AXIS_STEP), "int16"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -15,7 +15,14 @@ from analytic.motion import Rotation
 from analytic.ramps import AnyRamp, fastest
 
 from ..resolution import checked_steps
-from ..verdict import beam_attributes, loads_attributes, motion_attributes
+from ..verdict import (
+    beam_attributes,
+    beam_of,
+    loads_attributes,
+    loads_of,
+    motion_attributes,
+    motion_of,
+)
 from .elements import Formulation, formulation, options_of, require_modeled
 from .solver import Frame, require_frame
 
@@ -67,6 +74,20 @@ class Case:
                 "element must be the name of a formulation, or an instance of a frozen dataclass "
                 f"whose options are numbers and text, got {self.element!r}"
             ) from error
+
+    @classmethod
+    def described(cls, attrs: Mapping[Any, Any]) -> Case:
+        """Return the case that the attributes of a run describe: `describe` inverted."""
+        return cls(
+            beam=beam_of(attrs),
+            spin_up=motion_of(attrs),
+            element=formulation(attrs["element"], json.loads(attrs["element_options"])),
+            elements=int(attrs["elements"]),
+            duration=float(attrs["duration"]),
+            step=float(attrs["step"]),
+            frame=attrs["frame"],
+            loads=loads_of(attrs),
+        )
 
     @property
     def model(self) -> Formulation:

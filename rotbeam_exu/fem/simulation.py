@@ -16,7 +16,7 @@ import exudyn
 import numpy as np
 import xarray as xr
 
-from analytic import AnyBlade, BeamState, SteadyRotation
+from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.state import stretched_state
@@ -98,7 +98,8 @@ def simulate(
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
         jacobi_energy changes. The attributes hold every input, versions, settings, wall
-        time and the verdict.
+        time and the verdict; where the section out of the plane is known and planar orbits as
+        large as the motion after the ramp leave the plane, `out_of_plane` says so.
 
     Raises
     ------
@@ -142,7 +143,11 @@ def run_case(
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
-    return _checked(run, cause)
+    run = _checked(run, cause)
+    steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
+    if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
+        run.attrs["out_of_plane"] = note
+    return run
 
 
 @dataclass(frozen=True, kw_only=True)

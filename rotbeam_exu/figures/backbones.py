@@ -10,15 +10,15 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..paper import MODEL_LINES
-from .style import COLUMN, COLUMNS, CYCLE, STYLE, label, new_figure
+from ..paper import MODEL_NAMES
+from .style import STYLE, column, columns, cycle, label, model_line, new_figure
 
 
 def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the finite element points and fitted curves, amplitude upwards as in the paper."""
-    ax = ax or new_figure(COLUMN, 3.0)[1]
+    ax = ax or new_figure(column(), 3.0)[1]
     with mpl.rc_context(STYLE):
-        for omega, color, marker in zip(data["omega"], CYCLE, "osD^", strict=False):
+        for omega, color, marker in zip(data["omega"], cycle(), "osD^", strict=False):
             here = data.sel(omega=omega)
             ax.plot(here["fit"], here["a"], color=color)
             ax.errorbar(
@@ -40,15 +40,20 @@ def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
-    """Draw the backbones of all models, the exact one, and the finite element points, by speed."""
+    """Draw the backbones of all models, the exact one, and the finite element points, by speed.
+
+    On axes of a figure narrower than 6 in the legend has the models' short names.
+    """
     count = data.sizes["omega"]
     axes: Any = (
-        np.ravel(new_figure(COLUMNS, 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1])
+        np.ravel(
+            new_figure(columns(), 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1]
+        )
         if ax is None
         else ax
     )
     with mpl.rc_context(STYLE):
-        for panel, omega in zip(axes, data["omega"], strict=False):
+        for panel, omega, letter in zip(axes, data["omega"], "abcdefgh", strict=False):
             here = data.sel(omega=omega)
             for model in here["model"].to_numpy():
                 row = here["backbone"].sel(model=model)
@@ -56,7 +61,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                     np.append(1.0, row),
                     np.append(0.0, here["a"]),
                     label=str(model),
-                    **MODEL_LINES[str(model)],
+                    **model_line(str(model)),
                 )
             for mesh, marker, face in (("paper", "s", "white"), ("converged", "o", "black")):
                 if mesh not in here["mesh"]:
@@ -73,7 +78,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                     color="black",
                     mfc=face,
                     mew=0.6,
-                    label={"paper": "16 elements", "converged": "64 elements, h → 0"}[mesh],
+                    label={"paper": "16 elements", "converged": "64 elements, step → 0"}[mesh],
                     zorder=5,
                 )
             panel.axvline(1.0, color="0.8", lw=0.5, zorder=0)
@@ -83,9 +88,16 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
                 xlim=(0.978, 1.006),
                 ylim=(0.0, 0.62),
             )
-            panel.set_title(f"ω = {float(omega):g} rad/s", loc="left")
-        handles, names = axes[0].get_legend_handles_labels()
-        axes[0].figure.legend(
-            handles, names, loc="outside lower center", ncols=5, columnspacing=1.4
-        )
+            which = f"{letter}) " if count > 1 else ""
+            panel.set_title(f"{which}ω = {float(omega):g} rad/s", loc="left")
+        _spelled_legend(axes[0])
     return tuple(axes)
+
+
+def _spelled_legend(ax: Axes) -> None:
+    """Say below the figure what the lines are: in words where there is room for them."""
+    handles, names = ax.get_legend_handles_labels()
+    figure: Any = ax.get_figure(root=True)
+    if figure.get_figwidth() > 6.0:
+        names = [f"{name}: {MODEL_NAMES[name]}" if name in MODEL_NAMES else name for name in names]
+    figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.4)

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, ORANGE
-from .style import COLUMN, STYLE, label, new_figure
+from .style import STYLE, column, ink, label, new_figure
 
 
 def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -21,7 +21,7 @@ def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         Drawn on these; otherwise on a new figure.
     """
     if ax is None:
-        _, ax = new_figure(COLUMN, 2.6)
+        _, ax = new_figure(column(), 2.6)
     assert ax is not None
     omega_0 = float(data.attrs["omega_0"])
     speeds = data["divergence_speed"]
@@ -29,7 +29,7 @@ def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         ax.axhline(omega_0, color="0.6", lw=0.5)
         last = int(data["substructures"][-1])
         ax.annotate("ω0", (last, omega_0), xytext=(0, 3), textcoords="offset points", ha="right")
-        styles = {"tangent": (BLUE, "o"), "pinned": (ORANGE, "s")}
+        styles = {"tangent": (ink(BLUE), "o"), "pinned": (ink(ORANGE), "s")}
         for frame, (color, marker) in styles.items():
             ax.plot(
                 data["substructures"], speeds.sel(frame=frame), color=color, marker=marker,

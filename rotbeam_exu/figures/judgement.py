@@ -20,7 +20,7 @@ from ..verification.history import HISTORY_FLOOR, Histories
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding
 from ..verification.submission import Run
-from .style import COLUMNS, CYCLE, STYLE, new_figure
+from .style import STYLE, columns, cycle, ink, new_figure
 
 _SYMBOLS = {
     "linear frequency": "$ω_n$", "history": "$q(t)$", "amplitude": "$a$",
@@ -40,13 +40,13 @@ def judged_history(histories: Histories) -> Axes:
     Axes
         The upper ones, of a new figure.
     """
-    _, (above, below) = new_figure(COLUMNS, 3.4, nrows=2, sharex=True)
+    _, (above, below) = new_figure(columns(), 3.4, nrows=2, sharex=True)
     finest = histories.rows.finest
     every = max(1, finest.time.size // _MOST_POINTS)
     time = finest.time[::every]
     with mpl.rc_context(STYLE):
         above.plot(time, histories.reference.history(time), color="0.2", lw=2.2, label="reference")
-        above.plot(time, finest.q[::every], color=ORANGE, lw=0.9, label=_name(finest))
+        above.plot(time, finest.q[::every], color=ink(ORANGE), lw=0.9, label=_name(finest))
         above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
         above.set_ylabel("$q$ [m]")
         above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
@@ -80,7 +80,7 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
     steps = histories.rows.steps if histories else ()
     timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
     count = 1 + bool(steps) + timed
-    _, grid = new_figure(COLUMNS / 3.0 * count, 2.5, ncols=count, squeeze=False)
+    _, grid = new_figure(columns() / 3.0 * count, 2.5, ncols=count, squeeze=False)
     axes = list(grid[0])
     with mpl.rc_context(STYLE):
         elements = 1.0 / next(iter(drawn.values())).sizes
@@ -91,7 +91,8 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
             runs = _of_functions(histories, steps, sizes, declared.order_in_step)
             _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
             axes[1].set(
-                xlabel=f"step [ms], {steps[0].elements} elements", ylabel="|run − limit| in the step"
+                xlabel=f"step [ms], {steps[0].elements} elements",
+                ylabel="|run − limit| in the step",
             )
         if histories and timed:
             _draw_cost(axes[-1], histories, _colors(histories))
@@ -127,7 +128,7 @@ def _draw_errors(
     ax: Axes, found: Mapping[str, Convergence], places: FloatArray, declared: float | None
 ) -> None:
     """Draw the distance from the limit with its bar, and the declared order above the first."""
-    for (quantity, runs), color, marker in zip(found.items(), CYCLE, _MARKERS, strict=False):
+    for (quantity, runs), color, marker in zip(found.items(), cycle(), _MARKERS, strict=False):
         errors = np.maximum(np.abs(runs.errors), 1e-16)
         bars = np.minimum(runs.error_bars, 0.9 * errors), runs.error_bars
         ax.errorbar(

@@ -6,8 +6,7 @@ import matplotlib as mpl
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..paper import MODEL_LINES
-from .style import COLUMN, STYLE, label, new_figure
+from .style import STYLE, column, label, model_line, new_figure
 
 
 def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -15,7 +14,7 @@ def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
     A dot marks where each orbit ends; the inset shows those that end near the start.
     """
-    ax = ax or new_figure(COLUMN, 4.4)[1]
+    ax = ax or new_figure(column(), 4.4)[1]
     amplitude = float(data.attrs["amplitude"])
     fastest = float(data["q_dot_bar"].sel(model="finite element").max())
     with mpl.rc_context(STYLE):
@@ -53,7 +52,7 @@ def _orbits(ax: Axes, data: xr.Dataset) -> None:
                 label=f"{data.attrs['elements']} elements",
             )  # fmt: skip
             continue
-        line = MODEL_LINES[str(model)]
+        line = model_line(str(model))
         ax.plot(here["q_bar"], here["q_dot_bar"], label=str(model), **line)
         ax.plot(
             here["q_bar"][-1], here["q_dot_bar"][-1], marker="o", ms=4.0, color=line["color"],

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
 
-from .style import COLUMN, CYCLE, STYLE, label, new_figure
+from .style import STYLE, column, cycle, label, new_figure
 
 _SYMBOLS = {"SpeedRipple": "ε", "TipForce": "F", "DistributedForce": "p", "Gravity": "g"}
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
@@ -33,12 +33,12 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 3.2)[1]
+    ax = ax or new_figure(column(), 3.2)[1]
     assert ax is not None
     curves = [data] if isinstance(data, xr.Dataset) else list(data)
     highest = max(curves, key=lambda curve: float(curve["amplitude"].max()))
     with mpl.rc_context(STYLE):
-        for curve, color in zip(curves, CYCLE, strict=False):
+        for curve, color in zip(curves, cycle(), strict=False):
             stable, unstable = _parts(curve)
             ax.plot(*stable, color=color, label=_title(curve))
             ax.plot(*unstable, color=color, **_UNSTABLE)

@@ -1,4 +1,4 @@
-"""The map of λ_ω over hub radius and speed."""
+"""The map of λ_ω over hub radius and speed, and λ_ω in lag and in flap."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import COLUMN, STYLE, label, new_figure
+from ..paper import BLUE, RED
+from .style import STYLE, colormap, column, label, new_figure
 
 
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -20,7 +21,7 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     """
-    ax = ax or new_figure(COLUMN, 3.0)[1]
+    ax = ax or new_figure(column(), 3.0)[1]
     assert ax is not None
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
     values, ratio = data["lambda_omega"].to_numpy().T, data["ratio"].to_numpy().T
@@ -28,7 +29,12 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
     with mpl.rc_context(STYLE):
         filled = ax.contourf(
-            x, y, values, levels=np.linspace(-limit, limit, 17), cmap="RdBu_r", extend="both"
+            x,
+            y,
+            values,
+            levels=np.linspace(-limit, limit, 17),
+            cmap=colormap("RdBu_r"),
+            extend="both",
         )
         colorbar = ax.figure.colorbar(filled, ax=ax, ticks=np.linspace(-limit, limit, 5))
         colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
@@ -39,4 +45,35 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         )
         ax.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5)
         ax.set(xlabel=label(data["hub_ratio"]), ylabel=label(data["w_bar"]))
+    return ax
+
+
+def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw λ_ω of lag alone and of flap alone over the speed, with the zeros where it changes sign.
+
+    Parameters
+    ----------
+    data : Dataset
+        As made by `rotbeam_exu.comparison.softening_by_plane`.
+    ax : Axes, optional
+        Drawn on these; otherwise on a new figure.
+    """
+    ax = ax or new_figure(column(), 2.4)[1]
+    assert ax is not None
+    x = data["w_bar"].to_numpy()
+    with mpl.rc_context(STYLE):
+        ax.axhline(0.0, color="0.6", lw=0.5)
+        for plane, color, below in (("lag", BLUE, True), ("flap", RED, False)):
+            values = data["lambda_omega"].sel(plane=plane).to_numpy()
+            ax.plot(x, values, color=color, label=plane)
+            for k in np.flatnonzero(np.diff(np.sign(values))):
+                zero = x[k] - values[k] * (x[k + 1] - x[k]) / (values[k + 1] - values[k])
+                ax.plot(zero, 0.0, "o", color=color, ms=3)
+                ax.annotate(
+                    f"{zero:.2f}", (zero, 0.0), xytext=(4, -9 if below else 2),
+                    textcoords="offset points", fontsize=6.5, color=color,
+                )  # fmt: skip
+        sign = f"{label(data['lambda_omega'])}: hardens < 0 < softens"
+        ax.set(xlabel=label(data["w_bar"]), ylabel=sign, xlim=(x[0], x[-1]))
+        ax.legend()
     return ax

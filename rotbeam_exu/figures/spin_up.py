@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, ORANGE
-from .style import STYLE, label, new_figure
+from .style import STYLE, columns, ink, label, new_figure
 
 
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
@@ -28,7 +28,7 @@ def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Ax
         Time history and phase space.
     """
     if ax is None:
-        _, ax = new_figure(7.2, 2.6, ncols=2, width_ratios=(1.7, 1.0))
+        _, ax = new_figure(columns(), 2.6, ncols=2, width_ratios=(1.7, 1.0))
     history, phase = ax
     ramp_time = float(run.attrs["ramp_time"])
     end = float(run["time"][-1])
@@ -36,7 +36,7 @@ def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Ax
     with mpl.rc_context(STYLE):
         history.axvspan(ramp_time, end, color="0.92", lw=0)
         history.axhline(0.0, color="0.6", lw=0.5)
-        history.plot(run["time"], run["q"], color=BLUE)
+        history.plot(run["time"], run["q"], color=ink(BLUE))
         history.set(xlabel=label(run["time"]), ylabel=label(run["q"]), xlim=(0.0, end))
         history.annotate(
             "steady rotation",
@@ -53,7 +53,7 @@ def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Ax
             f"{run.attrs['elements']} {run.attrs['element']} elements",
             loc="left",
         )
-        phase.plot(steady["q"], steady["q_dot"], color=ORANGE, lw=0.6)
+        phase.plot(steady["q"], steady["q_dot"], color=ink(ORANGE), lw=0.6)
         phase.set(xlabel=label(run["q"]), ylabel=label(run["q_dot"]))
         phase.set_title(f"steady orbit, t > {ramp_time:g} s", loc="left")
     return history, phase

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 import xarray as xr
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..files.results import whole_file
-from ..paper import BLUE, GREEN, ORANGE, PURPLE, RED, SKY
+from ..paper import BLUE, GREEN, MODEL_LINES, ORANGE, PURPLE, RED, SKY
 
-COLUMN = 3.5
-"""Width of a journal's column [in]."""
+_CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
 
-COLUMNS = 7.2
-"""Width of two columns [in]."""
-
-CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
+# Where a grey is near another's, dashes and marks tell the two apart.
+_GREYS = {BLUE: "0.45", RED: "0.3", GREEN: "0.2", PURPLE: "0.55", ORANGE: "0.65", SKY: "0.6"}
 
 STYLE: Any = {
     "font.size": 8.0,
@@ -33,11 +35,102 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.linewidth": 0.6,
+    "axes.prop_cycle": cycler(color=_CYCLE),
     "lines.linewidth": 1.0,
     "figure.constrained_layout.use": True,
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
+    "svg.hashsalt": "rotbeam",
 }
+"""Matplotlib's settings of the house, for drawings of one's own: `plt.style.use(figures.STYLE)`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Style:
+    """What a journal asks of a figure.
+
+    Parameters
+    ----------
+    column, columns : float
+        Widths of one and of two columns [mm].
+    grey : bool
+        Black and greys only; lines are told apart by dashes and marks.
+    formats : tuple of str
+        Endings of what is saved, such as "svg".
+    """
+
+    column: float = 88.9
+    columns: float = 182.88
+    grey: bool = False
+    formats: tuple[str, ...] = ("png", "pdf")
+
+
+STYLES = {
+    "house": Style(),
+    "journal": Style(column=84.0, columns=174.0, formats=("pdf", "svg")),
+    "grey": Style(column=84.0, columns=174.0, grey=True, formats=("pdf", "svg")),
+}
+"""Styles by name: "journal" has Springer's widths, "grey" is that without colors."""
+
+_ACTIVE: ContextVar[Style] = ContextVar("style", default=STYLES["house"])
+
+
+@contextmanager
+def style(wanted: str | Style = "journal") -> Iterator[Style]:
+    """Draw and save in another style: with figures.style("grey"): figures.figure_8(data).
+
+    Parameters
+    ----------
+    wanted : {"house", "journal", "grey"} or Style
+        `Style(column=90.0, columns=190.0, grey=True, formats=("svg",))` is one of your own.
+
+    Raises
+    ------
+    ValueError
+        If there is no style of that name.
+    """
+    if not isinstance(wanted, Style) and wanted not in STYLES:
+        raise ValueError(
+            f"unknown style {wanted!r}; known are {', '.join(STYLES)}; another is a figures.Style"
+        )
+    chosen = wanted if isinstance(wanted, Style) else STYLES[wanted]
+    before = _ACTIVE.set(chosen)
+    try:
+        with mpl.rc_context({**STYLE, "axes.prop_cycle": cycler(color=cycle())}):
+            yield chosen
+    finally:
+        _ACTIVE.reset(before)
+
+
+def column() -> float:
+    """Return the width of a journal's column [in]."""
+    return _ACTIVE.get().column / 25.4
+
+
+def columns() -> float:
+    """Return the width of two columns [in]."""
+    return _ACTIVE.get().columns / 25.4
+
+
+def ink(color: str) -> str:
+    """Return a color of the palette, or its grey."""
+    return _GREYS.get(color, color) if _ACTIVE.get().grey else color
+
+
+def cycle() -> tuple[str, ...]:
+    """Return the colors of lines, in order."""
+    return tuple(map(ink, _CYCLE))
+
+
+def model_line(name: str) -> dict[str, Any]:
+    """Return how a model's line is drawn."""
+    line = MODEL_LINES[name]
+    return {**line, "color": ink(line["color"])}
+
+
+def colormap(name: str) -> str:
+    """Return a color map, or the greys."""
+    return "Greys" if _ACTIVE.get().grey else name
 
 
 def new_figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]:
@@ -58,12 +151,18 @@ def label(variable: xr.DataArray) -> str:
     return f"{name} [{unit}]" if unit and unit != "1" else name
 
 
-def save_figure(axes: Axes, path: Path) -> tuple[Path, Path]:
-    """Write the figure of `axes` as `path` with .png and .pdf, each whole or not, and close it."""
+def save_figure(axes: Axes, path: Path) -> tuple[Path, ...]:
+    """Write the figure of `axes` as `path` with the style's endings, each whole or not; close it.
+
+    Returns
+    -------
+    tuple of Path
+        By default .png and .pdf.
+    """
     import matplotlib.pyplot as plt  # noqa: PLC0415
 
     figure: Any = axes.get_figure(root=True)
-    written = (path.with_name(f"{path.name}.png"), path.with_name(f"{path.name}.pdf"))
+    written = tuple(path.with_name(f"{path.name}.{end}") for end in _ACTIVE.get().formats)
     for target in written:
         with whole_file(target) as partial, mpl.rc_context(STYLE):
             figure.savefig(partial)

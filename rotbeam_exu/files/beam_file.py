@@ -38,20 +38,32 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
         If there is no such file.
     """
     source = Path(path)
+    document = read_toml(source)
+    for others in ("motion", "numerics"):  # of a run, which `load_run_file` reads
+        document.pop(others, None)
+    return beam_from(document, source)
+
+
+def read_toml(source: Path) -> dict[str, Any]:
+    """Return the tables of a TOML file, refusing what is none."""
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
     try:
         # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
-        document = tomllib.loads(source.read_text(encoding="utf-8-sig"))
+        return tomllib.loads(source.read_text(encoding="utf-8-sig"))
     except RecursionError as error:
         raise ValueError(f"{source} is not a beam: it is nested too deeply") from error
     except ValueError as error:  # of TOML, of UTF-8, or of an integer with too many digits
         raise ValueError(f"{source} is not valid TOML: {error}") from error
+
+
+def beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
+    """Return the beam of a document, as `load_beam` does; `source` is named in its errors."""
     for name in document:
         if name not in ("beam", "blade"):
             raise ValueError(
                 f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
-                "[blade]"
+                "[blade], a run's motion and numerics in [motion] and [numerics]"
             )
     if len(document) == 2:
         raise ValueError(f"{source} has both [beam] and [blade]: keep one")
@@ -69,12 +81,12 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
 def _beam(table: dict[str, Any], source: Path) -> Beam:
     by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
     wanted = _STIFFNESS if by_stiffness else _MATERIAL
-    _require_keys(table, "[beam]", source, wanted)
+    require_keys(table, "[beam]", source, wanted)
     return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
 
 
 def _blade(table: dict[str, Any], source: Path) -> Blade:
-    _require_keys(
+    require_keys(
         table, "[blade]", source, ("length", "section"),
         ("hub_radius", "setting_angle", "point_mass", "damping"),
     )  # fmt: skip
@@ -85,7 +97,7 @@ def _blade(table: dict[str, Any], source: Path) -> Blade:
             f"{source}: write [blade.section], [blade.damping] and, for each mass, "
             "[[blade.point_mass]] as tables"
         )
-    _require_keys(
+    require_keys(
         section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia", "out_of_plane")
     )
     beyond = section.get("out_of_plane")
@@ -93,15 +105,15 @@ def _blade(table: dict[str, Any], source: Path) -> Blade:
         if not isinstance(beyond, dict):
             raise ValueError(f"{source}: write [blade.section.out_of_plane] as a table")
         title = "[blade.section.out_of_plane]"
-        _require_keys(beyond, title, source, _OUT_OF_PLANE[:1], _OUT_OF_PLANE[1:])
-    _require_keys(damping, "[blade.damping]", source, (), _DAMPING)
+        require_keys(beyond, title, source, _OUT_OF_PLANE[:1], _OUT_OF_PLANE[1:])
+    require_keys(damping, "[blade.damping]", source, (), _DAMPING)
     for one in masses:
-        _require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
+        require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
     values = {name: value for name, value in table.items() if name != "point_mass"}
     return blade_from({**values, "point_masses": masses})
 
 
-def _require_keys(
+def require_keys(
     table: dict[str, Any],
     title: str,
     source: Path,

@@ -17,7 +17,8 @@ from . import netcdf, table
 from .round_trip import difference, plain, same
 
 OUTCOMES = frozenset(
-    {"divergence_speed", "failure", "residual", "settings", "verdict", "versions", "wall_time"}
+    {"divergence_speed", "error", "failure", "residual", "settings", "solution", "verdict"}
+    | {"versions", "wall_time"}
 )
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 

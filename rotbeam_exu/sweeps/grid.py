@@ -137,6 +137,16 @@ def failures(result: xr.Dataset) -> dict[str, int]:
     return dict(causes.most_common())
 
 
+def failed_cases(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
+    """Return (omega, ramp_time) of the failed cases of a sweep, by their whole sentence."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    omegas, times = (result[name].to_numpy().tolist() for name in ("omega", "ramp_time"))
+    for (i, j), sentence in np.ndenumerate(result["failure"].to_numpy()):
+        if sentence:
+            found.setdefault(str(sentence), []).append((omegas[i], times[j]))
+    return found
+
+
 def _values(name: str, values: Sequence[float], unit: str) -> list[float]:
     if np.size(np.asarray(values)) == 0:
         raise ValueError(f"{name} is empty; give at least one value")

@@ -157,7 +157,8 @@ def _cases() -> tuple[Case, ...]:
             speeds=(2.0, 6.0, 8.0), amplitudes=(0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
         ),
         varied("h", "on a hub", beam.with_hub_radius(0.5 * length), oscillates=True),
-        varied("m", "with a tip mass", beam.with_tip_mass(0.5 * mass), oscillates=True),
+        # Half the beam's mass would swing by 0.93 L, farther than orbits are known.
+        varied("m", "with a tip mass", beam.with_tip_mass(0.1 * mass), oscillates=True),
         # A hundredth of the critical damping of the first mode at rest.
         varied("d", "with viscous bending", beam.with_damping(Damping(bending=0.007))),
         varied("g", "under gravity", beam, loads=(Gravity(9.81),)),

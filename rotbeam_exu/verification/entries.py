@@ -61,7 +61,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         name=" ".join([model.name, *options]),
         simulate=spin,
         first_frequency=first,
-        release=release,
+        # The orbit does not say how thick its sections are, which that law would need to start.
+        release=None if getattr(model, "law", "") == "coupled" else release,
         elements=elements,
         step=step,
         theory=_theory(model),

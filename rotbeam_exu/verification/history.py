@@ -91,10 +91,15 @@ class Histories:
         """The steady oscillation of each run, or why it has none."""
         return {run: self._oscillation(run.time, run.q) for run in self.runs}
 
+    @cached_property
+    def true_oscillation(self) -> SteadyOscillation | str:
+        """The steady oscillation of the reference, measured alike."""
+        time = self.rows.finest.time
+        return self._oscillation(time, self.reference.history(time))
+
     def amplitude(self, tolerance: float) -> Finding:
         """Return the finding of the amplitude of the steady oscillation."""
-        time = self.rows.finest.time
-        true = self._oscillation(time, self.reference.history(time))
+        true = self.true_oscillation
         if isinstance(true, str):
             return Finding(outcome=Outcome.NO_VERDICT, note=f"not measured: {true}")
         measured = {
@@ -111,20 +116,23 @@ class Histories:
         `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
         None of a shift that is less than LEAST_SHIFT.
         """
+        if isinstance(self.true_oscillation, str):
+            note = f"not measured: {self.true_oscillation}"
+            return Finding(outcome=Outcome.NO_VERDICT, note=note)
         assert self.case.motion is not None
         speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
-        measured: dict[Run, tuple[float, float]] = {}
-        shift = math.nan
+        known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
+        runs = sorted(known, key=lambda run: (run.elements, -run.step))
         try:
-            for run in sorted(self.oscillations, key=lambda run: (run.elements, -run.step)):
-                one = self.oscillations[run]
-                if isinstance(one, str):
-                    continue
-                true = self.reference.frequency_at(one.amplitude)
-                measured[run] = (one.frequency / true - 1.0 - off, one.frequency_error / true)
-                shift = true / self.reference.first_frequency(speed) - 1.0
+            true = self.reference.frequencies_at([known[run].amplitude for run in runs])
+            first = self.reference.first_frequency(speed)
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        measured = {
+            run: (known[run].frequency / w - 1.0 - off, known[run].frequency_error / w)
+            for run, w in zip(runs, true.tolist(), strict=True)
+        }
+        shift = float(true[-1]) / first - 1.0 if runs else math.nan
         if abs(shift) < LEAST_SHIFT:
             return None
         bound = self.reference.bound + (0.0 if linear is None else linear.bar)

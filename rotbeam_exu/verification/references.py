@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -14,7 +15,7 @@ from analytic.arrays import FloatArray
 
 from .cases import CASES, Asked, Case
 from .sampled import sampled_history, spline
-from .shipped import shipped
+from .shipped import FILE, Shipped, shipped
 from .theory import BERNOULLI_EULER, Theory
 
 COMPUTED_BOUND = 1e-9
@@ -90,11 +91,16 @@ class Reference:
         RuntimeError
             If the orbit is not reached.
         """
+        return float(self.frequencies_at([amplitude], speed)[0])
+
+    def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
+        """Return what `frequency_at` does, of several amplitudes: what is computed, in one go."""
         if speed is None:
             if self.case.motion is None:
                 raise ValueError(f"case {self.case.name} has several speeds: say which")
             speed = self.case.motion.omega
-        return _frequency_at(self.theory, self.case.blade, speed, amplitude)
+        at = tuple(map(float, amplitudes))
+        return np.array(_frequencies_at(self.theory, self.case.blade, speed, at))
 
 
 @lru_cache(maxsize=64)
@@ -115,23 +121,28 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
     RuntimeError
         If its history does not settle, or the shipped data cannot be read.
     """
+    data = _shipped_of(theory)
     if case.asked is not Asked.HISTORY:
-        here = theory == BERNOULLI_EULER and case in (CASES["L"], CASES["B"])
+        here = data if case in (CASES["L"], CASES["B"]) else None
         return Reference(
             case=case,
             theory=theory,
-            bound=shipped().frequency_bound if here else COMPUTED_BOUND,
-            source=shipped().source if here else _computed(theory),
+            bound=COMPUTED_BOUND if here is None else here.frequency_bound,
+            source=_computed(theory) if here is None else here.source,
         )
-    found = shipped().history(case) if theory == BERNOULLI_EULER else None
-    if found is not None:
-        history, bound = found
-        source = shipped().source
+    found = None if data is None else data.history(case)
+    if data is not None and found is not None:
+        (history, bound), source = found, data.source
     else:
         samples = sampled_history(case, theory)
         history, bound = spline(samples.time, samples.q), samples.error
         source = _computed(theory)
     return Reference(case=case, theory=theory, bound=bound, source=source, _history=history)
+
+
+def _shipped_of(theory: Theory) -> Shipped | None:
+    """Return the shipped data of a theory; there are none where they are being made anew."""
+    return shipped() if theory == BERNOULLI_EULER and FILE.exists() else None
 
 
 def _computed(theory: Theory) -> str:
@@ -140,13 +151,22 @@ def _computed(theory: Theory) -> str:
 
 @lru_cache(maxsize=256)
 def _first_frequency(theory: Theory, blade: AnyBlade, speed: float) -> float:
-    here = shipped().first_frequency(blade, speed) if theory == BERNOULLI_EULER else None
+    data = _shipped_of(theory)
+    here = None if data is None else data.first_frequency(blade, speed)
     return theory.first_frequency(blade, speed) if here is None else here
 
 
 @lru_cache(maxsize=256)
-def _frequency_at(theory: Theory, blade: AnyBlade, speed: float, amplitude: float) -> float:
-    here = shipped().frequency_at(blade, speed, amplitude) if theory == BERNOULLI_EULER else None
-    if here is not None:
-        return here
-    return float(theory.orbits(blade, speed, amplitude).frequency[0])
+def _frequencies_at(
+    theory: Theory, blade: AnyBlade, speed: float, amplitudes: tuple[float, ...]
+) -> tuple[float, ...]:
+    data, found = _shipped_of(theory), dict[float, float]()
+    for a in amplitudes:
+        here = None if data is None else data.frequency_at(blade, speed, a)
+        found |= {} if here is None else {a: here}
+    missing = sorted(set(amplitudes) - set(found))
+    if missing:
+        # One backbone, for orbits are found from their neighbors.
+        frequencies = theory.orbits(blade, speed, missing).frequency.tolist()
+        found |= dict(zip(missing, frequencies, strict=True))
+    return tuple(found[a] for a in amplitudes)

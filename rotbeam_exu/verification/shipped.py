@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import BSpline, CubicSpline
 
 from analytic import AnyBlade, Beam, SpinUp
+from analytic.arrays import FloatArray
 
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
@@ -34,9 +35,9 @@ def shipped_histories() -> dict[str, Case]:
         spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
         for one in spin_ups
     ]
-    known = {_key(case) for case in found}
+    known = {key(case) for case in found}
     own = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    return {case.name: case for case in (*found, *(one for one in own if _key(one) not in known))}
+    return {case.name: case for case in (*found, *(one for one in own if key(one) not in known))}
 
 
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
@@ -48,9 +49,23 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def _key(case: Case) -> tuple[Any, ...]:
+def key(case: Case) -> tuple[Any, ...]:
     """Return what makes a history."""
     return case.blade, case.motion, case.loads, case.amplitudes
+
+
+def said(value: Any) -> str:
+    """Return all numbers behind a history or a backbone, by which the file knows it.
+
+    What is nothing by default is left out: a blade that learns to have more stays the same.
+    """
+    if isinstance(value, tuple):
+        return f"({', '.join(map(said, value))})"
+    if not is_dataclass(value):
+        return repr(value)
+    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
+    stated = [f"{name}={said(part)}" for name, part, default in parts if part or part != default]
+    return f"{type(value).__name__}({', '.join(stated)})"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -80,12 +95,22 @@ class Shipped:
 
     @cached_property
     def _places(self) -> dict[tuple[Any, ...], str]:
-        names = set(self.data["history"].to_numpy().tolist())
-        return {_key(case): name for name, case in shipped_histories().items() if name in names}
+        of = dict(zip(*self._listed("history"), strict=True))
+        return {
+            key(case): name
+            for name, case in shipped_histories().items()
+            if of.get(name) == said(key(case))
+        }
+
+    def _listed(self, dimension: str) -> tuple[list[str], list[str]]:
+        """Return the names along a dimension, and what each was made of."""
+        return self.data[dimension].to_numpy().tolist(), self.data[
+            f"{dimension}_of"
+        ].to_numpy().tolist()
 
     def history(self, case: Case) -> tuple[BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._places.get(_key(case))
+        name = self._places.get(key(case))
         if name is None or case.duration > DURATION:
             return None
         here = self.data.sel(history=name)
@@ -104,21 +129,25 @@ class Shipped:
 
     @cached_property
     def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, CubicSpline]]:
-        a = self.data["amplitude"].to_numpy()
-        return {
-            place: (
-                float(self.data["omega_n"].sel(backbone=name)),
-                CubicSpline(a**2, self.data["curvature"].sel(backbone=name).to_numpy()),
-            )
-            for name, place in shipped_backbones().items()
-        }
+        """ω_n and the curvature over a², by blade and speed."""
+        a, of = self.data["amplitude"].to_numpy(), dict(zip(*self._listed("backbone"), strict=True))
+        found = {}
+        for name, place in shipped_backbones().items():
+            if of.get(name) == said(place):
+                here = self.data.sel(backbone=name)
+                curvature = here["curvature"].to_numpy()
+                known = np.isfinite(curvature)
+                found[place] = float(here["omega_n"]), CubicSpline(a[known] ** 2, curvature[known])
+        return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
         found = self._backbones.get((blade, speed))
-        if found is None or not 0.0 <= amplitude <= float(self.data["amplitude"][-1]):
+        if found is None:
             return None
         omega_n, curvature = found
+        if not 0.0 <= amplitude**2 <= curvature.x[-1]:
+            return None
         return omega_n * (1.0 - float(curvature(amplitude**2)) * amplitude**2)
 
     @property
@@ -129,7 +158,7 @@ class Shipped:
 
 @lru_cache(maxsize=1)
 def shipped() -> Shipped:
-    """Return the shipped data; RuntimeError if they are missing or of another benchmark."""
+    """Return the shipped data; RuntimeError if they cannot be read or are of another benchmark."""
     import xarray as xr  # noqa: PLC0415
 
     try:
@@ -148,10 +177,10 @@ def shipped() -> Shipped:
     return Shipped(data=data, digest=hashlib.sha256(raw).hexdigest())
 
 
-def amplitudes() -> np.ndarray:
-    """Return the peak |q|/L of shipped backbones: 0, and closer where a resonance is near.
+def amplitudes() -> FloatArray:
+    """Return the peak |q|/L of shipped backbones: 0, and closer where resonances bend them.
 
-    At 2 rad/s one begins to bend the backbone beyond 0.5; those of case B are among them.
+    Each ends where a resonance bends it too sharply; those of case B are among them.
     """
-    parts = np.arange(20) * 0.02, 0.4 + np.arange(20) * 0.005, 0.5 + np.arange(41) * 0.0025
-    return np.concatenate(parts)
+    parts = (0.0, 0.4, 0.02), (0.4, 0.5, 0.005), (0.5, 0.6, 0.0025), (0.6, 0.885, 0.005)
+    return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])

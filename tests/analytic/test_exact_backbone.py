@@ -8,6 +8,7 @@ from scipy import linalg
 
 from analytic import Beam, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
+from analytic.methods.continuation import Care
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
@@ -231,13 +232,13 @@ def test_amplitudes_in_any_order(beam):
 
 
 def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 30)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
         periodic_orbits(beam, 4.0, [0.2], mode=3, inextensible=True)
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
-    for module in ("methods.continuation", "exact.periodic"):
+    for module in ("methods.continuation", "exact.branch"):
         monkeypatch.setattr(f"analytic.{module}.MOST_FUNCTIONS", 7)
     with pytest.raises(RuntimeError, match="functions meet the equations of motion to .* only"):
         periodic_orbits(beam, 8.0, [0.5], functions=5)

@@ -18,6 +18,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.input_checks import RotbeamWarning, finite_array
+from analytic.methods.continuation import Care
 
 
 def unit_beam(slenderness):
@@ -132,7 +133,7 @@ def test_unsettled_frequencies():
 
 
 def test_amplitude_not_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 12)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
     assert caught.value.backbone.amplitude.tolist() == [0.1]
@@ -146,7 +147,7 @@ def test_orbit_too_small(beam):
 
 
 def test_orbits_too_fast(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.periodic.MOST_FUNCTIONS", 16)
+    monkeypatch.setattr("analytic.exact.branch.MOST_FUNCTIONS", 16)
     assert complaint(periodic_orbits, beam, 80.0, [0.05]).endswith("rotate slower")
     assert complaint(periodic_orbits, beam, 8.0, [0.05]) == ""
 

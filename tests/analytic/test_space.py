@@ -9,7 +9,7 @@ from scipy import optimize
 
 from analytic import Beam, OutOfPlane, linear_modes, periodic_orbits, planar_stability
 from analytic.exact.discretization import blade_continuum
-from analytic.exact.planarity import STEPS, grown
+from analytic.exact.growth import STEPS, grown
 from analytic.exact.space import Space
 from analytic.exact.steady import SteadyBeam, steady_rotation
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import AmplitudeNotReachedError, linear_modes, periodic_orbits
+from analytic.methods.continuation import Care
 
 
 @pytest.mark.parametrize("amplitudes", [[0.04, 0.06], [0.02, 0.03], [0.02, 0.04], [0.04]])
@@ -15,7 +16,7 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 
 def test_orbits_found_are_attached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 12)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
     asked = [0.2, 0.6, 0.1]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
@@ -27,7 +28,7 @@ def test_orbits_found_are_attached(beam, monkeypatch):
 
 
 def test_no_orbit_no_backbone(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 12)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])
     assert caught.value.backbone is None

@@ -10,8 +10,10 @@ from analytic import (
     Damping,
     SpeedRipple,
     SpinUp,
+    backbone_curve,
     forced_response,
     periodic_orbits,
+    residual_amplitude,
     spin_up_response,
 )
 from rotbeam_exu import simulate
@@ -30,12 +32,27 @@ def seconds(function, repeats=3):
 
 
 @pytest.mark.parametrize("omega", [2.0, 4.0, 6.0, 8.0])
-def test_ten_orbits_take_a_tenth_of_a_simulation(beam, omega):
+def test_ten_orbits_take_a_thirtieth_of_a_simulation(beam, omega):
     amplitudes = np.linspace(0.03, 0.3, 10)
     spin_up = SpinUp(omega=omega, ramp_time=3.0)
     run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
-    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes))
-    assert orbits < run / 10.0, f"{orbits:.3f} s against {run:.3f} s"
+    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes), repeats=9)
+    assert orbits < 0.03 * run, f"{orbits:.3f} s against {run:.3f} s"
+
+
+@pytest.mark.parametrize("omega", [4.0, 6.0, 8.0])
+def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
+    spin_up = SpinUp(omega=omega, ramp_time=3.0)
+    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
+    curve = seconds(lambda: backbone_curve(beam, omega), repeats=9)
+    assert curve < 0.05 * run, f"{curve:.3f} s against {run:.3f} s"
+
+
+def test_a_million_points_of_a_curve_take_five_multiplications(beam):
+    curve, a = backbone_curve(beam, 6.0), np.linspace(0.0, 0.6, 1_000_000)
+    bare = seconds(lambda: a * a * 0.3, repeats=25)
+    answers = seconds(lambda: curve.frequency(a), repeats=25)
+    assert answers < 5.0 * bare, f"{1e3 * answers:.2f} ms against {1e3 * bare:.2f} ms"
 
 
 @pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])
@@ -85,3 +102,13 @@ def test_a_loose_tolerance_costs_less(beam, omega, ramp_time):
         for tolerance in (1e-4, 1e-8)
     )
     assert loose < 0.75 * tight, f"{loose:.3f} s against {tight:.3f} s"
+
+
+def test_a_thousand_ramp_times_take_a_twentieth_of_one_transient(beam):
+    """The closed form, once the modes over the speed are known."""
+    spin_up, ramp_times = SpinUp(omega=6.0, ramp_time=10.0), np.linspace(1.0, 10.0, 1000)
+    residual_amplitude(beam, spin_up, ramp_times)
+    form = seconds(lambda: residual_amplitude(beam, spin_up, ramp_times))
+    times = np.linspace(0.0, 12.0, 101)
+    exact = seconds(lambda: spin_up_response(beam, spin_up, times, tolerance=1e-6))
+    assert form < exact / 20.0, f"{form:.4f} s against {exact:.3f} s"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import SpinUp
+from analytic import SpinUp, reduced_model
 from rotbeam_exu import comparison, figures
 from rotbeam_exu.cli import main
 from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
@@ -23,6 +23,10 @@ def without_display(monkeypatch):
 
 def test_figure_3_even_one_element_is_stable():
     data = comparison.figure_3()
+    # What is inset: one element is 10 % fast, two are nearly in phase.
+    words = figures.caption(3, data)
+    assert "1 element: -33.4 and -10.1 %; 2 elements: +1.3 and -0.8 %" in words
+    assert "cable elements, step 1 ms" in words
     steady = np.abs(data["q"].where(data["time"] > 15.0)).max("time")
     assert (steady < 0.05).all()
     assert "[m]" in figures.figure_3(data).get_ylabel()
@@ -55,7 +59,17 @@ def test_figure_4_normalization_has_the_units_of_a_velocity(beam):
 
 def test_figure_4_orbits_close():
     data = comparison.figure_4()
-    assert len(figures.figure_4(data)) == 2
+    left, right = figures.figure_4(data)
+    assert (left.get_xlim(), left.get_ylim()) == (right.get_xlim(), right.get_ylim())
+    # The last of a) is the first of b), and drawn as it is; pale lines are all turns of each.
+    common = [panel.lines[i] for panel, i in ((left, 5), (right, 1))]
+    np.testing.assert_array_equal(*[line.get_xydata() for line in common])
+    assert common[0].get_color() == common[1].get_color() == "black"
+    looks = [line.get_linestyle() + str(line._dash_pattern) for line in left.lines[1::2]]
+    assert len(set(looks)) == 3
+    # The second mode, in the steady motion after the shortest ramp.
+    assert data["smear"].to_numpy()[:3] == pytest.approx([0.011, 0.0013, 0.0002], rel=0.2)
+    assert "T = 1.5 s is smeared: 1.1 % of its velocity" in figures.caption(4, data)
     orbit = data.isel(case=2)
     assert float(np.abs(orbit["q_bar"]).max()) == pytest.approx(3.3, abs=0.1)
     assert data["panel"].to_numpy().tolist() == list("aaabbb")
@@ -68,6 +82,28 @@ def test_figure_8_is_bounded_by_its_limits():
     # λ_ω → 3.3504/2.3901 as Ω → ∞, Eq. 64.
     limit = 1.0 - 3.3504 / 2.3901 * 0.4**2
     assert ratio[2, -1].item() == pytest.approx(limit, abs=1e-4)
+
+
+def test_figure_8_draws_the_exact_beam_beside_the_model():
+    data = comparison.figure_8()
+    # At rest the model is right, to its fourth order; in rotation it is far off.
+    model = data["ratio"].sel(amplitude=0.4, method="nearest").to_numpy()
+    exact = data["exact"].sel(exact_amplitude=0.4, method="nearest").to_numpy()
+    assert model[0] == pytest.approx(exact[0], abs=3e-4)
+    assert abs(model[1] - exact[1]) > 0.03
+    ax = figures.figure_8(data)
+    black = [line for line in ax.lines if line.get_color() == "black"]
+    np.testing.assert_array_equal([line.get_xdata() for line in black], data["exact"])
+
+
+def test_exact_coefficients_are_those_of_small_orbits(beam):
+    ten = comparison.figure_10()
+    for omega in (2.0, 8.4):
+        exact = ten.sel(model="exact", omega=omega)
+        # FrM is the inextensible beam to this order.
+        model = reduced_model(beam, omega, "FrM")
+        assert exact["lambda_omega"].item() == pytest.approx(model.lambda_omega, abs=1.1e-4)
+        assert exact["lambda_x"].item() == pytest.approx(model.lambda_x, abs=1.1e-4)
 
 
 def test_figures_9_to_11_have_the_papers_values(beam):
@@ -95,6 +131,12 @@ def test_figure_12_converges_later_at_higher_speed():
     error = np.abs(data["omega_n"] - data["converged"])
     enough = [int(data["degree"][np.argmax((row < 1e-6).to_numpy())]) for row in error]
     assert enough == sorted(enough)
+    ax = figures.figure_12(data)
+    assert ax.get_yscale() == "log"
+    np.testing.assert_allclose(ax.lines[3].get_ydata()[20], error[3, 20])
+    # What no root gives is said, not left to be wondered at.
+    assert np.isnan(data["omega_n"].sel(omega=8.0, degree=26))
+    assert "Before N = 10, 20, 22 and 28 there is no point" in figures.caption(12, data)
     # At the paper's degree, 2.1e-4 rad/s off at 8 rad/s.
     assert error.sel(omega=8.0, degree=36).item() == pytest.approx(2.1e-4, abs=1e-5)
 
@@ -110,7 +152,19 @@ def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
     main(["figure", str(number), "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
     kinds = {path.suffix for path in tmp_path.iterdir() if path.is_file()}
     assert {".nc", ".csv", ".png", ".pdf", ".txt"} <= kinds
-    assert CAPTIONS[number] in (tmp_path / f"figure_{number}.txt").read_text()
+    words = (tmp_path / f"figure_{number}.txt").read_text()
+    assert CAPTIONS[number] in words
+    # What is drawn comes first, and of which beam.
+    assert words.index("Beam: L = 8 m") < words.index(CAPTIONS[number])
+
+
+def test_a_style_on_the_command_line(tmp_path, capsys):
+    main(["figure", "13", "--style", "GREY", "--out", str(tmp_path)])
+    assert {".pdf", ".svg"} <= {path.suffix for path in tmp_path.iterdir()}
+    assert not list(tmp_path.glob("*.png"))
+    with pytest.raises(SystemExit):
+        main(["figure", "13", "--style", "sepia", "--out", str(tmp_path)])
+    assert "unknown style 'sepia'; known are house, journal, grey" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("number", range(8, 14))

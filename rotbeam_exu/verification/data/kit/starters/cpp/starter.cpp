@@ -5,9 +5,8 @@
 //
 // Any case but B. Writes S1/m032_h1e-3.csv, or rows of L.csv, in the folder where it is run, and a
 // row of runs.csv. Nodes 0 to n stand L/n apart; a spring EA/l joins two of them, a spring EI/l
-// bends at each, 2 EI/l at the clamp, from which the first link is half a length away on average.
-// All is seen from the frame that turns with the clamp. Steps are those of the implicit midpoint
-// rule. Both are of order two.
+// bends at each, 2 EI/l at the clamp, from which the first link is half a length away on average;
+// all in the frame that turns with the clamp. Steps are those of the implicit midpoint rule.
 
 #include <array>
 #include <chrono>
@@ -15,7 +14,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -25,13 +23,11 @@
 using Vector = std::vector<double>;
 constexpr int WIDTH = 5;  // of the band on either side: a bent node couples three of two unknowns
 using Band = std::vector<std::array<double, 2 * WIDTH + 1>>;
-
 double& at(Band& A, int i, int j) { return A[i][j - i + WIDTH]; }
 
 // Gauss without pivots: b becomes A^-1 b. Returns how many pivots are negative.
 int solve(Band A, Vector& b) {
-  const int n = static_cast<int>(b.size());
-  int negative = 0;
+  int n = static_cast<int>(b.size()), negative = 0;
   for (int k = 0; k < n; ++k) {
     const double pivot = at(A, k, k);
     negative += pivot < 0.0;
@@ -112,7 +108,7 @@ struct Chain {
   // Adds the spring forces to F, and their derivative less its sign to K, if v = (2/h)(x - x0).
   void springs(const Vector& x, const Vector& v, double two_over_h, Vector& F, Band& K) const {
     auto node = [&](int k, int i) { return k > 0 ? x[2 * k - 2 + i] : k == 0 && i == 0 ? hub : 0.0; };
-    auto add = [&](int first, int nodes, double M, double stiffness, double rate, const double* g, const double H[6][6]) {
+    auto add = [&](int first, int nodes, double M, double stiffness, double rate, const double* g, double H[6][6]) {
       for (int i = 0; i < 2 * nodes; ++i) {
         const int row = 2 * (first - 1) + i;
         if (row < 0) continue;
@@ -153,7 +149,8 @@ struct Chain {
         if (k - 2 + i / 2 >= 0) rate += g[i] * v[2 * (k - 2) + i];
       }
       const double stiffness = (k ? 1 : 2) * EI / l;
-      add(k - 1, 3, stiffness * (angle + damping * rate), stiffness * (1 + damping * two_over_h), stiffness * damping, g, H);
+      const double moment = stiffness * (angle + damping * rate);
+      add(k - 1, 3, moment, stiffness * (1 + damping * two_over_h), stiffness * damping, g, H);
     }
   }
 
@@ -173,13 +170,14 @@ double size(const Vector& x) {
 // One step of the midpoint rule from t to t + h.
 void advance(const Chain& chain, const Drive& drive, double t, double h, Vector& x, Vector& v) {
   const int n = static_cast<int>(x.size());
-  const double w = drive.rate(t + h / 2), w_dot = drive.acceleration(t + h / 2), angle = drive.angle(t + h / 2);
-  Vector middle(n), rate = v, F(n);
+  const double half = t + h / 2, w = drive.rate(half), w_dot = drive.acceleration(half), angle = drive.angle(half);
+  Vector middle(n), rate = v;
   for (int i = 0; i < n; ++i) middle[i] = x[i] + h / 2 * v[i];
   for (int iteration = 0;; ++iteration) {
-    if (iteration == 30) throw std::runtime_error("Newton's method fails at t = " + std::to_string(t));
+    if (iteration == 30)
+      throw std::runtime_error("Newton's method fails at t = " + std::to_string(t) + " s: halve the step");
     Band A(n, std::array<double, 2 * WIDTH + 1>{});
-    std::fill(F.begin(), F.end(), 0.0);
+    Vector F(n, 0.0);
     chain.springs(middle, rate, 2 / h, F, A);
     for (int i = 0; i < n; ++i) {
       const double m = chain.mass[i / 2], turn = i % 2 ? -1.0 : 1.0;
@@ -250,12 +248,11 @@ void frequencies(const Case& c, int elements) {
 
 void start_on_orbit(const std::string& file, Vector& x, Vector& v) {
   const Table start = table(file);
-  for (std::size_t k = 1; k < start.rows.size(); ++k)
-    for (int i = 0; i < 2; ++i) {
-      const std::string name = i ? "Y" : "X";
-      x[2 * k - 2 + i] = std::stod(start.rows[k][start.column.at(name)]);
-      v[2 * k - 2 + i] = std::stod(start.rows[k][start.column.at(name + "_dot")]);
-    }
+  const std::string names[2] = {"X", "Y"};
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    x[k] = std::stod(start.rows[k / 2 + 1][start.column.at(names[k % 2])]);
+    v[k] = std::stod(start.rows[k / 2 + 1][start.column.at(names[k % 2] + "_dot")]);
+  }
 }
 
 void history(const Case& c, const std::string& kit, int elements, const std::string& step) {
@@ -271,7 +268,7 @@ void history(const Case& c, const std::string& kit, int elements, const std::str
   std::snprintf(name, sizeof name, "%s/m%03d_h%s.csv", id.c_str(), elements, step.c_str());
   std::filesystem::create_directory(id);
   std::ofstream out(name);
-  out.precision(17);
+  out.precision(12);
   out << "time,q,q_dot\n";
   const int steps = static_cast<int>(std::ceil(c["duration"] / h - 1e-9));
   const int every = std::max(1, static_cast<int>(0.01 / h + 1e-9));
@@ -298,6 +295,6 @@ int main(int count, char** words) try {
   else
     history(c, kit, elements, words[3]);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << "\n";
+  std::fprintf(stderr, "%s\n", error.what());
   return 1;
 }

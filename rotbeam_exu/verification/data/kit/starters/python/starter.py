@@ -62,7 +62,9 @@ def main(case, elements, step):
     if case != "S1":
         sys.exit(f"this starter knows case S1, not {case}: add it from cases.csv")
     if not 0 < h <= longest:
-        sys.exit(f"with {n} elements the step must be at most {longest:.1e} s, or waves along run away")
+        sys.exit(
+            f"with {n} elements the step must be at most {longest:.1e} s, or waves along run away"
+        )
     name = f"S1/m{n:03d}_h{step}.csv"
     Path("S1").mkdir(exist_ok=True)
     np.savetxt(name, history(n, h), "%.17g", ",", header="time,q,q_dot", comments="")

@@ -1,0 +1,54 @@
+"""Draw the README's pictures again: python docs/images/regenerate.py, or `make images`.
+
+Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerate.py computes.
+"""
+
+from pathlib import Path
+
+import matplotlib as mpl
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from PIL import Image
+
+from analytic import Beam, SpinUp
+from rotbeam_exu import comparison, figures, simulate
+
+HERE = Path(__file__).parent
+GOLDEN = HERE.parents[1] / "tests" / "comparison" / "golden"
+
+
+def golden() -> xr.Dataset:
+    """Return the data of Figure 14 as they are kept."""
+    tables = [
+        pd.read_csv(GOLDEN / f"figure_14-{name}.csv", comment="#").rename(
+            columns=lambda column: column.split(" [")[0]
+        )
+        for name in ("amplitude", "backbone")
+    ]
+    keys = (["mesh", "omega", "ramp_time"], ["model", "omega", "a"])
+    # In the tables' own order: a Dataset of a whole table would sort the models.
+    data = xr.merge(
+        table.set_index(key).to_xarray().reindex({key[0]: table[key[0]].unique()})
+        for table, key in zip(tables, keys, strict=True)
+    )
+    named = comparison.backbones.backbones(Beam.reference(), [2.0], [0.1])
+    for name, like in {"ratio": "backbone", "amplitude": "a", "a": "a"}.items():
+        data[name].attrs = named[like].attrs
+    return data
+
+
+def write(ax: Axes, name: str) -> None:
+    """Write a figure in full color: 8 bits each of red, green and blue, no palette."""
+    path = HERE / f"{name}.png"
+    figure = ax.get_figure(root=True)
+    figure.savefig(path, dpi=200)
+    with Image.open(path) as picture:
+        picture.convert("RGB").save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    mpl.use("agg")
+    write(figures.figure_14(golden())[0], "figure_14")
+    run = simulate(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), elements=16)
+    write(figures.spin_up(run)[0], "spin_up")

@@ -1,0 +1,136 @@
+"""`rotbeam ramp`: what a spin-up leaves over its ramp time, and the ramp times that leave least."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
+from analytic.input_checks import positive, rotation_speed, whole_number
+
+from .. import comparison
+from ..fem.elements import formulation
+from ..files.beam_file import load_beam
+from ..files.results import save, save_tables, writable_folder
+from ..verdict import beam_attributes
+from .cost import require_affordable
+from .motion import chosen_speeds, chosen_times, refuse_rest
+from .options import Results, Whole
+from .output import new_console, print_columns
+from .progress import counter
+from .targets import listed, refuse_to_replace
+
+_OMEGA, _LONGEST = 6.0, 10.0  # of the paper's beam [rad/s, s]
+_SECONDS_PER_RUN = 0.3
+"""From below."""
+_RESULTS = Results()
+
+
+def ramp(
+    *,
+    omega: float | None = None,
+    longest: float | None = None,
+    points: Whole = 9,
+    finite_element_points: Whole = 5,
+    element: str = "cable",
+    elements: Whole = 16,
+    config: Path | None = None,
+    results: Results = _RESULTS,
+) -> None:
+    """Tell what a spin-up leaves over its ramp time, and where least.
+
+    Printed are the quiet ramp times, and the points; written are all numbers and the figure.
+
+    Parameters
+    ----------
+    omega
+        Speed after the ramp [rad/s]; the paper's beam goes to 6.
+    longest
+        Longest ramp time [s]; 10 for the paper's beam.
+    points
+        Ramp times of exact transients, evenly spaced.
+    finite_element_points
+        Ramp times of runs in Exudyn, evenly spaced; 0 for none.
+    element
+        Beam formulation.
+    elements
+        Number of elements.
+    config
+        TOML file with the beam or blade; without it, the paper's beam.
+    """
+    beam = Beam.reference() if config is None else load_beam(config)
+    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
+    refuse_rest(omega)
+    longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
+    for name, count in (("points", points), ("finite-element-points", finite_element_points)):
+        whole_number(name, count, least=0)
+    require_affordable(
+        f"{points} exact transients and {finite_element_points} runs",
+        seconds=_SECONDS_PER_RUN * (points + finite_element_points),
+        remedy="take fewer points",
+    )
+    inputs = {
+        **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
+        "finite_element_points": finite_element_points, "element": formulation(element).name,
+        "elements": elements,
+    }  # fmt: skip
+    path = writable_folder(results.out) / f"ramp-omega-{omega:g}-longest-{longest:g}"
+    whole = path.with_name(f"{path.name}.nc")
+    refuse_to_replace(inputs, whole, force=results.force)
+    console = new_console()
+    with counter(console, "transients") as progress:
+        data = comparison.residual(
+            beam, omega, longest=longest, points=points, element=element, elements=elements,
+            finite_element_points=finite_element_points, progress=progress,
+        )  # fmt: skip
+    data = data.assign_attrs(inputs)
+    # One table for each set of ramp times; each keeps its own coordinate only.
+    tables = path.with_name(f"{path.name}.csv")
+    written = [save(data, whole), *save_tables(data, tables)]
+
+    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+
+    written += figures.save_figure(figures.residual(data), path)
+    _print(beam, data)
+    console.print("written " + listed(written))
+
+
+def _print(beam: AnyBlade, data: xr.Dataset) -> None:
+    """Print the quiet ramps, then the points."""
+    one = SpinUp(omega=data.attrs["omega"], ramp_time=data.attrs["longest"])
+    quiet = data["quiet_ramp_time"].to_numpy()
+    print_columns(
+        {
+            "T [s]": [f"{T:.4f}" for T in quiet],
+            "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
+            "closed form": [f"{left:.2e}" for left in residual_amplitude(beam, one, quiet)],
+        },
+        "table",
+        title="Quiet ramp times of Eq. 1",
+    )
+    exact = dict(zip(data["exact_ramp_time"].to_numpy(), data["exact"].to_numpy(), strict=True))
+    elements = dict(
+        zip(
+            data["finite_element_ramp_time"].to_numpy(),
+            data["finite_element"].to_numpy(),
+            strict=True,
+        )
+    )
+    times = np.array(sorted({*exact, *elements}))
+    if not times.size:
+        return
+    print_columns(
+        {
+            "T [s]": [f"{T:.4f}" for T in times],
+            "closed form": [f"{a:.4g}" for a in residual_amplitude(beam, one, times)],
+            "with the backbone": [
+                f"{a:.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
+            ],
+            "exact": [f"{exact[T]:.4g}" if T in exact else "-" for T in times],
+            "finite elements": [f"{elements[T]:.4g}" if T in elements else "-" for T in times],
+        },
+        "table",
+        title=f"Amplitude left over L, omega = {data.attrs['omega']:g} rad/s",
+    )

@@ -1,0 +1,89 @@
+"""`rotbeam reference`: the exact spin-up, to hold a code of one's own against."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from analytic import spin_up_response
+from analytic.input_checks import positive, whole_number
+
+from ..comparison.exact_spin_up import exact_spin_up
+from ..files.results import save, writable_folder
+from ..verdict import beam_attributes
+from .configuration import configured, motion_of
+from .options import Results, Whole
+from .output import new_console, print_written
+from .summary import line
+from .targets import refuse_to_replace
+
+_RESULTS = Results()
+
+
+def reference(
+    *,
+    omega: float | None = None,
+    ramp_time: float | None = None,
+    duration: float | None = None,
+    samples: Whole = 1501,
+    tolerance: float = 1e-8,
+    config: Path | None = None,
+    results: Results = _RESULTS,
+) -> None:
+    """Write the exact spin-up as netCDF and CSV.
+
+    Of the geometrically exact, extensible Bernoulli-Euler beam, without loads; step and functions
+    are refined until two solutions agree.
+
+    Parameters
+    ----------
+    omega
+        Steady angular velocity [rad/s].
+    ramp_time
+        Time from rest to the steady angular velocity, T in Eq. 1 [s].
+    duration
+        Last time that is written [s].
+    samples
+        Times that are written, at equal distances from 0 on.
+    tolerance
+        Largest error of the tip's position over the largest |q|.
+    config
+        TOML file with the beam, and if it likes with [motion] and the duration in [numerics].
+
+    Examples
+    --------
+    $ rotbeam reference
+    $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
+    """
+    file = configured(config)
+    if duration is None:
+        duration = file.numerics.get("duration")
+    tolerance = positive("tolerance", tolerance)
+    samples = whole_number("samples", samples, least=2)
+    motion = motion_of(file, omega=omega, ramp_time=ramp_time, duration=duration)
+    spin_up = motion.spin_up
+    path = writable_folder(results.out) / (
+        f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
+    )
+    files = [path.with_name(f"{path.name}.{kind}") for kind in ("nc", "csv")]
+    inputs = {
+        **beam_attributes(file.beam), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
+        "duration": motion.duration, "samples": samples, "tolerance": tolerance,
+    }  # fmt: skip
+    refuse_to_replace(inputs, *files, force=results.force)
+    times = np.linspace(0.0, motion.duration, samples)
+    response = spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
+    data = exact_spin_up(response).assign_attrs(tolerance=tolerance)
+    written = [save(data, file) for file in files]
+    console = new_console()
+    farthest = int(np.abs(response.q).argmax())
+    line(console, "spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
+    line(console, "samples", f"{samples}, up to t = {motion.duration:g} s")
+    line(
+        console,
+        "largest |q|",
+        f"{abs(response.q[farthest]):.9g} m at t = {response.time[farthest]:g} s, of the samples",
+    )
+    line(console, "error of the tip", f"at most {response.error:.1e} of the largest |q|")
+    print_written(console, written)

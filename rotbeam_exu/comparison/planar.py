@@ -1,0 +1,182 @@
+"""Whether planar motion stays planar: over amplitude, over speed and over the section's shape."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from analytic import (
+    AnyBlade,
+    Beam,
+    PlanarStability,
+    StabilityLimit,
+    growth_map,
+    limit_map,
+    linear_modes,
+)
+
+from ..paper import SPEEDS
+from ..verdict import beam_attributes
+
+_OMEGA: dict[str, Any] = {"units": "rad/s", "long_name": "angular velocity ω"}
+_AMPLITUDE: dict[str, Any] = {"units": "1", "long_name": "amplitude a = |q|/L of the planar orbit"}
+_GROWTH: dict[str, Any] = {"units": "1/s", "long_name": "growth rate out of the plane"}
+
+
+def planar_stability(found: PlanarStability, limit: StabilityLimit | None = None) -> xr.Dataset:
+    """Return the stability of planar orbits over their amplitudes as a Dataset.
+
+    Parameters
+    ----------
+    found : PlanarStability
+    limit : StabilityLimit, optional
+        The least unstable amplitude, as an attribute; infinite if there is none.
+
+    Returns
+    -------
+    Dataset
+        `growth_rate`, `kind`, `modes`, `converged`, the orbits' `frequency` and the real and
+        imaginary parts of the `multipliers`, over `a`.
+    """
+    known = {} if limit is None else {
+        "limit": limit.amplitude, "limit_converged": int(limit.converged), "sentence": str(limit)
+    }  # fmt: skip
+    both = np.stack((found.multipliers.real, found.multipliers.imag), axis=-1)
+    return xr.Dataset(
+        {
+            "growth_rate": ("a", found.growth_rate, _GROWTH),
+            "kind": ("a", list(found.kind), {"units": "1", "long_name": "how it grows"}),
+            "modes": (
+                "a",
+                [" and ".join(modes) for modes in found.modes],
+                {"units": "1", "long_name": "what grows"},
+            ),
+            "converged": ("a", found.converged, {"units": "1", "long_name": "converged"}),
+            "frequency": (
+                "a",
+                found.frequency,
+                {"units": "rad/s", "long_name": "frequency of the planar orbit"},
+            ),
+            "multipliers": (
+                ("a", "multiplier", "part"),
+                both,
+                {"units": "1", "long_name": "Floquet multiplier out of the plane"},
+            ),
+        },
+        coords={"a": ("a", found.amplitude, _AMPLITUDE), "part": ["real", "imaginary"]},
+        attrs={
+            **beam_attributes(found.blade),
+            "omega": found.omega,
+            "mode": found.mode,
+            **known,
+        },
+    )
+
+
+def growth_out_of_plane(
+    blade: AnyBlade | None = None,
+    *,
+    omegas: Sequence[float] | None = None,
+    amplitudes: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Return how fast planar orbits leave their plane, over speed and amplitude.
+
+    Each point takes about a third of a second.
+
+    Parameters
+    ----------
+    blade : Blade, optional
+        With a section out of the plane; by default the paper's beam as the rectangle that has its
+        A and I.
+    omegas : sequence of float, optional
+        Rotation speeds [rad/s], by default 0 to 8.
+    amplitudes : sequence of float, optional
+        Peaks |q|/L, by default 0.01 to 0.4.
+
+    Returns
+    -------
+    Dataset
+        `growth_rate`, zero where stable, over (omega, a).
+    """
+    blade = Beam.reference().rectangle() if blade is None else blade
+    speeds = np.linspace(0.0, 8.0, 25) if omegas is None else np.asarray(omegas, dtype=float)
+    peaks = np.geomspace(0.01, 0.4, 24) if amplitudes is None else np.asarray(amplitudes)
+    return xr.Dataset(
+        {"growth_rate": (("omega", "a"), growth_map(blade, speeds, peaks), _GROWTH)},
+        coords={"omega": ("omega", speeds, _OMEGA), "a": ("a", peaks, _AMPLITUDE)},
+        attrs=beam_attributes(blade),
+    )
+
+
+def stability_limits(
+    beam: AnyBlade | None = None,
+    *,
+    ratios: Sequence[float] = (2.0, 3.0, 4.0, 6.0, 9.0, 13.0, 18.5),
+    omegas: Sequence[float] = SPEEDS,
+) -> xr.Dataset:
+    """Return the least unstable amplitudes of rectangles, over height/width and speed.
+
+    Parameters
+    ----------
+    beam : Beam or Blade, optional
+        By default the paper's; EA, EI and m are kept.
+    ratios, omegas : sequence of float
+        Height in the plane over width, and rotation speeds [rad/s].
+
+    Returns
+    -------
+    Dataset
+        `limit` |q|/L over (ratio, omega), infinite where all orbits to 0.6 L stay in the plane.
+    """
+    beam = Beam.reference() if beam is None else beam
+    return xr.Dataset(
+        {
+            "limit": (
+                ("ratio", "omega"),
+                limit_map(beam, ratios, omegas),
+                {"units": "1", "long_name": "least amplitude |q|/L that leaves the plane"},
+            )
+        },
+        coords={
+            "ratio": ("ratio", list(ratios), {"units": "1", "long_name": "height over width h/b"}),
+            "omega": ("omega", list(omegas), _OMEGA),
+        },
+        attrs=beam_attributes(beam),
+    )
+
+
+def modes_in_space(
+    blade: AnyBlade | None = None, *, omegas: Sequence[float] | None = None, count: int = 2
+) -> xr.Dataset:
+    """Return lag, flap and torsional frequencies over the speed.
+
+    Returns
+    -------
+    Dataset
+        `frequency` [rad/s] over (plane, mode, omega).
+    """
+    blade = Beam.reference().rectangle() if blade is None else blade
+    speeds = np.linspace(0.0, 8.0, 17) if omegas is None else np.asarray(omegas, dtype=float)
+    families = [
+        [linear_modes(blade, w, count).frequencies for w in speeds.tolist()],
+        [linear_modes(blade, w, count, plane="flap").frequencies for w in speeds.tolist()],
+        [linear_modes(blade, w, count, plane="torsion").frequencies for w in speeds.tolist()],
+    ]
+    return xr.Dataset(
+        {
+            "frequency": (
+                ("plane", "omega", "mode"),
+                np.array(families),
+                {"units": "rad/s", "long_name": "natural frequency"},
+            )
+        },
+        coords={
+            "plane": ["lag", "flap", "torsion"],
+            "omega": ("omega", speeds, _OMEGA),
+            "mode": np.arange(1, count + 1),
+        },
+        attrs=beam_attributes(blade),
+    )

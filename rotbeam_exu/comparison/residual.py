@@ -1,0 +1,148 @@
+"""What Eq. 1 leaves over its ramp time: closed form, exact transient and finite elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from analytic import (
+    AnyBlade,
+    Beam,
+    SpinUp,
+    exact_residual,
+    linear_modes,
+    quiet_ramp_times,
+    residual_amplitude,
+)
+from analytic.input_checks import positive, whole_number
+
+from ..fem.elements import Formulation
+from ..fem.simulation import simulate
+from ..verdict import beam_attributes
+
+_CURVE = 400
+_SHORTEST = 0.8
+"""Shortest ramp time, in periods at rest."""
+_LARGEST = 0.9
+"""Closed form beyond which the blade is thrown about, and nothing is measured."""
+_STEPS = 2000
+"""Steps in a period after the ramp."""
+
+
+def residual(
+    beam: AnyBlade | None = None,
+    omega: float = 6.0,
+    *,
+    longest: float | None = None,
+    points: int = 9,
+    finite_element_points: int = 5,
+    element: str | Formulation = "cable",
+    elements: int = 16,
+    progress: Callable[[int, int], None] | None = None,
+) -> xr.Dataset:
+    """Return the amplitude that Eq. 1 leaves over its ramp time.
+
+    Parameters
+    ----------
+    beam : Beam or Blade, optional
+        By default the paper's beam.
+    omega : float
+        Speed after the ramp [rad/s].
+    longest : float, optional
+        Longest ramp time [s], by default five periods of the blade at rest.
+    points, finite_element_points : int
+        Ramp times of exact transients and of finite element runs, evenly spaced from where the
+        closed form leaves 0.9 to the longest; none if zero.
+    element, elements
+        As in `simulate`.
+    progress : callable, optional
+        Called with the transients and runs done and their number.
+
+    Returns
+    -------
+    Dataset
+        `linear` and `corrected` (by the backbone's action) over `ramp_time`, `exact` over
+        `exact_ramp_time`, `finite_element` over `finite_element_ramp_time`, `quiet` over
+        `quiet_ramp_time`: half peak to peak of the tip over L, that of the first mode the last.
+    """
+    blade = Beam.reference() if beam is None else beam
+    period = 2.0 * math.pi / blade.omega_0
+    longest = 5.0 * period if longest is None else positive("longest", longest, "s")
+    if longest <= _SHORTEST * period:
+        raise ValueError(
+            f"longest must be above {_SHORTEST:g} periods at rest, {_SHORTEST * period:.4g} s, got "
+            f"{longest:g} s"
+        )
+    counts = [
+        whole_number(name, count, least=0)
+        for name, count in (
+            ("points", points),
+            ("finite_element_points", finite_element_points),
+        )
+    ]
+    one = SpinUp(omega=omega, ramp_time=longest)
+    curve = np.linspace(_SHORTEST * period, longest, _CURVE)
+    linear = residual_amplitude(blade, one, curve)
+    calm = curve[linear <= _LARGEST]
+    places = [np.linspace(calm.min(initial=longest), longest, count) for count in counts]
+    measures: tuple[Callable[[SpinUp], float], ...] = (
+        lambda ramp: exact_residual(blade, ramp, tolerance=1e-5),
+        lambda ramp: _of_elements(blade, ramp, element, elements),
+    )
+    done, found = 0, []
+    for times, measure in zip(places, measures, strict=True):
+        left = []
+        for T in times.tolist():
+            left.append(measure(SpinUp(omega=omega, ramp_time=T)))
+            done += 1
+            if progress is not None:
+                progress(done, sum(counts))
+        found.append(np.array(left))
+    quiet = quiet_ramp_times(blade, omega, longest=longest)
+    return _dataset(
+        {
+            "linear": ("ramp_time", linear, "closed form"),
+            "corrected": (
+                "ramp_time",
+                residual_amplitude(blade, one, curve, corrected=True),
+                "closed form, corrected by the backbone",
+            ),
+            "exact": ("exact_ramp_time", found[0], "exact transient"),
+            "finite_element": ("finite_element_ramp_time", found[1], "finite elements"),
+            "quiet": ("quiet_ramp_time", quiet.left, "quiet ramps"),
+        },
+        (curve, *places, quiet.ramp_times),
+    ).assign_attrs(
+        **beam_attributes(blade),
+        omega=omega,
+        longest=longest,
+        element=element if isinstance(element, str) else element.name,
+        elements=elements,
+    )
+
+
+def _dataset(values: dict[str, tuple[str, object, str]], times: tuple[object, ...]) -> xr.Dataset:
+    dims = list(dict.fromkeys(dim for dim, _, _ in values.values()))
+    return xr.Dataset(
+        {
+            name: (dim, left, {"units": "1", "long_name": f"amplitude left over L, {by}"})
+            for name, (dim, left, by) in values.items()
+        },
+        coords={
+            dim: (dim, at, {"units": "s", "long_name": "ramp time T"})
+            for dim, at in zip(dims, times, strict=True)
+        },
+    )
+
+
+def _of_elements(blade: AnyBlade, ramp: SpinUp, element: str | Formulation, elements: int) -> float:
+    """Return half peak to peak over L in the first period after the ramp, of a run."""
+    period = 2.0 * math.pi / float(linear_modes(blade, ramp.omega, 1).frequencies[0])
+    step = min(period / _STEPS, ramp.ramp_time / _STEPS)
+    duration = step * math.ceil((ramp.ramp_time + 1.1 * period) / step)
+    run = simulate(blade, ramp, element=element, elements=elements, duration=duration, step=step)
+    q = run["q"].sel(time=slice(ramp.ramp_time, None)).to_numpy()
+    return float(np.ptp(q)) / (2.0 * blade.length)

@@ -1,0 +1,131 @@
+"""The exact backbone as a series: against orbits it was not made from, and where it must end."""
+
+import numpy as np
+import pytest
+
+from analytic import (
+    AmplitudeNotReachedError,
+    backbone_curve,
+    periodic_orbits,
+    reduced_model,
+)
+from analytic.exact.curve import care_for, fitted_curve
+from analytic.exact.modes import resolved_model
+from analytic.exact.periodic import branch_of
+from analytic.input_checks import RotbeamWarning
+
+SPEEDS = (0.0, 4.0, 6.0, 8.0)
+ALL = "ignore:internal resonance:analytic.input_checks.RotbeamWarning"
+
+
+@pytest.fixture(scope="module")
+def curves(beam):
+    return {omega: backbone_curve(beam, omega) for omega in SPEEDS}
+
+
+@pytest.mark.parametrize("omega", SPEEDS)
+def test_orbits_it_was_not_made_from_lie_on_it(beam, curves, omega):
+    curve, a = curves[omega], np.array([0.05, 0.13, 0.27, 0.4, 0.47, 0.58, 0.6])
+    orbits = periodic_orbits(beam, omega, a)
+    off = np.abs(curve.frequency(a) / orbits.frequency - 1.0)
+    assert curve.holds_up_to == 0.6
+    assert curve.error < 1e-8
+    # What is asked of ten coefficients is 1e-8 up to 0.4 and 1e-6 at 0.6; its own estimate holds.
+    assert (off < min(1e-8, curve.error)).all()
+    first = np.abs(curve.first_harmonic(a) - orbits.first_harmonic) / a
+    assert (first < max(2.0 * curve.error, 1e-9)).all()
+    assert curve.omega_n == pytest.approx(orbits.omega_n, rel=1e-12)
+
+
+@pytest.mark.parametrize("omega", SPEEDS)
+def test_its_slope_at_rest_is_the_perturbation_theory(beam, omega):
+    curve = backbone_curve(beam, omega, up_to=0.4, inextensible=True)
+    model = reduced_model(beam, omega, "FrM5")
+    # Derivatives at the end of a series lose the square and the fourth power of its length.
+    assert curve.lambda_omega == pytest.approx(model.lambda_omega, abs=2e-8)
+    assert curve.kappa == pytest.approx(model.kappa_of_peak, abs=1e-6)
+
+
+def test_shape_of_the_answers(curves):
+    curve = curves[6.0]
+    grid = np.linspace(0.0, 0.6, 24).reshape(2, 3, 4)
+    assert curve.frequency(grid).shape == curve.first_harmonic(grid).shape == grid.shape
+    assert isinstance(curve.frequency(0.3), float)  # NumPy's is one
+    assert isinstance(curve.first_harmonic(0.3), float)
+    assert curve.frequency(0.0) == pytest.approx(curve.omega_n, rel=curve.error)
+    assert curve.frequency([]).size == 0
+    # Blocks are joined without a seam.
+    many = np.linspace(0.0, 0.6, 40_001)
+    np.testing.assert_allclose(
+        curve.frequency(many), curve.omega_n * curve.series(many**2), rtol=0.3 * curve.error
+    )
+    bare = [curve.frequency(float(a)) for a in many[::4000]]
+    np.testing.assert_allclose(curve.frequency(many)[::4000], bare, rtol=1e-15)
+    assert "up to a = 0.6" in str(curve)
+
+
+@pytest.mark.filterwarnings(ALL)
+def test_before_a_resonance_it_says_how_far_it_holds(beam):
+    """Harmonic 6 meets mode 2 at a = 0.64, 2 rad/s, where the orbits have a fold."""
+    with pytest.warns(RotbeamWarning, match=r"holds to 1e-08 up to a = .*harmonic 6 is .* mode 2"):
+        curve = backbone_curve(beam, 2.0, up_to=0.7)
+    assert 0.5 < curve.holds_up_to < 0.6375
+    a = np.array([0.2, 0.4, curve.holds_up_to])
+    off = np.abs(curve.frequency(a) / periodic_orbits(beam, 2.0, a).frequency - 1.0)
+    assert (off < 1e-8).all()
+    with pytest.raises(ValueError, match="holds for amplitudes from 0 up to 0.5"):
+        curve.frequency(0.6)
+
+
+def test_more_coefficients_and_a_tighter_tolerance(beam):
+    curve = backbone_curve(beam, 8.0, up_to=0.5, coefficients=14, tolerance=1e-10)
+    assert curve.error < 1e-10
+    a = np.array([0.21, 0.33, 0.49])
+    exact = periodic_orbits(beam, 8.0, a)
+    np.testing.assert_allclose(curve.frequency(a), exact.frequency, rtol=1e-10)
+    # Too few for the range: it is made shorter until they do.
+    with pytest.warns(RotbeamWarning, match="5 coefficients"):
+        few = backbone_curve(beam, 8.0, up_to=0.5, coefficients=5)
+    assert few.holds_up_to < 0.5
+    assert np.abs(few.frequency(0.1) / curve.frequency(0.1) - 1.0) < 1e-8
+
+
+def test_second_mode_and_a_blade(beam):
+    a = np.array([0.012, 0.035])
+    curve = backbone_curve(beam, 4.0, up_to=0.04, mode=2)
+    orbits = periodic_orbits(beam, 4.0, a, mode=2)
+    np.testing.assert_allclose(curve.frequency(a), orbits.frequency, rtol=1e-8)
+    blade = beam.with_tip_mass(0.5 * beam.mass)
+    orbits = periodic_orbits(blade, 3.0, a)
+    found = backbone_curve(blade, 3.0, up_to=0.3).frequency(a)
+    np.testing.assert_allclose(found, orbits.frequency, rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"up_to": 1.0}, "up_to must be below 1"),
+        ({"up_to": -0.1}, "up_to must be positive"),
+        ({"coefficients": 4}, "coefficients must be at least 5"),
+        ({"tolerance": 1e-12}, "tolerance must be at least 1e-10"),
+        ({"mode": 0}, "mode must be at least 1"),
+    ],
+)
+def test_bad_input(beam, options, says):
+    with pytest.raises(ValueError, match=says):
+        backbone_curve(beam, 6.0, **options)
+
+
+def test_amplitudes_beyond_it_are_refused(curves):
+    with pytest.raises(ValueError, match="got 0.61"):
+        curves[6.0].frequency([0.1, 0.61])
+    with pytest.raises(ValueError, match=r"got -0\.1"):
+        curves[6.0].first_harmonic(-0.1)
+    with pytest.raises(ValueError, match="finite"):
+        curves[6.0].frequency(np.nan)
+
+
+def test_so_few_coefficients_that_no_range_is_left(beam):
+    branch = branch_of(beam, 8.0, 1, resolved_model(beam, 1, False, False, 16), care_for(1e-9))
+    with pytest.raises(AmplitudeNotReachedError, match="ask for more of them"):
+        fitted_curve(branch, 0.6, 5, 1e-14)

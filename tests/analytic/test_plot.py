@@ -1,0 +1,81 @@
+"""What results draw of themselves is what they hold."""
+
+import subprocess
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from analytic import Beam, Damping, SpeedRipple, campbell, forced_response, periodic_orbits
+from analytic.plotting import apart
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    yield
+    plt.close("all")
+
+
+def test_a_backbone_starts_at_the_linear_frequency(beam):
+    found = periodic_orbits(beam, 6.0, [0.2, 0.1])
+    ax = found.plot(color="k")
+    (line,) = ax.lines
+    # In the order of the amplitudes, whatever was asked for first.
+    np.testing.assert_array_equal(line.get_ydata(), [0.0, 0.1, 0.2])
+    np.testing.assert_array_equal(line.get_xdata(), [found.omega_n, *found.frequency[::-1]])
+    assert line.get_color() == "k"
+    assert ax.get_legend().get_texts()[0].get_text() == "ω = 6 rad/s"
+    # A second one goes on the same axes, and no figure is made.
+    assert found.plot(ax, label="mine") is ax
+    assert len(plt.get_fignums()) == 1
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["ω = 6 rad/s", "mine"]
+
+
+def test_a_campbell_diagram_names_its_modes_apart(beam):
+    diagram = campbell(beam, [0.0, 4.0, 8.0])
+    _, ax = plt.subplots()
+    assert diagram.plot(ax) is ax
+    texts = {text.get_text(): text for text in ax.texts}
+    assert {"lag 1", "lag 2", "lag 3", "1ω", "2ω"} <= set(texts)
+    orders = max(crossing.order for crossing in diagram.crossings)
+    curves = ax.lines[orders : orders + 3]
+    np.testing.assert_array_equal(
+        np.array([line.get_ydata() for line in curves]).T, diagram.frequencies
+    )
+    dots = ax.lines[-1].get_xydata()
+    np.testing.assert_array_equal(dots, [(c.omega, c.frequency) for c in diagram.crossings])
+    # No two names overlap.
+    ax.figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in texts.values()]
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_labels_move_up_only_where_they_must():
+    np.testing.assert_allclose(apart(np.array([3.0, 1.0, 1.1, 1.2]), 0.5), [3.0, 1.0, 1.5, 2.0])
+
+
+def test_a_response_is_dashed_where_it_is_unstable():
+    beam = Beam.reference()
+    damped = beam.with_damping(Damping.from_ratio(beam, ratio=8e-4))
+    found = forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.7, 3.76])
+    ax = found.plot()
+    solid, dashed, rings = ax.lines
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    np.testing.assert_allclose(rings.get_xdata(), [fold.frequency for fold in found.folds])
+    # Between its folds, both included; the two parts are the whole curve.
+    seen = np.flatnonzero(~np.isnan(dashed.get_ydata()))
+    folds = np.flatnonzero(np.array(found.marks) == "fold")
+    assert seen.tolist() == list(range(folds[0], folds[1] + 1))
+    assert not np.isnan(np.fmax(solid.get_ydata(), dashed.get_ydata())).any()
+    assert ax.get_xlabel() == "drive frequency ν [rad/s]"
+
+
+def test_the_theory_computes_without_matplotlib():
+    code = (
+        "import sys; sys.modules['matplotlib'] = None; from analytic import *;"
+        "print(periodic_orbits(Beam.reference(), 6.0, [0.1]).omega_n)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert float(done.stdout) == pytest.approx(3.7304014, abs=1e-6)

@@ -1,0 +1,149 @@
+"""Changes of the speed: their own consistency, their limits, and what drives the exact beam."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from analytic import (
+    Beam,
+    Gravity,
+    SmoothRamp,
+    SpinUp,
+    SteadyRotation,
+    Table,
+    linear_modes,
+    spin_up_response,
+)
+from analytic.ramps import fastest
+
+WAVES = {"cosines": (-0.9, -0.3, 0.2), "sines": (0.3, 0.0, -0.1)}
+RAMPS = {
+    "Eq. 1": SmoothRamp(omega=6.0, ramp_time=3.0),
+    "waves": SmoothRamp(start=2.0, omega=5.0, ramp_time=3.0, **WAVES),
+    "down": SmoothRamp(start=6.0, omega=0.0, ramp_time=3.0, **WAVES),
+    "table": Table([0.0, 0.4, 1.5, 2.0, 3.0], [1.0, 1.5, 4.0, 3.0, 5.0]),
+}
+TIMES = np.linspace(-0.5, 4.0, 9001)
+
+
+@pytest.mark.parametrize("ramp", RAMPS.values(), ids=RAMPS)
+def test_rate_and_acceleration_are_the_derivatives(ramp):
+    angle = CubicSpline(TIMES, ramp.angle(TIMES))
+    inside = slice(5, -5)
+    # Cubics on steps of 5e-4 s.
+    assert ramp.rate(TIMES)[inside] == pytest.approx(angle(TIMES, 1)[inside], abs=1e-6)
+    rate = CubicSpline(TIMES, ramp.rate(TIMES))
+    assert ramp.acceleration(TIMES)[inside] == pytest.approx(rate(TIMES, 1)[inside], abs=1e-5)
+
+
+@pytest.mark.parametrize("ramp", RAMPS.values(), ids=RAMPS)
+def test_speed_has_two_derivatives_at_both_ends(ramp):
+    for end, speed in ((0.0, ramp.start), (ramp.ramp_time, ramp.omega)):
+        assert ramp.rate(end) == pytest.approx(speed, abs=1e-12)
+        assert ramp.acceleration(end) == pytest.approx(0.0, abs=1e-11)
+        # Linear in the distance from the end, were there a jerk.
+        near, nearer = (abs(ramp.acceleration(end + s * h)) for h in (1e-3, 5e-4)
+                        for s in ((1.0,) if end == 0.0 else (-1.0,)))  # fmt: skip
+        assert nearer < 0.3 * near
+    assert ramp.angle(0.0) == 0.0
+    assert ramp.rate(-1.0) == pytest.approx(ramp.start)
+    assert ramp.rate(99.0) == pytest.approx(ramp.omega)
+
+
+@pytest.mark.parametrize("ramp", RAMPS.values(), ids=RAMPS)
+def test_one_time_is_as_many(ramp):
+    for of in (ramp.angle, ramp.rate, ramp.acceleration):
+        assert isinstance(of(1.3), float)
+        assert of(1.3) == pytest.approx(of(np.array([0.2, 1.3]))[1], rel=1e-14)
+
+
+def test_one_wave_is_eq_1():
+    spin_up, ramp = SpinUp(omega=6.0, ramp_time=3.0), RAMPS["Eq. 1"]
+    for name in ("angle", "rate", "acceleration"):
+        assert getattr(ramp, name)(TIMES) == pytest.approx(getattr(spin_up, name)(TIMES), abs=1e-13)
+
+
+def test_table_converges_with_the_sixth_power(spin_up, fitted_order):
+    counts = np.array([12, 24, 48])
+    at = np.linspace(0.0, 3.0, 501)
+    errors = [
+        np.abs(Table(t, spin_up.rate(t)).rate(at) - spin_up.rate(at)).max()
+        for t in (np.linspace(0.0, 3.0, n + 1) for n in counts)
+    ]
+    assert fitted_order(1.0 / counts, errors) == pytest.approx(6.0, abs=0.3)
+
+
+def test_a_table_is_a_value():
+    table = Table(np.array([0.0, 1.0, 2.0]), [0, 1, 2])
+    assert table == Table((0.0, 1.0, 2.0), (0.0, 1.0, 2.0))
+    assert hash(table) == hash(Table((0.0, 1.0, 2.0), (0.0, 1.0, 2.0)))
+
+
+def test_fastest_sees_what_is_above_both_ends():
+    over = SmoothRamp(start=2.0, omega=3.0, ramp_time=1.0, cosines=(-1.0,), sines=(4.0, -2.0))
+    assert fastest(over) == pytest.approx(over.rate(np.linspace(0.0, 1.0, 9999)).max(), rel=1e-6)
+    assert fastest(over) > 3.0
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, cosines=(-1.0, 0.2)), "by -0.2$"),
+        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, sines=(0.0, 0.2)), "by -0.4 over its k"),
+        (lambda: SmoothRamp(omega=1.0, ramp_time=0.0), "ramp_time must be positive"),
+        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, start=-1.0), "start must not be negative"),
+        (lambda: Table([0.0, 1.0], [1.0]), "got 2 times and 1 speeds"),
+        (lambda: Table([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
+        (lambda: Table([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
+        (lambda: Table([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
+    ],
+)
+def test_bad_input(make, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        make()
+
+
+def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
+    at, times = np.linspace(0.0, 3.0, 31), np.linspace(0.0, 5.0, 101)
+    table, one = (
+        spin_up_response(beam, motion, times, tolerance=1e-6)
+        for motion in (Table(at, spin_up.rate(at)), spin_up)
+    )
+    # The table's own error is 1e-8 of the speed.
+    assert table.q == pytest.approx(one.q, abs=3e-6 * beam.length)
+
+
+def test_what_turns_already_is_stretched_and_stays_so(beam):
+    """A change of the speed so slow that it hardly bends: stretched as by Eq. 67 all the time."""
+    ramp = SmoothRamp(start=6.0, omega=6.0 + 1e-6, ramp_time=1.0)
+    times = np.linspace(0.0, 2.0, 21)
+    response = spin_up_response(beam, ramp, times, tolerance=1e-3)
+    k = 6.0 * np.sqrt(beam.density / beam.youngs_modulus)
+    stretched = np.tan(k * beam.length) / k
+    assert np.hypot(*response.tip.T) == pytest.approx(stretched, rel=1e-9)
+
+
+def test_spin_down_is_quasi_static_where_it_is_slow(beam):
+    """The tip runs ahead by θ''·(K - w²M)⁻¹∫xφ, linear."""
+    ramp = SmoothRamp(start=0.3, omega=0.1, ramp_time=60.0)
+    response = spin_up_response(beam, ramp, [30.0], tolerance=1e-6)
+    modes = linear_modes(beam, ramp.rate(30.0), 8, inextensible=True)
+    x = np.linspace(0.0, 1.0, 4001)
+    shapes = modes.shapes(x * beam.length)
+    loads = np.trapezoid(x[:, None] * shapes, x, axis=0) / np.trapezoid(shapes**2, x, axis=0)
+    static = -ramp.acceleration(30.0) * beam.length * np.sum(loads / modes.frequencies**2)
+    assert static > 0.0
+    assert response.q[0] == pytest.approx(static, rel=5e-3)  # (ω_1 T/2π)⁻² is 1e-3
+
+
+def test_gravity_on_a_blade_that_turns_already(beam):
+    """A load acts from t = 0 on, whatever the speed then: free fall for an instant."""
+    ramp = SmoothRamp(start=1.0, omega=2.0, ramp_time=5.0)
+    t = 0.01
+    q = spin_up_response(beam, ramp, [t], tolerance=1e-4, loads=(Gravity(9.81),)).q[0]
+    assert q == pytest.approx(-0.5 * 9.81 * t**2, rel=2e-2)  # bending waves are 0.1 L long by then
+
+
+def test_steady_rotation_is_no_ramp(beam):
+    with pytest.raises(TypeError, match="take periodic_orbits"):
+        spin_up_response(Beam.reference(), SteadyRotation(omega=1.0), [1.0])

@@ -1,0 +1,199 @@
+"""What a change of the speed leaves: closed form, exact transient, quiet ramps, designed ramps."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import (
+    Damping,
+    SmoothRamp,
+    SpinUp,
+    SteadyRotation,
+    Table,
+    design_ramp,
+    exact_residual,
+    linear_modes,
+    quiet_ramp_times,
+    residual_amplitude,
+)
+from analytic.reduced.any_blade import blade_oscillator
+from analytic.spin_up.modes import modes_over_speed
+from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
+
+# By code that shares nothing with this one: speed, ramp time, what the exact transient leaves.
+QUIET = (
+    (2.0, 4.2966, 0.0069),
+    (2.0, 6.3490, 0.00063),
+    (4.0, 6.1056, 0.0025),
+    (6.0, 7.6487, 0.0038),
+    (8.0, 7.2784, 0.0040),
+)
+
+
+def eq_1(omega, ramp_time):
+    return SpinUp(omega=omega, ramp_time=ramp_time)
+
+
+@pytest.mark.parametrize("omega", SPEEDS)
+def test_modes_are_those_of_the_exact_beam(beam, omega):
+    modes = modes_over_speed(beam.unit, 10.0, 3)
+    found = modes.at(np.array([omega / beam.frequency_scale])).frequency[:, 0]
+    exact = linear_modes(beam, omega, 3, inextensible=True).frequencies / beam.frequency_scale
+    assert found == pytest.approx(exact, rel=1e-8)
+
+
+def test_modes_of_any_blade(beam):
+    blade = beam.with_hub_radius(4.0).with_tip_mass(0.5, 0.1).with_setting_angle(0.5)
+    w = 3.0
+    found = modes_over_speed(blade.unit, 5.0, 1).at(np.array([w])).frequency[0, 0]
+    assert found == pytest.approx(blade_oscillator(blade.unit, w, False).oscillator.w_n, rel=1e-8)
+
+
+def test_a_blow_of_the_clamp(beam):
+    """So short a ramp that nothing moves during it: the mode starts with -Γω, in closed form."""
+    omega = 1e-4
+    beta = 1.8751040687119611
+    sigma = (math.cosh(beta) + math.cos(beta)) / (math.sinh(beta) + math.sin(beta))
+    # With φ(1) = 2 before scaling: ∫φ² = 1 and ∫xφ = 2/β².
+    tip = 2.0 / beta**2 * 2.0 * omega / beam.omega_0
+    assert sigma == pytest.approx(0.734, abs=1e-3)
+    found = residual_amplitude(beam, eq_1(omega, 1e-3))
+    assert found == pytest.approx(tip, rel=1e-6)
+
+
+def test_vectorized_over_ramp_times(beam):
+    times = np.array([[2.0, 3.0], [4.3, 6.35]])
+    found = residual_amplitude(beam, eq_1(2.0, 1.0), times)
+    one_by_one = [[residual_amplitude(beam, eq_1(2.0, T)) for T in row] for row in times]
+    assert found == pytest.approx(np.array(one_by_one), rel=1e-9)
+
+
+def test_a_table_and_waves_are_eq_1_where_they_are(beam):
+    spin_up, t = eq_1(6.0, 4.0), np.linspace(0.0, 4.0, 41)
+    expected = residual_amplitude(beam, spin_up)
+    waves = SmoothRamp(omega=6.0, ramp_time=4.0)
+    assert residual_amplitude(beam, waves) == pytest.approx(expected, rel=1e-12)
+    # The table's acceleration is off by 1e-6 of the largest.
+    table = Table(t, spin_up.rate(t))
+    assert residual_amplitude(beam, table) == pytest.approx(expected, rel=1e-5)
+
+
+def test_damping_takes_its_share(beam):
+    """Of a short ramp's blow all is left, of a long ramp's beginning nothing."""
+    damped = beam.with_damping(Damping.from_ratio(beam, ratio=0.02))
+    short, long = (residual_amplitude(damped, eq_1(2.0, T)) / residual_amplitude(beam, eq_1(2.0, T))
+                   for T in (0.01, 6.3490))  # fmt: skip
+    assert short == pytest.approx(1.0, abs=2e-3)
+    exact = exact_residual(damped, eq_1(2.0, 6.3490), tolerance=1e-6)
+    # Within the first period it decays by 12 %, which half peak to peak sees a part of.
+    assert long * residual_amplitude(beam, eq_1(2.0, 6.3490)) == pytest.approx(exact, rel=0.1)
+
+
+@pytest.mark.parametrize(("omega", "ramp_time", "left"), QUIET)
+def test_closed_form_at_the_quiet_ramps(beam, omega, ramp_time, left):
+    # 5 % is what another code found the form to be off by there, and half a digit.
+    digit = 10.0 ** math.floor(math.log10(left) - 1.0)
+    found = residual_amplitude(beam, eq_1(omega, ramp_time))
+    assert found == pytest.approx(left, rel=0.055, abs=0.5 * digit)
+
+
+# 3.5 % below 0.25 in round numbers, 3.6 % at 6 rad/s in 3.25 s.
+BOUNDS = ((0.25, 0.037), (0.36, 0.05), (0.55, 0.095), (0.65, 0.14), (0.85, 0.26))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("omega", SPEEDS)
+def test_closed_form_on_the_24_spin_ups(beam, omega):
+    for ramp_time in RAMP_TIMES:
+        exact = exact_residual(beam, eq_1(omega, ramp_time), tolerance=1e-4)
+        off = residual_amplitude(beam, eq_1(omega, ramp_time)) / exact - 1.0
+        assert 0.01 < off < next(bound for a, bound in BOUNDS if exact < a)
+        corrected = residual_amplitude(beam, eq_1(omega, ramp_time), corrected=True) / exact - 1.0
+        # The backbone's action takes the part that grows with the amplitude.
+        assert 0.005 < corrected < min(off, 0.035 if exact < 0.6 else 0.105)
+
+
+def test_closed_form_at_both_ends_of_the_paper(beam):
+    for omega, ramp_time, off, corrected in ((2.0, 3.375, 0.013, 0.011), (8.0, 2.0, 0.256, 0.102)):
+        spin_up = eq_1(omega, ramp_time)
+        exact = exact_residual(beam, spin_up, tolerance=1e-4)
+        assert residual_amplitude(beam, spin_up) / exact - 1.0 == pytest.approx(off, abs=1e-3)
+        better = residual_amplitude(beam, spin_up, corrected=True)
+        assert better / exact - 1.0 == pytest.approx(corrected, abs=1e-3)
+
+
+@pytest.mark.parametrize("omega", [2.0, 6.0])
+def test_quiet_ramp_times(beam, omega):
+    expected = [(T, left) for speed, T, left in QUIET if speed == omega]
+    found = quiet_ramp_times(beam, omega, longest=expected[-1][0] + 0.2)
+    for T, left in expected:
+        nearest = int(np.argmin(np.abs(found.ramp_times - T)))
+        assert found.ramp_times[nearest] == pytest.approx(T, abs=2e-3)
+        digit = 10.0 ** math.floor(math.log10(left) - 1.0)
+        assert found.left[nearest] == pytest.approx(left, abs=0.51 * digit)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("omega", [4.0, 8.0])
+def test_more_quiet_ramp_times(beam, omega):
+    test_quiet_ramp_times(beam, omega)
+
+
+def test_designed_ramp(beam):
+    """At most a tenth of what Eq. 1 leaves in this time, and in twice as long."""
+    ramp = design_ramp(beam, 6.0, 7.6487)
+    left = exact_residual(beam, ramp)
+    assert left < 0.1 * exact_residual(beam, eq_1(6.0, 7.6487))
+    assert left < 0.1 * exact_residual(beam, eq_1(6.0, 2.0 * 7.6487))
+    assert left < 2e-6  # the corrections end at 1e-6
+    t = np.linspace(0.0, ramp.ramp_time, 4001)
+    assert ramp.rate(t).min() >= -1e-9
+    assert ramp.rate(t).max() <= 6.0 * (1.0 + 1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("omega", "ramp_time"), [case[:2] for case in QUIET])
+def test_designed_ramps_of_all_quiet_durations(beam, omega, ramp_time):
+    left = exact_residual(beam, design_ramp(beam, omega, ramp_time))
+    for T in (ramp_time, 2.0 * ramp_time):
+        assert left < 0.1 * exact_residual(beam, eq_1(omega, T))
+
+
+@pytest.mark.slow
+def test_limits_are_kept(beam):
+    limit = 0.8 * 2.0 * 6.0 / 7.6487
+    ramp = design_ramp(beam, 6.0, 7.6487, acceleration_limit=limit)
+    t = np.linspace(0.0, ramp.ramp_time, 4001)
+    assert np.abs(ramp.acceleration(t)).max() <= limit
+    assert exact_residual(beam, ramp) < 2e-6
+
+
+@pytest.mark.slow
+def test_change_of_speed_and_three_modes(beam):
+    for ramp in (design_ramp(beam, 3.0, 4.0, start=6.0), design_ramp(beam, 6.0, 5.0, modes=3)):
+        assert exact_residual(beam, ramp) < 2e-6
+
+
+def test_no_such_ramp(beam):
+    with pytest.raises(ValueError, match=r"within 0 to 6 rad/s and 0\.86 rad/s².*take a duration"):
+        design_ramp(beam, 6.0, 7.6487, acceleration_limit=0.86)
+    with pytest.raises(ValueError, match="takes 7.5 s at least from 0 to 6 rad/s"):
+        design_ramp(beam, 6.0, 7.0, acceleration_limit=0.8)
+    with pytest.raises(ValueError, match="is below the 6 rad/s at one end"):
+        design_ramp(beam, 6.0, 7.0, speed_limit=5.0)
+    with pytest.raises(ValueError, match="nothing to change"):
+        design_ramp(beam, 6.0, 7.0, start=6.0)
+
+
+def test_bad_input(beam):
+    with pytest.raises(TypeError, match="must be a SpinUp"):
+        residual_amplitude(beam, SteadyRotation(omega=6.0))
+    with pytest.raises(ValueError, match="backbone of mode 1"):
+        residual_amplitude(beam, eq_1(6.0, 3.0), mode=2, corrected=True)
+    with pytest.raises(ValueError, match="ramp_times must be positive"):
+        residual_amplitude(beam, eq_1(6.0, 3.0), [1.0, 0.0])
+    with pytest.raises(ValueError, match="take a speed above zero"):
+        quiet_ramp_times(beam, 0.0)
+    with pytest.raises(ValueError, match="take at most"):
+        quiet_ramp_times(beam, 6.0, longest=1e9)

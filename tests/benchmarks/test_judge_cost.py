@@ -1,0 +1,72 @@
+"""What it costs to judge a whole submission; meant for a machine that does nothing else."""
+
+import time
+
+import numpy as np
+import pytest
+
+from rotbeam_exu.cli import main
+from rotbeam_exu.verification.cases import CASES, Asked
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import (
+    BackbonePoint,
+    Declaration,
+    Frequency,
+    Run,
+    Submission,
+)
+from rotbeam_exu.verification.submission_files.writing import write_submission
+from rotbeam_exu.verification.theory import BERNOULLI_EULER
+
+pytestmark = pytest.mark.benchmarks
+
+MESHES, STEPS = (8, 16, 32), (5e-4, 1e-3, 2e-3)
+
+
+def whole(factor):
+    """All cases, five histories each, sampled every 2 ms as codes do; q(t) times a factor."""
+    runs, frequencies, points = [], [], []
+    resolutions = [(n, 1e-3) for n in MESHES] + [(16, h) for h in STEPS if h != 1e-3]
+    for name, case in CASES.items():
+        truth = reference(case, BERNOULLI_EULER)
+        if case.asked is Asked.FREQUENCIES:
+            frequencies = [
+                Frequency(elements=n, speed=w, frequency=truth.first_frequency(w) + 0.01 / n**2)
+                for n in MESHES
+                for w in case.speeds
+            ]  # fmt: skip
+        elif case.asked is Asked.BACKBONE:
+            points = [
+                BackbonePoint(elements=n, speed=w, amplitude=a, frequency=truth.frequency_at(a, w))
+                for n in MESHES
+                for w in case.speeds
+                for a in case.amplitudes
+            ]
+        else:
+            time = np.linspace(0.0, case.duration, round(500 * case.duration) + 1)
+            q, rate = truth.history(time), truth.rate(time)
+            runs += [
+                Run(
+                    case=name, elements=n, step=h, time=time, wall=1.0, q_dot=rate,
+                    q=factor * q * (1.0 + 0.1 / n**2 + 100.0 * h**2),
+                )
+                for n, h in resolutions
+            ]  # fmt: skip
+    return Submission(
+        declaration=Declaration(code="mine", order=2.0, order_in_step=2.0),
+        frequencies=tuple(frequencies), backbone=tuple(points), runs=tuple(runs),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("factor", [1.0, -1.0])
+def test_a_whole_submission_is_judged_in_ten_seconds(tmp_path, capsys, factor):
+    """Right, and with the wrong sign in all cases, which is looked for and named."""
+    folder = write_submission(whole(factor), tmp_path / "mine")
+    started = time.perf_counter()
+    with pytest.raises(SystemExit) as stopped:
+        main(["judge", str(folder)])
+    seconds = time.perf_counter() - started
+    out, _ = capsys.readouterr()
+    assert stopped.value.code == (0 if factor > 0.0 else 1), out
+    assert out.count("usual mistake?") == (factor < 0.0)
+    assert seconds < 10.0

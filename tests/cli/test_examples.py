@@ -1,0 +1,117 @@
+"""Every example that --help prints is run; what takes minutes in it is replaced.
+
+Those that take seconds all the same are slow tests, and by default only read.
+"""
+
+import re
+import shlex
+import shutil
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from rotbeam_exu.cli import _COMMANDS, app
+from rotbeam_exu.cli import explore as explore_job
+from rotbeam_exu.cli import verify as verify_job
+from rotbeam_exu.cli.documented import documented
+from rotbeam_exu.sweeps import grid
+from rotbeam_exu.sweeps.measured import MEASURED
+from rotbeam_exu.verification.cost import LADDER
+from rotbeam_exu.verification.judgement import Judgement
+from rotbeam_exu.verification.submission import Declaration
+
+EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
+SECONDS = re.compile(
+    r"rotbeam (run|run --(omega|from).*|campbell|(reference|respond|compare|figure|animate).*)"
+)
+BEAM = """
+[beam]
+length = 8.0
+axial_stiffness = 5.0e6
+bending_stiffness = 566.0
+mass_per_length = 0.2
+
+[motion]
+omega = 6
+ramp_time = 3
+
+[numerics]
+elements = 2
+step = 0.01
+duration = 8
+"""
+
+
+def measured_at_once(cases, *_):
+    """As `_solved` yields it, of spin-ups that nobody computed."""
+    for point in cases:
+        result = xr.Dataset({"q": ("time", np.zeros(2))}, {"time": [0.0, 1.0]})
+        numbers = dict.fromkeys(MEASURED, 1e-3) | {
+            "amplitude": 0.1, "frequency": 3.73, "omega_n": 3.73,
+        }  # fmt: skip
+        yield point, result.assign_attrs(numbers, verdict="passed", failure="")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch, call):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "beam.toml").write_text(BEAM)
+    monkeypatch.setattr(grid, "_solved", measured_at_once)
+    monkeypatch.setattr(explore_job, "explorer_page", lambda **_: "<title>Rotating beam explorer")
+    monkeypatch.setattr(
+        verify_job,
+        "verification_of",
+        lambda entry, **_: Judgement(
+            declaration=Declaration(code=entry.name),
+            findings={},
+            orders={},
+            histories={},
+            sources={},
+        ),
+    )
+    monkeypatch.setattr(
+        verify_job, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER))
+    )
+    return tmp_path
+
+
+def test_every_command_has_examples_that_fit_into_eighty_columns():
+    assert all(documented(command)[1] for command in _COMMANDS)
+    assert all(example.startswith("rotbeam ") for example in EXAMPLES)
+    assert max(map(len, EXAMPLES)) <= 80
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_an_example_is_read(example):
+    command, *arguments = shlex.split(example)[1:]
+    function, bound, _ = app.parse_args([command, *arguments], exit_on_error=False)
+    assert function.__name__ == command
+    assert bound.kwargs or bound.args or not arguments
+
+
+@pytest.mark.parametrize(
+    "example",
+    [
+        pytest.param(one, marks=pytest.mark.slow if SECONDS.fullmatch(one) else ())
+        for one in EXAMPLES
+    ],
+)
+def test_an_example_ends_well(call, folder, example):
+    _, command, *arguments = shlex.split(example)
+    if "--from" in arguments and command == "run":
+        recorded = folder / arguments[arguments.index("--from") + 1]
+        assert call("run", "--config", "beam.toml", "--no-figure", "--out", "quick")[0] == 0
+        recorded.parent.mkdir()
+        shutil.copy(next(folder.glob("quick/*.nc")), recorded)
+    code, out, error = call(command, *arguments)
+    assert code == 0, error
+    assert out
+
+
+def test_the_help_prints_the_examples_of_its_command(call, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    for command in _COMMANDS:
+        out = call(command, "--help")[1]
+        lines = {line.strip() for line in out.splitlines()}
+        assert set(documented(command)[1]) <= lines

@@ -1,0 +1,50 @@
+"""A sweep with a failed case: exit code 1, the whole reason, and where; progress in plain lines."""
+
+import pytest
+
+from rotbeam_exu import load
+from rotbeam_exu.cli import sweep as job
+
+# Steps of 80 ms lose the run at 6 rad/s, not at 2 rad/s.
+GRID = ("--omega", "2", "6", "--ramp-time", "2.5", "--elements", "2", "--step", "0.08",
+        "--duration", "10", "--jobs", "1")  # fmt: skip
+
+
+@pytest.fixture
+def swept(call, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    return call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
+
+
+def test_a_failed_case_is_exit_code_one_and_its_whole_sentence(swept, tmp_path):
+    code, out, error = swept
+    data = load(tmp_path / "sweep-cable-2.nc")
+    failed = [str(text) for text in data["failure"].to_numpy().ravel() if text]
+    assert 0 < len(failed) <= 2
+    assert code == 1
+    for sentence in failed:
+        assert sentence in out
+    assert "…" not in out
+    assert "failed at ω = " in out
+    assert f"{len(failed)} of 2 spin-ups failed; why is above, and as `failure` in" in error
+    assert "nan" not in out
+    assert [line for line in out.splitlines() if line.startswith("written ")] == [
+        f"written {tmp_path}/sweep-cable-2.{kind}" for kind in ("nc", "csv")
+    ]
+
+
+def test_without_a_terminal_each_finished_case_is_a_line_on_standard_error(swept):
+    lines = [line for line in swept[2].splitlines() if line.startswith("spin-ups")]
+    assert [line.partition(" done")[0] for line in lines] == [
+        "spin-ups: 1 of 2",
+        "spin-ups: 2 of 2",
+    ]
+    assert "spin-ups:" not in swept[1]
+
+
+def test_equal_sentences_are_printed_once_with_all_their_places(call, tmp_path, monkeypatch):
+    sentences = {"the step is too large": [(2.0, 2.5), (6.0, 2.5)]}
+    monkeypatch.setattr(job, "failed_cases", lambda _: sentences)
+    code, out, _ = call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
+    assert code == 1
+    assert "failed at ω = 2 rad/s, T = 2.5 s; ω = 6 rad/s, T = 2.5 s: the step is too large" in out

@@ -1,0 +1,146 @@
+"""`rotbeam judge`: faults, mistakes, tables, files; without Exudyn."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
+from rotbeam_exu.verification.submission_files.writing import write_submission
+from rotbeam_exu.verification.theory import BERNOULLI_EULER
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def write():
+    """Return a function that writes a submission of L and S1, q(t) times a factor."""
+    truth, time = reference(CASES["S1"], BERNOULLI_EULER), np.linspace(0.0, 15.0, 751)
+
+    def written(folder, factor=1.0):
+        runs = tuple(
+            Run(
+                case="S1", elements=n, step=h, time=time,
+                q=factor * truth.history(time) * (1.0 + 0.1 / n**2 + 100.0 * h**2),
+            )
+            for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (16, 5e-4), (16, 2e-3))
+        )  # fmt: skip
+        first = truth.first_frequency(6.0)
+        frequencies = tuple(
+            Frequency(elements=n, speed=6.0, frequency=first * (1.0 + 1e-2 / n**2))
+            for n in (8, 16, 32)
+        )
+        declaration = Declaration(code="mine", order=2.0, order_in_step=2.0)
+        return write_submission(
+            Submission(declaration=declaration, frequencies=frequencies, runs=runs), folder
+        )
+
+    return written
+
+
+@pytest.fixture
+def folder(write, tmp_path):
+    return write(tmp_path / "mine")
+
+
+def test_a_right_code(call, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    page, data = tmp_path / "out.html", tmp_path / "out.json"
+    code, out, err = call("judge", folder, "--report", page, "--json", data)
+    assert (code, err) == (0, "")
+    assert "converges" in out
+    assert "usual mistake" not in out
+    assert "reference: " in out
+    tables = out.split("reference: ")[0]
+    assert max(len(line) for line in tables.splitlines() if not line.startswith("!")) <= 80
+    assert "<title>rotbeam judgement: mine</title>" in page.read_text("utf-8")
+    found = json.loads(data.read_text("utf-8"))
+    assert found["passed"]
+    assert set(found["files"]) >= {"entry.toml", "runs.csv", "L.csv", "S1/m008_h1e-3.csv"}
+    # A judgement may be made again; what else stands there is not replaced.
+    assert call("judge", folder, "--report", page)[0] == 0
+
+
+def test_a_mistake_is_named_ahead_of_the_verdict(call, write, tmp_path):
+    code, out, _ = call("judge", write(tmp_path / "mine", factor=-1.0))
+    assert code == 1
+    assert out.startswith("S1: a usual mistake? q has the wrong sign")
+    assert "converges to another limit" in out
+
+
+def test_one_case_alone(call, folder):
+    code, out, _ = call("judge", folder, "--case", "L")
+    assert code == 0
+    assert "S1" not in out
+
+
+def test_all_faults_and_nothing_else(call, folder):
+    (folder / "S1" / "m016_h1e-3.csv").unlink()
+    (folder / "L.csv").write_text("elements;speed;frequency\n8;0;2.9\n", "utf-8")
+    code, out, err = call("judge", folder)
+    assert (code, out) == (2, "")
+    assert err.splitlines() == [
+        "L.csv:1: the header is split by semicolons: separate the columns by commas, "
+        "elements,speed,frequency",
+        "S1/m016_h1e-3.csv: there is no such file",
+        "2 faults: nothing was judged",
+    ]
+
+
+def test_what_is_missing_is_run_first(call, folder):
+    script = "import shutil, sys; shutil.copy('S1/m032_h1e-3.csv', sys.argv[1])"
+    (folder / "copy.py").write_text(script, "utf-8")
+    (folder / "run.toml").write_text(
+        f"command = '\"{sys.executable}\" copy.py {{file}}'\n"
+        'cases = ["S1"]\nmeshes = [8, 64]\nsteps = [1e-3]\n',
+        "utf-8",
+    )
+    code, out, _ = call("judge", folder, "--run")
+    assert out.startswith("S1/m064_h1e-3.csv: running\nS1/m064_h1e-3.csv: ")
+    assert "m008" not in out
+    assert re.search(r" 64 +1 ", out)
+    assert code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--case", "S9"), "unknown case 'S9'; known are L, S1"),
+        (("--report", "a.pdf"), "the ending must be .html"),
+        (("--json", "a.txt"), "the ending must be .json"),
+        (("--run",), "run.toml: there is no such file"),
+    ],
+)
+def test_bad_input(call, folder, arguments, said):
+    code, _, err = call("judge", folder, *arguments)
+    assert code == 2
+    assert said in err
+
+
+def test_other_files_are_not_replaced(call, folder, tmp_path):
+    other = tmp_path / "thesis.html"
+    other.write_text("<html>", "utf-8")
+    code, _, err = call("judge", folder, "--report", other)
+    assert (code, other.read_text("utf-8")) == (2, "<html>")
+    assert "choose another name" in err
+    assert call("judge", tmp_path / "none")[2].strip().endswith("name that of the submission")
+
+
+def test_no_exudyn_is_needed(folder, tmp_path):
+    """What is None in sys.modules cannot be imported: as if it were not installed."""
+    page = tmp_path / "out.html"
+    text = (
+        "import sys; sys.modules['exudyn'] = None; from rotbeam_exu.cli import main; "
+        f"main(['judge', {str(folder)!r}, '--report', {str(page)!r}])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", text], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert page.stat().st_size > 50_000

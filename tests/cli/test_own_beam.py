@@ -1,0 +1,108 @@
+"""`rotbeam compare` and `rotbeam explore` of a beam of one's own: the paper's ratios to its ω_0."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic import Beam
+from rotbeam_exu import paper
+from rotbeam_exu.cli import compare as compare_job
+from rotbeam_exu.cli import explore as explore_job
+from rotbeam_exu.cli.motion import Motion, grid_motion
+from rotbeam_exu.files.beam_file import load_beam
+
+# A reed, 360 times faster than the paper's beam.
+REED = (
+    "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
+    "youngs_modulus = 2.1e11\ndensity = 7850\n"
+)
+
+
+class StoppedError(Exception):
+    pass
+
+
+@pytest.fixture
+def reed(tmp_path):
+    path = tmp_path / "reed.toml"
+    path.write_text(REED)
+    return path
+
+
+def test_the_explorer_of_a_reed_has_its_own_speeds(call, tmp_path, monkeypatch, reed):
+    seen = {}
+    monkeypatch.setattr(explore_job, "explorer_page", lambda **options: seen.update(options) or "")
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = call("explore", "--config", reed)
+    assert code == 0
+    assert "explorer-reed.html" in out
+    beam, scale = load_beam(reed), load_beam(reed).omega_0 / Beam.reference().omega_0
+    assert seen["beam"] == beam
+    # Speeds are rounded to two digits.
+    assert seen["omegas"] == pytest.approx(0.25 * scale * np.arange(49), rel=0.05)
+    assert np.ptp(np.diff(seen["omegas"])) < 1e-9 * seen["omegas"][1]
+    assert seen["step"] * scale <= 1e-3 * (1.0 + 1e-9)
+    assert seen["duration"] * scale == pytest.approx(15.0, rel=0.05)
+    monkeypatch.setattr(explore_job, "_is_explorer", lambda _: True)
+    assert call("explore")[0] == 0
+    assert seen["beam"] == Beam.reference()
+
+
+def test_compare_takes_the_beam_of_the_file_to_every_part(call, tmp_path, monkeypatch, reed):
+    seen = {}
+
+    def stopped(beam, **options):
+        seen.update(options, beam=beam)
+        raise StoppedError
+
+    monkeypatch.setattr(compare_job.comparison, "figure_14", stopped)
+    with pytest.raises(StoppedError):
+        call("compare", "--config", reed, "--out", tmp_path)
+    beam = load_beam(reed)
+    assert seen["beam"] == beam
+    assert len(seen["omegas"]) == len(paper.SPEEDS)
+    steps = seen["duration"] / seen["step"]
+    # Twice the step fits as well.
+    assert steps / 2 == pytest.approx(round(steps / 2), rel=1e-9)
+
+
+def test_compare_is_of_uniform_beams(call, tmp_path):
+    blade = tmp_path / "blade.toml"
+    blade.write_text(
+        "[blade]\nlength = 8.0\n[blade.section]\naxial_stiffness = 5e6\n"
+        "bending_stiffness = 566.0\nmass_per_length = 0.2\n"
+    )
+    code, _, error = call("compare", "--config", blade, "--out", tmp_path)
+    assert code == 2
+    assert "for a [blade] take rotbeam backbone --variant FrM --exact" in error
+    remedy = ("--variant", "FrM", "--exact", "--omega", "6", "--amplitude", "0.1")
+    assert call("backbone", "--config", blade, *remedy)[0] == 0
+
+
+def test_of_the_papers_beam_nothing_changes():
+    motion = grid_motion(Beam.reference(), paper.SPEEDS, paper.RAMP_TIMES)
+    assert (motion.duration, motion.step) == (15.0, 1e-3)
+    assert compare_job._even(motion) == motion
+    odd = Motion(spin_up=motion.spin_up, duration=1.5, step=0.1)
+    assert round(1.5 / compare_job._even(odd).step) == 16
+
+
+def test_figures_are_of_the_paper_and_say_so(call, reed):
+    code, _, error = call("figure", "8", "--config", reed)
+    assert code == 2
+    assert "there is no option --config" in error
+    assert "of the paper's beam by definition" in " ".join(call("figure", "--help")[1].split())
+
+
+def test_the_budget_says_what_a_dash_is(capsys):
+    error = xr.DataArray(
+        [[[1e-4, np.nan]]],
+        dims=("source", "omega", "ramp_time"),
+        coords={"source": ["step"], "omega": [6.0], "ramp_time": [3.0, 2.0]},
+        name="error",
+    )
+    compare_job._print_elements(error.to_dataset(), 1e-3)
+    out = capsys.readouterr().out
+    assert "nan" not in out
+    assert "+1.0e-04" in out
+    assert "-: the amplitude is above 0.6" in out

@@ -1,0 +1,45 @@
+"""`rotbeam ramp`, as a user meets it, and its picture."""
+
+import re
+
+import numpy as np
+import pytest
+
+from rotbeam_exu import load
+
+QUICK = ("--omega", "2", "--longest", "4.6", "--points", "3", "--finite-element-points", "1")
+
+
+def test_tables_and_files(call, tmp_path):
+    code, out, error = call("ramp", *QUICK, "--elements", "8", "--out", tmp_path)
+    assert (code, error) == (0, "")
+    rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
+    # Another code's quiet ramp, and what it leaves.
+    quiet, left, form = map(float, rows[0])
+    assert quiet == pytest.approx(4.2966, abs=2e-3)
+    assert left == pytest.approx(0.0069, abs=5e-5)
+    assert form == pytest.approx(left, rel=0.05)
+    for row in rows[1:]:
+        numbers = [float(cell) for cell in row[1:] if cell != "-"]
+        # Closed form, with the backbone, exact and by 8 elements.
+        assert numbers == pytest.approx([numbers[2]] * len(numbers), rel=0.15)
+    name = "ramp-omega-2-longest-4.6"
+    kinds = {f"{name}{end}" for end in (".nc", ".png", ".pdf")}
+    kinds |= {f"{name}-{what}.csv" for what in ("linear", "exact", "finite_element", "quiet")}
+    assert {path.name for path in tmp_path.iterdir()} == kinds
+    data = load(tmp_path / f"{name}.nc")
+    assert data["exact"].size == 3
+    assert data["quiet_ramp_time"].to_numpy() == pytest.approx([quiet], abs=1e-4)
+    assert np.all(data["corrected"] <= data["linear"])
+
+
+def test_what_it_refuses(call, tmp_path):
+    for arguments, sentence in (
+        (("--omega", "0"), "nothing oscillates"),
+        (("--longest", "1"), "longest must be above 0.8 periods at rest"),
+        (("--points", "-1"), "points must be at least 0"),
+        (("--element", "none"), "element"),
+    ):
+        code, _, error = call("ramp", *arguments, "--out", tmp_path)
+        assert code == 2
+        assert sentence in error

@@ -1,0 +1,169 @@
+"""A TOML file with motion and numerics, and a run repeated from its own file."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, SpinUp
+from rotbeam_exu import load, save, simulate
+from rotbeam_exu.files.run_file import load_run_file
+
+RUN = """
+[motion]
+omega = 4
+ramp_time = 2.5
+
+[numerics]
+element = "Cable"
+elements = 2
+step = 0.01
+duration = 8
+frame = "rotating"
+"""
+
+
+@pytest.fixture
+def config(tmp_path):
+    path = tmp_path / "run.toml"
+    path.write_text(RUN)
+    return path
+
+
+def test_a_file_without_a_beam_is_of_the_papers(config):
+    file = load_run_file(config)
+    assert file.beam == Beam.reference()
+    assert file.motion == {"omega": 4.0, "ramp_time": 2.5}
+    assert file.numerics["elements"] == 2
+
+
+def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, config):
+    code, out, _ = call("run", "--config", config, "--no-figure", "--out", tmp_path)
+    assert code == 0
+    run = load(tmp_path / "cable-2-omega-4-ramp-2.5.nc")
+    attrs = {"omega": 4.0, "ramp_time": 2.5, "elements": 2, "step": 0.01, "duration": 8.0,
+             "frame": "rotating", "element": "cable"}  # fmt: skip
+    assert attrs.items() <= run.attrs.items()
+    assert [line for line in out.splitlines() if line.startswith("written")] == [
+        f"written {tmp_path}/cable-2-omega-4-ramp-2.5.{kind}" for kind in ("nc", "csv")
+    ]
+    given = ("--elements", "1", "--omega", "5", "--frame", "Inertial", "--element", "CABLE")
+    assert call("run", "--config", config, *given, "--no-figure", "--out", tmp_path)[0] == 0
+    run = load(tmp_path / "cable-1-omega-5-ramp-2.5.nc")
+    assert (run.attrs["frame"], run.attrs["step"]) == ("inertial", 0.01)
+
+
+def test_the_motion_of_the_file_reaches_the_other_commands(call, config, tmp_path):
+    assert "at ω = 4 rad/s" in call("backbone", "--config", config)[1]
+    assert call("reference", "--config", config, "--tolerance", "1e-4", "-o", tmp_path)[0] == 0
+    exact = load(tmp_path / "exact-omega-4-ramp-2.5.nc")
+    assert exact["time"][-1] == 8.0
+    code, _, _ = call(
+        "sweep", "--config", config, "--jobs", "1", "--cache", tmp_path / "cache", "-o", tmp_path
+    )
+    assert code == 0
+    assert dict(load(tmp_path / "sweep-cable-2.nc").sizes) == {"omega": 1, "ramp_time": 1}
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("[motion]\nomga = 6", "unknown key 'omga' in [motion]; did you mean 'omega'?"),
+        ("[motion]\nomega = -1", "[motion]: omega must"),
+        ("[motion]\nramp_time = 'long'", "[motion]: ramp_time must be a number"),
+        ("[numerics]\nelements = 2.5", "[numerics]: elements must be a whole number"),
+        ("[numerics]\nelement = 3", "[numerics]: element must be a name in quotes, got 3"),
+        ("motion = 3", "write [motion] as a table"),
+        ("[movement]\nomega = 6", "unknown table or key 'movement'"),
+        ("", "has no table [beam]"),
+    ],
+)
+def test_a_slip_in_the_file_is_one_sentence(call, tmp_path, text, sentence):
+    path = tmp_path / "slip.toml"
+    path.write_text(text)
+    code, _, error = call("run", "--config", path, "--out", tmp_path)
+    assert code == 2
+    assert f"{path}" in error
+    assert sentence in error
+    assert len(error.strip().splitlines()) == 1
+
+
+def test_an_element_or_a_frame_that_is_none_is_refused(call, config, tmp_path):
+    for slip, sentence in (("cabel", "unknown element 'cabel'"), ("rotated", "unknown frame")):
+        name = "element" if slip == "cabel" else "frame"
+        config.write_text(f'[numerics]\n{name} = "{slip}"\nduration = 8\nstep = 0.01\nelements = 1')
+        code, _, error = call("run", "--config", config, "--out", tmp_path)
+        assert code == 2
+        assert sentence in error
+
+
+def test_a_run_is_repeated_to_the_last_bit(call, tmp_path, config):
+    first, again = tmp_path / "first", tmp_path / "again"
+    options = ("--element", "ancf3", "--option", "law=coupled")
+    assert call("run", "--config", config, *options, "--no-figure", "-o", first)[0] == 0
+    recorded = next(first.glob("*.nc"))
+    code, out, _ = call("run", "--from", recorded, "--no-figure", "-o", again)
+    assert code == 0
+    assert f"{recorded}: the same to the last bit" in out
+    before, after = load(recorded), load(again / recorded.name)
+    assert before.equals(after)
+    inputs = set(before.attrs) - {"wall_time"}
+    assert {name: before.attrs[name] for name in inputs} == {
+        name: after.attrs[name] for name in inputs
+    }
+
+
+def test_what_came_out_otherwise_is_said(call, tmp_path, config):
+    assert call("run", "--config", config, "--no-figure", "-o", tmp_path)[0] == 0
+    recorded = next(tmp_path.glob("*.nc"))
+    other = load(recorded)
+    other["q"] = other["q"] + 1e-3 * (other["time"] > 1.0)
+    save(other, tmp_path / "other.nc")
+    out = call("run", "--from", tmp_path / "other.nc", "--no-figure", "-o", tmp_path / "again")[1]
+    assert "q differs by up to 1.0e-03 m, with the same versions" in out
+
+
+def test_what_cannot_be_repeated_is_refused(call, tmp_path, config):
+    from_state = simulate(
+        Beam.reference(), SpinUp(omega=2.0, ramp_time=1.0), elements=1, duration=2.0, step=0.01
+    )
+    from_state["q"] = from_state["q"] + 1.0
+    save(from_state, tmp_path / "moving.nc")
+    code, _, error = call("run", "--from", tmp_path / "moving.nc")
+    assert code == 2
+    assert "did not start at rest" in error
+    del from_state.attrs["element"]
+    save(from_state, tmp_path / "anything.nc")
+    code, _, error = call("run", "--from", tmp_path / "anything.nc")
+    assert code == 2
+    assert "is not of a run: it has no 'element'" in error
+    code, _, error = call("run", "--from", tmp_path / "moving.nc", "--omega", "6")
+    assert code == 2
+    assert "repeats a run exactly" in error
+
+
+def test_the_reference_is_the_exact_spin_up(call, tmp_path):
+    quick = (
+        "--omega",
+        "2",
+        "--ramp-time",
+        "4",
+        "--duration",
+        "6",
+        "--samples",
+        "7",
+        "--tolerance",
+        "1e-6",
+    )
+    code, _, _ = call("reference", *quick, "-o", tmp_path)
+    assert code == 0
+    data, table = (load(tmp_path / f"exact-omega-2-ramp-4.{kind}") for kind in ("nc", "csv"))
+    assert data.equals(table)
+    assert np.array_equal(data["time"], np.arange(7.0))
+    # 16 elements of fourth order and 1 ms: 1e-4 of the largest deflection is plenty.
+    run = simulate(Beam.reference(), SpinUp(omega=2.0, ramp_time=4.0), duration=6.0, step=1e-3)
+    for name in ("q", "q_dot", "tip_x", "tip_y", "angle"):
+        there = np.interp(data["time"], run["time"], run[name])
+        assert data[name].to_numpy() == pytest.approx(there, abs=1e-3)
+    assert data.attrs["error"] <= 1e-6
+    code, _, error = call("reference", *quick[:6], "--samples", "8", "-o", tmp_path)
+    assert code == 2
+    assert "samples 7 instead of 8" in error

@@ -1,0 +1,110 @@
+"""`rotbeam stability`, as a user meets it."""
+
+import re
+
+import numpy as np
+import pytest
+
+from analytic import OutOfPlane, planar_stability
+from rotbeam_exu import load
+from rotbeam_exu.verdict import beam_of
+
+BLADE = """
+[blade]
+length = 8.0
+
+[blade.section]
+axial_stiffness = 5.03e6
+bending_stiffness = 566.0
+mass_per_length = 0.2
+"""
+STIFF = """
+[blade.section.out_of_plane]
+bending_ratio = 0.01
+torsion_ratio = inf
+"""
+
+
+def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam):
+    arguments = ("stability", "--omega", "2", "--section", "rectangle", "--ratio", "3")
+    arguments += ("--amplitude", "0.3", "0.25", "--out", tmp_path)
+    code, out, error = call(*arguments)
+    assert (code, error) == (0, "")
+    assert out.startswith(
+        "At 2 rad/s the planar orbits of this section leave their plane from a = 0.290"
+    )
+    blade = beam.with_out_of_plane(OutOfPlane.rectangle(3.0))
+    exact = planar_stability(blade, 2.0, [0.25, 0.3])
+    row = next(line for line in out.splitlines() if line.startswith("│   0.3"))
+    assert f"{exact.growth_rate[1]:.4g}" in row
+    assert "sum resonance" in row
+    name = "stability-rectangle-3-omega-2-mode-1"
+    kinds = ("nc", "csv", "png", "pdf")
+    assert {path.name for path in tmp_path.iterdir()} == {f"{name}.{kind}" for kind in kinds}
+    data = load(tmp_path / f"{name}.nc")
+    assert data["growth_rate"].to_numpy() == pytest.approx(exact.growth_rate)
+    pairs = data["multipliers"].sel(part="real") + 1j * data["multipliers"].sel(part="imaginary")
+    assert pairs.to_numpy() == pytest.approx(exact.multipliers)
+    assert beam_of(data.attrs) == blade
+    assert data.attrs["limit"] == pytest.approx(0.2903, abs=3e-4)
+    assert list(load(tmp_path / f"{name}.csv")["kind"].to_numpy()) == ["", "sum resonance"]
+
+
+def test_a_section_out_of_a_file(call, tmp_path):
+    file = tmp_path / "blade.toml"
+    file.write_text(BLADE + STIFF)
+    code, out, _ = call(
+        "stability", "--omega", "2", "--amplitude", "0.1", "--config", file, "--out", tmp_path
+    )
+    assert code == 0
+    assert "period doubling of flap 1" in out
+    growth = load(tmp_path / "stability-given-omega-2-mode-1.nc")["growth_rate"].to_numpy()
+    assert np.array_equal(growth, [0.0])
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ((), "give --section rectangle or --section tube"),
+        (("--section", "tube", "--ratio", "2"), "--ratio is of a rectangle"),
+        (("--section", "rectangle", "--ratio", "0"), "ratio must be positive"),
+        (("--section", "tube", "--mode", "0"), "mode must be at least 1"),
+        (("--section", "tube", "--amplitude", "1.5"), "between 0 and 1, got 1.5"),
+        (("--section", "tube", "--poisson-ratio", "0.7"), "at most 0.5, got 0.7"),
+    ],
+)
+def test_what_is_refused(call, tmp_path, options, sentence):
+    code, _, error = call("stability", "--omega", "2", *options, "--out", tmp_path)
+    assert code == 2
+    assert sentence in error
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_blade_without_area_needs_the_ratio(call, tmp_path):
+    file = tmp_path / "blade.toml"
+    file.write_text(BLADE)
+    code, _, error = call(
+        "stability", "--omega", "2", "--section", "rectangle", "--config", file, "--out", tmp_path
+    )
+    assert code == 2
+    assert "give --ratio" in error
+
+
+@pytest.mark.parametrize(
+    ("lines", "sentence"),
+    [
+        ("out_of_plane = 1.0", r"write \[blade.section.out_of_plane\] as a table"),
+        ("[blade.section.out_of_plane]\ntorsion_ratio = 1.0", "lacks bending_ratio"),
+        (
+            "[blade.section.out_of_plane]\nbending_ratio = 1.0\ntorsion = 1.0",
+            "did you mean 'torsion_ratio'",
+        ),
+        ("[blade.section.out_of_plane]\nbending_ratio = -1.0", "bending_ratio must be positive"),
+    ],
+)
+def test_sections_in_files_that_are_refused(call, tmp_path, lines, sentence):
+    file = tmp_path / "blade.toml"
+    file.write_text(BLADE + lines + "\n")
+    code, _, error = call("stability", "--omega", "2", "--config", file, "--out", tmp_path)
+    assert code == 2
+    assert re.search(sentence, error)

@@ -1,0 +1,60 @@
+"""The pictures of the stability of the plane: what they show is in the data."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from analytic import OutOfPlane, planar_stability
+from rotbeam_exu import comparison, figures
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    yield
+    plt.close("all")
+
+
+def test_growth_over_the_amplitude(beam):
+    blade = beam.with_out_of_plane(OutOfPlane.rectangle(3.0))
+    found = planar_stability(blade, 2.0, [0.25, 0.3])
+    axes = figures.planar_stability(comparison.planar_stability(found))
+    by_label = {line.get_label(): line for line in axes.lines}
+    assert by_label["sum resonance"].get_xydata() == pytest.approx(
+        np.array([[0.3, found.growth_rate[1]]])
+    )
+    assert by_label["stays in plane"].get_xdata() == pytest.approx([0.25])
+
+
+def test_the_map_has_a_color_where_it_grows_only(beam):
+    data = comparison.growth_out_of_plane(omegas=[2.0, 4.0], amplitudes=[0.02, 0.06])
+    axes = figures.growth_out_of_plane(data, spin_ups={2.0: [0.05]})
+    drawn = np.ma.filled(axes.collections[0].get_array(), np.nan).reshape(2, 2)
+    # The least unstable amplitudes are 0.029 and 0.055.
+    assert np.isnan(drawn).tolist() == [[True, True], [False, False]]
+    assert drawn[1] == pytest.approx(data["growth_rate"].to_numpy()[:, 1])
+
+
+def test_limits_over_the_shape(beam):
+    data = comparison.stability_limits(ratios=[1.0, 3.0], omegas=[2.0])
+    assert np.isinf(data["limit"].sel(ratio=1.0)).all()
+    axes = figures.stability_limits(data)
+    shown = axes.lines[0].get_ydata()
+    assert np.isnan(shown[0])
+    assert shown[1] == pytest.approx(0.2903, abs=3e-4)
+
+
+def test_lag_and_flap_change_sign_where_they_do():
+    data = comparison.softening_by_plane()
+    axes = figures.softening_by_plane(data)
+    # Computed by another code: 0.900803 and 3.59302; shown to two decimals.
+    assert sorted(text.get_text() for text in axes.texts) == ["0.90", "3.59"]
+
+
+def test_three_families_over_the_speed(beam):
+    data = comparison.modes_in_space(beam.tube(0.015, 0.77e-3), omegas=[0.0, 4.0])
+    lag, flap = (data["frequency"].sel(plane=plane) for plane in ("lag", "flap"))
+    # The stretch, μω̄²/2 of the frequency, changes both a little differently.
+    assert (flap**2 - lag**2).to_numpy() == pytest.approx(
+        np.array([[0.0, 0.0], [16.0, 16.0]]), abs=2e-2
+    )

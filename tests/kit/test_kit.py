@@ -1,0 +1,174 @@
+"""The kit's files: whole, exact, and what the package itself computes with."""
+
+import csv
+import hashlib
+import json
+
+import numpy as np
+import pytest
+
+from analytic import Blade, PointMass, Section, SpinUp
+from rotbeam_exu.cli import main
+from rotbeam_exu.verification import kit as room
+from rotbeam_exu.verification import problem_statement
+from rotbeam_exu.verification.cases import CASES, VERSION, Asked, starting_orbit
+from rotbeam_exu.verification.judgement import THRESHOLDS, judged
+from rotbeam_exu.verification.kit import MESHES, kit_files, write_kit
+from rotbeam_exu.verification.outcomes import Outcome
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission_files.reading import read_submission
+
+HISTORIES = [case for case in CASES.values() if case.asked is Asked.HISTORY]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return write_kit(tmp_path_factory.mktemp("new") / "kit")
+
+
+def columns(path):
+    with path.open(newline="") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def test_all_files_are_there_and_are_what_their_sums_say(folder):
+    sums = (folder / "SHA256SUMS").read_text().splitlines()
+    listed = dict(reversed(line.split("  ", 1)) for line in sums)
+    there = {p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()}
+    assert set(listed) == there - {"SHA256SUMS"}
+    for name, digest in listed.items():
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
+    wanted = {"PROBLEM.pdf", "README.md", "VERSION", "cases.csv", "cases.json", "reference_S1.csv"}
+    wanted |= {f"drive_{case.name}.csv" for case in HISTORIES}
+    wanted |= {f"start_O_{mesh}.csv" for mesh in MESHES}
+    wanted |= {"sample/entry.toml", "sample/runs.csv", "sample/L.csv"}
+    assert wanted <= there
+    assert {name.partition("/")[2].partition("/")[0] for name in there if "starters" in name} == {
+        "cpp", "fortran", "julia", "matlab", "python"
+    }  # fmt: skip
+    assert (folder / "VERSION").read_text() == f"{VERSION}\n"
+    assert not (folder / "problem.typ").exists()
+
+
+def test_cases_can_be_made_again_from_their_rows(folder):
+    document = json.loads((folder / "cases.json").read_text(encoding="utf-8"))
+    assert document["benchmark"] == VERSION
+    assert document["thresholds"] == THRESHOLDS
+    rows = {row["id"]: row for row in document["cases"]}
+    assert list(rows) == list(CASES)
+    for name, case in CASES.items():
+        row = rows[name]
+        section = Section(
+            axial_stiffness=row["EA"], bending_stiffness=row["EI"], mass_per_length=row["rhoA"]
+        )
+        mass = row["tip_mass"]
+        masses = (PointMass(position=row["L"], mass=mass),) if mass else ()
+        blade = Blade(
+            length=row["L"], section=section, hub_radius=row["hub_radius"], point_masses=masses
+        )
+        own = case.blade if isinstance(case.blade, Blade) else case.blade.blade
+        assert blade == own.with_damping(blade.damping)
+        assert row["bending_damping"] == own.damping.bending
+        if isinstance(case.motion, SpinUp):
+            assert SpinUp(omega=row["omega"], ramp_time=row["T"]) == case.motion
+        assert tuple(row["speeds"]) == case.speeds
+    assert rows["S1+g"]["gravity"] == 9.81
+    with (folder / "cases.csv").open(newline="") as file:
+        for row in csv.DictReader(file):
+            for key, cell in row.items():
+                value = rows[row["id"]][key]
+                text = " ".join(map(str, value)) if isinstance(value, list) else str(value)
+                assert cell == ("" if value is None else text)
+
+
+def test_drives_read_back_to_the_last_bit(folder):
+    for case in HISTORIES:
+        drive = columns(folder / f"drive_{case.name}.csv")
+        assert drive["t"][-1] == case.duration
+        for name, of in (("theta", "angle"), ("theta_dot", "rate"), ("theta_ddot", "acceleration")):
+            assert np.array_equal(drive[name], getattr(case.motion, of)(drive["t"]))
+
+
+def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
+    case = CASES["O"]
+    orbit = starting_orbit(case)
+    for mesh in MESHES:
+        start = columns(folder / f"start_O_{mesh}.csv")
+        assert start["x"] == pytest.approx(np.linspace(0.0, 8.0, mesh + 1), abs=1e-15)
+        # A little later, by the orbit itself: central differences over 2e-4 of a period.
+        at = [orbit.state(0, start["x"], phase) for phase in (-1e-4, 1e-4)]
+        span = 2e-4 / orbit.frequency[0]
+        angles = [np.arctan2(one.v_slope, 1.0 + one.u_slope) for one in at]
+        for name, (before, after) in {
+            "X_dot": [one.u for one in at],
+            "Y_dot": [one.v for one in at],
+            "angle_dot": angles,
+            "X_slope_dot": [one.u_slope for one in at],
+            "Y_slope_dot": [one.v_slope for one in at],
+        }.items():
+            assert start[name] == pytest.approx((after - before) / span, abs=1e-6)
+    fine = columns(folder / "start_O_64.csv")
+    assert np.abs(fine["Y"]).max() < 1e-12  # straight as it passes the axis
+    assert fine["X"][-1] > 8.0  # and stretched
+    slopes = np.gradient(fine["X"], fine["x"], edge_order=2)
+    assert fine["X_slope"] == pytest.approx(slopes, abs=1e-6)
+
+
+def test_the_history_for_self_check_is_the_reference(folder):
+    found = columns(folder / "reference_S1.csv")
+    truth = reference(CASES["S1"])
+    assert np.array_equal(found["q"], truth.history(found["time"]))
+    # Samples of 10 ms: differences of the second order err by ω³a/6 of 1e-4.
+    rate = np.gradient(found["q"], found["time"])
+    assert found["q_dot"][1:-1] == pytest.approx(rate[1:-1], abs=0.02)
+
+
+def test_the_sample_passes(folder):
+    found = judged(read_submission(folder / "sample"))
+    assert found.passed
+    assert found.outcome_of("L") is found.outcome_of("S1") is Outcome.REFERENCE
+
+
+def test_the_paper_is_of_the_present_source():
+    """If this fails: python -m rotbeam_exu.verification.problem_statement, and look at it."""
+    assert problem_statement.DIGEST.read_text().strip() == problem_statement.digest()
+    assert problem_statement.PDF.read_bytes().startswith(b"%PDF")
+
+
+def test_the_paper_has_two_pages():
+    pytest.importorskip("typst")
+    pages = problem_statement.typeset(format="png", ppi=20)
+    assert len(pages) == 2
+
+
+def test_a_folder_that_holds_something_is_refused(tmp_path):
+    (tmp_path / "mine.txt").write_text("mine")
+    with pytest.raises(FileExistsError, match="is not empty: name a folder that is new, or empty"):
+        write_kit(tmp_path)
+    with pytest.raises(FileExistsError, match="is a file: name a folder"):
+        write_kit(tmp_path / "mine.txt")
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_the_kit_is_whole_or_not_there(tmp_path, monkeypatch):
+    monkeypatch.setattr(room, "kit_files", lambda: {"a": b"1", "a/b": b"2"})
+    with pytest.raises(OSError, match="a"):
+        write_kit(tmp_path / "kit")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_empty_folder_is_taken_by_the_command(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(room, "kit_files", lambda: {"README.md": b"read me"})
+    (tmp_path / "kit").mkdir()
+    main(["kit", str(tmp_path / "kit")])
+    assert (tmp_path / "kit" / "README.md").read_bytes() == b"read me"
+    assert "1 files in" in capsys.readouterr().out
+    with pytest.raises(SystemExit) as stop:
+        main(["kit", str(tmp_path / "kit")])
+    assert stop.value.code == 2
+    assert "is not empty" in " ".join(capsys.readouterr().err.split())
+
+
+def test_the_kit_is_the_same_each_time():
+    assert kit_files() == kit_files()

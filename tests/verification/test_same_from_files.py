@@ -1,0 +1,62 @@
+"""What is judged from files is what is judged through Python, to the last digit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotbeam_exu.fem.elements import Cable
+from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.entries import formulation_entry
+from rotbeam_exu.verification.judgement import judged
+from rotbeam_exu.verification.measures import handed_in
+from rotbeam_exu.verification.peers import installed, peer
+from rotbeam_exu.verification.submission_files.reading import read_submission
+from rotbeam_exu.verification.submission_files.writing import write_submission
+
+
+def the_same(submission, folder):
+    """The judgement of a submission, equal to that of its files."""
+    ours = judged(submission)
+    theirs = judged(read_submission(write_submission(submission, folder)))
+    assert theirs.by_quantity.keys() == ours.by_quantity.keys()
+    for key, found in ours.by_quantity.items():
+        other = theirs.by_quantity[key]
+        assert (other.outcome, other.note) == (found.outcome, found.note)
+        if found.runs is None:
+            continue
+        for name in ("limit", "bar", "order"):
+            one, two = getattr(found.runs, name), getattr(other.runs, name)
+            assert one == two or np.isnan([one, two]).all(), (key, name)
+        for name in ("values", "errors", "noise"):
+            assert np.array_equal(getattr(found.runs, name), getattr(other.runs, name)), (key, name)
+    assert str(theirs) == str(ours)
+    return ours
+
+
+def test_what_is_made_of_the_exact_answer(made_of_the_exact_answer, tmp_path):
+    submission = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+    assert the_same(submission, tmp_path).passed
+
+
+@pytest.mark.slow
+def test_the_cable(tmp_path):
+    entry = replace(formulation_entry(Cable(), elements=8, step=4e-3), meshes=(4, 8, 16))
+    found = the_same(handed_in(entry, [CASES["L"], CASES["S1"], CASES["O"]]), tmp_path)
+    assert found.passed
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not installed("kratos"), reason="no Kratos: the extra peers")
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_kratos(tmp_path):
+    entry = replace(peer("kratos"), elements=16)
+    assert the_same(handed_in(entry, [CASES["S1"]]), tmp_path).passed
+
+
+def test_steps_that_do_not_end_with_the_case(made_of_the_exact_answer, tmp_path):
+    """Fifteen seconds hold no whole number of 16 ms: what is beyond is left out in either way."""
+    entry = made_of_the_exact_answer(step=7e-3)
+    submission = handed_in(entry, [CASES["S1"]])
+    assert all(run.time[-1] <= 15.0 for run in submission.runs)
+    assert the_same(submission, tmp_path).passed
