@@ -34,7 +34,7 @@ pictures = [
 ]
 animation = ArtistAnimation(film, pictures, interval=50)
 plt.show()
-left = float(rectangle["time"][int((abs(rectangle["twist"]) > 0.1).argmax())])
+left = float(rectangle["time"][int((abs(rectangle["twist"]) > 0.1).argmax("time"))])
 print(
     f"a twist of 0.1 at t = {left:.3f} s, the tip then at {-rectangle.q.sel(time=left) / 8.0:.3f} L"
 )
