@@ -36,6 +36,16 @@ def test_spin_up(run, beam):
     assert found["ratio"] == pytest.approx(0.99789, abs=2e-5)
 
 
+@pytest.mark.slow
+def test_out_of_plane(run):
+    found = run("out_of_plane")
+    rectangle, tube = found["rectangle"], found["tube"]
+    # The same on 32 elements and at half the step; from then on a tenth of the length is too much.
+    assert found["left"] == pytest.approx(0.80, abs=0.02)
+    assert abs(rectangle["w"]).max() > 0.1 * rectangle.attrs["beam_length"]
+    assert abs(tube["axis"].sel(direction="z")).max() < 2e-6 * tube.attrs["beam_length"]
+
+
 def test_quiet_spin_up(run, beam):
     left = run("quiet_spin_up")["left"]
     # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.

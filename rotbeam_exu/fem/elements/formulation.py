@@ -10,7 +10,6 @@ from typing import Any, ClassVar, Protocol
 import exudyn
 import numpy as np
 
-from analytic import BeamState
 from analytic.arrays import FloatArray
 
 TurningNode = tuple[int, float]
@@ -77,8 +76,8 @@ class Formulation(Protocol):
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Return coordinates and rates (nodes, n) of a beam in `state`.
+    def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.
 
         Its nodes are at `x` [m] from the axis.
         """

@@ -1,1 +1,1 @@
-"""The blade in space: Exudyn's three-dimensional elements, and what leaves the plane."""
+"""The blade in space: Exudyn's elements in three dimensions, and what leaves the plane."""

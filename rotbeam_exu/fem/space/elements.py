@@ -238,7 +238,7 @@ class SpaceExact(FrameNodes, NoDivergence):
     def _elastic_energy(self, mesh: Mesh, coordinates: FloatArray) -> FloatArray:
         stiffness = np.array([self._stiffness(mesh.blade, s) for s in mesh.sections()])
         strains = _strains(mesh.length, coordinates)
-        return 0.5 * mesh.length * np.sum(stiffness * strains**2, axis=(1, 2))
+        return np.asarray(0.5 * mesh.length * np.sum(stiffness * strains**2, axis=(1, 2)))
 
 
 def _linear(left: FloatArray, density: FloatArray, right: FloatArray) -> FloatArray:

@@ -53,7 +53,7 @@ def flap_frequencies(
             "plane; take more elements"
         )
     with steady_system(blade, omega, model, elements) as (mbs, _, settings):
-        mass, stiffness = mbs.ComputeLinearizedSystem(settings)[:2]  # type: ignore[index]
+        mass, stiffness = mbs.ComputeLinearizedSystem(settings)[:2]
     # Coordinates are (x, y, z) of r and r' in turn; the clamp holds those of the first node.
     across = np.arange(2, 6 * (elements + 1), 3)[2:]
     squares = linalg.eigh(

@@ -62,7 +62,7 @@ class FrameNodes:
     fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1, 2)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """P = (cos θ/2, 0, 0, sin θ/2), of which |p| = 1 holds one."""
+        """Give p = (cos θ/2, 0, 0, sin θ/2), of which |p| = 1 holds one."""
         gradient = np.zeros((3, 7))
         gradient[0, 4] = gradient[1, 5] = 1.0
         gradient[2, 3], gradient[2, 6] = -math.sin(0.5 * angle), math.cos(0.5 * angle)
@@ -102,7 +102,7 @@ class FrameNodes:
 
 
 def directors(p: FloatArray) -> FloatArray:
-    """Return rotation matrices (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
+    """Return the rotations (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
     flat = Turn.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
     return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
 

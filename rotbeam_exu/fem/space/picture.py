@@ -105,9 +105,9 @@ def _floor(length: float) -> dict[str, Any]:
 def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
     """Return the triangles between two rows of points, (nodes, 2, 3)."""
     first = 2 * np.arange(len(points) - 1)[:, None]
-    both = np.concatenate([first + np.array([0, 1, 3]), first + np.array([0, 3, 2])])
+    triangles = np.concatenate([first + np.array([0, 1, 3]), first + np.array([0, 3, 2])])
     data: dict[str, Any] = graphics.FromPointsAndTrigs(
-        points.reshape(-1, 3), np.concatenate([both, both[:, ::-1]]), list(color)
+        points.reshape(-1, 3), triangles, list(color)
     )
     return data
 
