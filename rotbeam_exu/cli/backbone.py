@@ -25,7 +25,7 @@ from analytic.input_checks import RotbeamWarning, whole_number
 from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Flag, VariantName, Whole
-from .output import Format, new_console, print_columns, print_text
+from .output import Format, new_console, print_columns
 
 Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
@@ -103,7 +103,7 @@ def backbone(
     print_columns(columns, form, title="" if models else str(truth))
     if form == "table" and models:
         fifth = any(model.kappa for model in models)
-        print_text(new_console(), _NOTE + (_FIFTH if fifth else ""))
+        new_console().print(_NOTE + (_FIFTH if fifth else ""), soft_wrap=False)
     # All variants were asked for, one of them was not: only what was asked for by name must be had.
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))

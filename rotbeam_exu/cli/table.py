@@ -11,7 +11,7 @@ from analytic import paper_table
 from analytic.reduced.tables import PaperTable
 
 from .options import whole
-from .output import Format, new_console, print_columns, print_text
+from .output import Format, new_console, print_columns
 
 _ALL = 0
 _TABLES = range(1, 6)
@@ -65,4 +65,4 @@ def _print(result: PaperTable, form: Format, *, several: bool) -> None:
     columns["note"] = [marks.get(note, "") for note in columns["note"]]
     print_columns(columns, form, title=f"Table {result.number}: {result.title}")
     for note, mark in marks.items():
-        print_text(new_console(), f"{mark}: {note}")
+        new_console().print(f"{mark}: {note}", soft_wrap=False)
