@@ -25,7 +25,7 @@ from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_written
+from .output import choice, new_console, print_columns, print_text, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
 
@@ -144,7 +144,7 @@ def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
     failed = failed_cases(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        console.print(f"failed at {where}: {sentence}")
+        print_text(console, f"failed at {where}: {sentence}")
     print_written(console, written)
     if failed:
         count = sum(map(len, failed.values()))
