@@ -7,8 +7,8 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, linear_modes, periodic_orbits
+from analytic.exact.branch import branch_of
 from analytic.exact.modes import resolved_model
-from analytic.exact.periodic import branch_of
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care

@@ -23,6 +23,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
+from analytic.methods.continuation import Care
 
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
 # The first unstable amplitude of the list, by ω [rad/s] and height over width; "-" has none.
@@ -229,6 +230,6 @@ def test_what_is_refused(ask, sentence):
 
 
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 30)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.rectangle(), 4.0, 0.2, mode=3)
