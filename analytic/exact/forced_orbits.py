@@ -22,7 +22,7 @@ from .periodic import periodic_orbits
 from .state import BeamState, orbit_state
 
 if TYPE_CHECKING:
-    from ..plotting import Axes
+    from matplotlib.axes import Axes
 
 
 class ResponsePoint(NamedTuple):
