@@ -19,7 +19,7 @@ from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from ..plotting import Axes
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,7 +20,7 @@ from .modes import LinearModes, Plane, linear_modes, modes_on
 from .out_of_plane_modes import flap_blade
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from ..plotting import Axes
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 

@@ -22,7 +22,7 @@ from .periodic import periodic_orbits
 from .state import BeamState, orbit_state
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from ..plotting import Axes
 
 
 class ResponsePoint(NamedTuple):
