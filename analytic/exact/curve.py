@@ -27,7 +27,7 @@ from .steady import BeamOrbit
 
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
-_LARGEST_DRIFT = 1e-9  # of the Jacobi integral: ω_NL then keeps 1e-11, the first harmonic 1e-9
+_LARGEST_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
 _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
 _APART = 0.08  # orbits at which resonances are looked for
 
@@ -112,7 +112,7 @@ def backbone_curve(
 
 def care_for(tolerance: float) -> Care:
     """Return with how much care orbits are sought for a series of this tolerance."""
-    drift = max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.1 * tolerance))
+    drift = max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.5 * tolerance))
     return Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1)
 
 

