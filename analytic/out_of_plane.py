@@ -15,6 +15,7 @@ from .input_checks import not_negative, positive
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
 _POISSON_RATIO = 0.3
+_THINNEST = 1000.0  # of a rectangle, one side over the other
 _SAME = 0.01  # what rounded dimensions may differ from A and I
 
 
@@ -55,6 +56,11 @@ class OutOfPlane:
         GJ by Saint-Venant's series (Timoshenko and Goodier, Theory of Elasticity, Sec. 109).
         """
         ratio = positive("ratio", ratio)
+        if not 1.0 / _THINNEST <= ratio <= _THINNEST:
+            raise ValueError(
+                f"the ratio of height to width must be between {1.0 / _THINNEST:g} and "
+                f"{_THINNEST:g}, got {ratio:g}: beyond, it is a foil and no beam"
+            )
         longer, shorter = max(ratio, 1.0), min(ratio, 1.0)  # in widths
         odd = np.arange(1, 2 * _PLACES, 2)
         rest = np.sum(np.tanh(0.5 * np.pi * odd * longer / shorter) / odd**5.0)

@@ -14,7 +14,7 @@ import numpy as np
 from .arrays import FloatArray
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.axes import Axes as Axes  # noqa: PLC0414  (for the results)
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

@@ -23,10 +23,10 @@ for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece
     lower = branch.amplitude < resonance.amplitude
     for part in (here & lower, here & ~lower) if piece == 0 else (here,):
-        ax.plot(branch.frequency[part], branch.amplitude[part], "r--" if piece else "k-")
+        ax.plot(branch.frequency[part], branch.amplitude[part], "C1--" if piece else "k-")
 ax.annotate(
     "harmonic 6, mode 2", (branch.folds[0].frequency, branch.folds[0].amplitude),
-    (3.004, 0.69), arrowprops={"arrowstyle": "-", "color": "0.5"},
+    (3.02, 0.69), arrowprops={"arrowstyle": "-", "color": "0.5"},
 )  # fmt: skip
 for one in branch.resonances:
     if one is not resonance:
@@ -35,5 +35,5 @@ for one in branch.resonances:
         ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
                     (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=8,
                     ha="right" if left else "left")  # fmt: skip
-ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85))
+ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85), title="harmonic:mode")
 plt.show()

@@ -82,7 +82,7 @@ def backbone_curve(
     >>> from analytic import Beam, backbone_curve
     >>> curve = backbone_curve(Beam.reference(), omega=6.0)
     >>> round(float(curve.frequency(0.3)), 6), round(curve.lambda_omega, 6)
-    (3.723573, 0.019669)
+    (3.723567, 0.019669)
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     if positive("up_to", up_to) >= 1.0:

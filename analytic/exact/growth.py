@@ -16,7 +16,7 @@ from .steady import BeamOrbit, SteadyBeam
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
 STEPS = 24
-_FEWEST, _MOST = 12, 40  # functions
+_FEWEST, _MOST = 12, 27  # functions
 _SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 _FASTEST = 20.0  # growth over a period that is not looked at more closely
@@ -100,15 +100,24 @@ def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Grow
 
 
 def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
-    """Return how many functions settle the flap modes; rotation bends them at the clamp only."""
+    """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
+
+    Raises
+    ------
+    ValueError
+        If they do not settle, for the blade turns too fast.
+    """
     before, functions = None, _FEWEST
-    while functions < _MOST:
+    while functions <= _MOST:
         space = Space(blade, functions)
         flap = _steady_modes(space, _with_points_for(planar, space.functions))[0][:4]
         if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
             return functions - functions // 3
         before, functions = flap, functions + functions // 2
-    return functions
+    raise ValueError(
+        f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_MOST} functions "
+        "do not resolve: rotate slower"
+    )
 
 
 def _with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:

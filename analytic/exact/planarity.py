@@ -110,7 +110,8 @@ def planar_stability(
     Raises
     ------
     ValueError
-        If the section out of the plane is unknown, or its torsion where that decides.
+        If the section out of the plane is unknown, or its torsion where that decides; if the blade
+        turns so fast that its flap modes are not resolved.
     AmplitudeNotReachedError
         If an orbit does not exist, as `periodic_orbits` has it.
     """

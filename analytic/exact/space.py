@@ -9,7 +9,7 @@ the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 
 The planar motion enters as N, κ and e only: w has no Coriolis force. About a periodic orbit it is
 a Hill equation. Left out are what a twisting section feels of the rotation, of the order jw̄²
-against g, and its shortening under the tension.
+against g, and its shortening under the tension; at r = 1 the inertia of the twist as well.
 """
 
 from __future__ import annotations
@@ -86,10 +86,11 @@ class Space:
         self.blade, self.unit, self.section = blade, blade.unit, section
         self._a_panel = -(-functions // self.unit.panel_count)
         self.functions = self._a_panel * self.unit.panel_count
-        # At r = 1 the twist follows κβ at no cost, whatever g.
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
+        # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
+        # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
         self.twist: Twist = (
-            "rigid" if np.isinf(self.g)
+            "rigid" if np.isinf(self.g) or section.bending_ratio == 1.0
             else "quasi-static" if section.polar_inertia == 0.0
             else "inertial"
         )  # fmt: skip

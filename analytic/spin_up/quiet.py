@@ -118,7 +118,9 @@ def _refined(
     def left(at: float, T: float, lack: complex, slope: complex) -> float:
         return abs(form(at) + lack + slope * (at - T)) ** 2
 
-    slope, lack = 0.0j, lacking(T)
+    # Two from the start: without a slope a minimum that is there by chance would be believed.
+    lack, aside = lacking(T), 0.5 * spacing
+    slope = (lacking(T + aside) - lack) / aside
     for _ in range(_REFINEMENTS):
         least = minimize_scalar(
             left,

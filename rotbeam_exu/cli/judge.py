@@ -49,6 +49,10 @@ def judge(
         Tell of this case alone; may be given again.
     run
         First run the command of run.toml for what is missing.
+
+    Examples
+    --------
+    $ rotbeam judge mine --report mine.html --json mine.json
     """
     chosen = _known_cases(case)
     for target, ending in ((report, ".html"), (json, ".json")):

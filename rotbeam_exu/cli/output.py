@@ -32,6 +32,9 @@ def choice(kind: Any, tokens: Sequence[Token]) -> str:
 
 Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
 
+_TITLE = 22
+"""Width of the titles ahead of single lines."""
+
 _MOST_LINES = 40
 """Of a cell: one that needs more is given its longest word's width."""
 
@@ -118,6 +121,23 @@ def print_columns(
         # Two columns at least: a longer line is better than half a number.
         console.width = max(room, _total(widths))
         console.print(table, soft_wrap=False)
+
+
+def print_text(console: Console, text: str | Text) -> None:
+    """Print a sentence: broken between words on a terminal, in one line for what reads a file."""
+    console.print(text, soft_wrap=not console.is_terminal)
+
+
+def print_line(console: Console, title: str, text: str) -> None:
+    """Print a title and its text beside it, on a terminal in as many lines as it takes."""
+    if not console.is_terminal:
+        console.print(f"{title:<{_TITLE}}{text}")
+        return
+    grid = Table.grid()
+    grid.add_column(width=_TITLE)
+    grid.add_column()
+    grid.add_row(title, text)
+    console.print(grid, soft_wrap=False)
 
 
 def print_written(console: Console, paths: Iterable[Path]) -> None:

@@ -59,6 +59,10 @@ def ramp(
         Number of elements.
     config
         TOML file with the beam or blade; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam ramp --omega 6 --longest 10
     """
     beam = Beam.reference() if config is None else load_beam(config)
     omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)

@@ -14,8 +14,7 @@ from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .configuration import configured, motion_of
 from .options import Results, Whole
-from .output import new_console, print_written
-from .summary import line
+from .output import new_console, print_line, print_written
 from .targets import refuse_to_replace
 
 _RESULTS = Results()
@@ -78,12 +77,12 @@ def reference(
     written = [save(data, file) for file in files]
     console = new_console()
     farthest = int(np.abs(response.q).argmax())
-    line(console, "spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
-    line(console, "samples", f"{samples}, up to t = {motion.duration:g} s")
-    line(
+    print_line(console, "spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
+    print_line(console, "samples", f"{samples}, up to t = {motion.duration:g} s")
+    print_line(
         console,
         "largest |q|",
         f"{abs(response.q[farthest]):.9g} m at t = {response.time[farthest]:g} s, of the samples",
     )
-    line(console, "error of the tip", f"at most {response.error:.1e} of the largest |q|")
+    print_line(console, "error of the tip", f"at most {response.error:.1e} of the largest |q|")
     print_written(console, written)

@@ -23,9 +23,9 @@ from .assessment import assess
 from .configuration import configured, motion_of
 from .motion import refuse_rest
 from .options import Discretization, NoFigure, Results, given
-from .output import new_console, print_written
+from .output import new_console, print_line, print_written
 from .repeat import likeness, recorded_case, recorded_title
-from .summary import line, print_inputs, print_results
+from .summary import print_inputs, print_results
 from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
 
 _DISCRETIZATION, _RESULTS = Discretization(), Results()
@@ -86,7 +86,7 @@ def run(
     refuse_to_replace(case.describe(), *_data_files(path), force=results.force)
     console = new_console()
     if config is not None:
-        line(console, "motion", f"{motion} (where not given, the paper's, scaled by ω_0)")
+        print_line(console, "motion", f"{motion} (where not given, the paper's, scaled by ω_0)")
     written: list[Path] = []
     with telling_what_is_kept(lambda: f"kept: {listed(written)}" if written else ""):
         data, steady = _measured(case, path, written, console)
@@ -101,7 +101,7 @@ def run(
     print_inputs(console, case, title)
     print_results(console, data, steady, assessment)
     if before is not None:
-        line(console, "repeats", f"{recorded}: {likeness(data, before)}")
+        print_line(console, "repeats", f"{recorded}: {likeness(data, before)}")
     print_written(console, written)
     for sentence in assessment.warnings(case.elements, case.step):
         warnings.warn(sentence, RotbeamWarning, stacklevel=2)

@@ -56,11 +56,17 @@ def stability(
     poisson_ratio
         Poisson's ratio, for the torsional stiffness.
     amplitude
-        Amplitudes of the planar orbits over the length, one or several.
+        Amplitudes of the planar orbits over the length, one or several; the least unstable one is
+        looked for up to the largest.
     mode
         In-plane mode from which the orbits grow.
     config
         TOML file with the beam; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
+    $ rotbeam stability --omega 6 --section tube
     """
     whole_number("mode", mode)
     require_affordable(
@@ -78,7 +84,7 @@ def stability(
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
     found = planar_stability(blade, omega, amplitudes, mode)
-    limit = stability_limit(blade, omega, mode)
+    limit = stability_limit(blade, omega, mode, largest=amplitudes[-1])
     data = comparison.planar_stability(found, limit).assign_attrs(inputs)
     written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 

@@ -18,6 +18,7 @@ from analytic.input_checks import whole_number
 
 from .. import paper
 from ..files.results import save, writable_folder
+from ..files.run_file import RunFile
 from ..sweeps.dask import dask_executor
 from ..sweeps.grid import failed_cases
 from ..sweeps.grid import sweep as run_sweep
@@ -25,7 +26,7 @@ from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_written
+from .output import choice, new_console, print_columns, print_text, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
 
@@ -83,13 +84,8 @@ def sweep(
     """
     file = configured(config)
     beam = file.beam
-    if omega is None and "omega" in file.motion:
-        omega = [file.motion["omega"]]
-    if ramp_time is None and "ramp_time" in file.motion:
-        ramp_time = [file.motion["ramp_time"]]
     numerics = discretization.over(file.numerics)
-    omegas = chosen_speeds(beam, *paper.SPEEDS) if omega is None else omega
-    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4) if ramp_time is None else ramp_time
+    omegas, ramp_times = _grid(file, omega, ramp_time)
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
@@ -136,6 +132,18 @@ def sweep(
     _finish(console, result, path)
 
 
+def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float], list[float]]:
+    """Return what is given, or the one value of the file's [motion], or the paper's, scaled."""
+    if omega is None:
+        known = file.motion.get("omega")
+        omega = chosen_speeds(file.beam, *paper.SPEEDS) if known is None else [known]
+    if ramp_time is None:
+        known = file.motion.get("ramp_time")
+        scaled = chosen_times(file.beam, *paper.RAMP_TIMES, digits=4)
+        ramp_time = scaled if known is None else [known]
+    return omega, ramp_time
+
+
 def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
     """Write and print the result; a sweep with a failed case is no success."""
     measured = result.drop_dims("time", errors="ignore")
@@ -144,7 +152,7 @@ def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
     failed = failed_cases(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        console.print(f"failed at {where}: {sentence}")
+        print_text(console, f"failed at {where}: {sentence}")
     print_written(console, written)
     if failed:
         count = sum(map(len, failed.values()))

@@ -35,7 +35,7 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.linewidth": 0.6,
-    "axes.prop_cycle": cycler(color=_CYCLE),
+    "axes.prop_cycle": cycler(color=(*_CYCLE, "0.4")),
     "lines.linewidth": 1.0,
     "figure.constrained_layout.use": True,
     "savefig.dpi": 300,
@@ -96,7 +96,7 @@ def style(wanted: str | Style = "journal") -> Iterator[Style]:
     chosen = wanted if isinstance(wanted, Style) else STYLES[wanted]
     before = _ACTIVE.set(chosen)
     try:
-        with mpl.rc_context({**STYLE, "axes.prop_cycle": cycler(color=cycle())}):
+        with mpl.rc_context({**STYLE, "axes.prop_cycle": cycler(color=(*cycle(), "0.4"))}):
             yield chosen
     finally:
         _ACTIVE.reset(before)

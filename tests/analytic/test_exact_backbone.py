@@ -7,8 +7,12 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, linear_modes, periodic_orbits
+from analytic.exact.branch import branch_of
+from analytic.exact.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
+from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
+from analytic.methods.harmonic_balance import LastTangent
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
@@ -261,3 +265,36 @@ def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
 def test_bad_input(beam, arguments, error, sentence):
     with pytest.raises(error, match=sentence):
         periodic_orbits(beam, **{"omega": 4.0, **arguments})
+
+
+def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch):
+    """Broyden's method goes on where another orbit's tangent would contract slowly."""
+    factored = []
+    at = harmonic_balance.jacobian
+    monkeypatch.setattr(
+        harmonic_balance, "jacobian", lambda orbit: factored.append(orbit) or at(orbit)
+    )
+    model = resolved_model(beam, 1, False, False, 16)
+    path = branch_of(beam, 6.0, 1, model).path
+    near, far = path.laid(0.2), path.laid(0.25)
+    tangent = LastTangent()
+    harmonic_balance.solve(near.scaled(0.2).with_harmonics(far.harmonics), 0.2, tangent)
+    before = len(factored)
+    shared = harmonic_balance.solve(far.scaled(0.24), 0.24, tangent)
+    assert len(factored) == before
+    own = harmonic_balance.solve(far.scaled(0.24), 0.24)
+    assert shared.frequency == pytest.approx(own.frequency, rel=1e-13)
+    np.testing.assert_allclose(shared.coefficients, own.coefficients, atol=1e-12)
+
+
+def test_a_tangent_that_leads_astray_is_made_anew(beam):
+    model = resolved_model(beam, 1, False, False, 16)
+    orbit = branch_of(beam, 6.0, 1, model).path.laid(0.2)
+    tangent = LastTangent()
+    tangent.factor(orbit)
+    lower, pivots = tangent.factors
+    tangent.factors = (-1e-3 * lower, pivots)
+    found = harmonic_balance.solve(orbit.scaled(0.21), 0.21, tangent)
+    assert found.frequency == pytest.approx(
+        harmonic_balance.solve(orbit.scaled(0.21), 0.21).frequency, rel=1e-12
+    )

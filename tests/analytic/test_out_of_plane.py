@@ -60,6 +60,7 @@ def test_they_are_values_and_travel(beam):
         (lambda: UNIT.with_section_out_of_plane(0.0), "bending_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, -1.0), "torsion_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, 1.0, -1.0), "polar_inertia must not be"),
+        (lambda: OutOfPlane.rectangle(1e-4), "between 0.001 and 1000, got 0.0001"),
         (lambda: OutOfPlane.rectangle(2.0, 0.6), "poisson_ratio must be at most 0.5"),
         (
             lambda: UNIT.with_out_of_plane(OutOfPlane.circle()).with_taper(height=0.5),

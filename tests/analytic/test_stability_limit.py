@@ -23,6 +23,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
+from analytic.methods.continuation import Care
 
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
 # The first unstable amplitude of the list, by ω [rad/s] and height over width; "-" has none.
@@ -134,6 +135,13 @@ def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
     )
 
 
+@pytest.mark.parametrize("omega", [0.0, 1e-3])
+def test_a_tube_that_hardly_turns_stays_in_the_plane(beam, omega):
+    """Its plane may nearly be turned: multipliers near a double 1, which nothing may split."""
+    found = planar_stability(beam.tube(0.015, 0.77e-3), omega, [0.1, 0.4])
+    assert found.stable.all()
+
+
 def test_a_twist_without_inertia_that_buckles_grows_without_bound(beam):
     shape = OutOfPlane.rectangle(18.5)
     blade = beam.with_section_out_of_plane(shape.bending_ratio, shape.torsion_ratio, 0.0)
@@ -171,6 +179,7 @@ UNIT = Blade(
 )
 
 
+@pytest.mark.filterwarnings("ignore:omega = 100 rad/s is 28 times")
 @pytest.mark.parametrize(
     ("ask", "sentence"),
     [
@@ -207,6 +216,10 @@ UNIT = Blade(
             ),
             "torsion has no modes without polar inertia",
         ),
+        (
+            lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
+            "at w_bar = 100 flap bends in a layer .* rotate slower",
+        ),
         (lambda: linear_modes(UNIT, 1.0, plane="pitch"), "plane must be 'lag', 'flap' or"),
         (lambda: campbell(UNIT, [1.0], planes=()), "name families once each"),
     ],
@@ -217,6 +230,6 @@ def test_what_is_refused(ask, sentence):
 
 
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
-    monkeypatch.setattr("analytic.methods.continuation._MOST_HARMONICS", 30)
+    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.rectangle(), 4.0, 0.2, mode=3)

@@ -23,7 +23,8 @@ from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --(omega|from).*|campbell|(reference|respond|compare|figure|animate).*)"
+    r"rotbeam (run|run --(omega|from).*|campbell|"
+    r"(reference|respond|stability|ramp|compare|figure|animate).*)"
 )
 BEAM = """
 [beam]
@@ -104,6 +105,9 @@ def test_an_example_ends_well(call, folder, example):
         assert call("run", "--config", "beam.toml", "--no-figure", "--out", "quick")[0] == 0
         recorded.parent.mkdir()
         shutil.copy(next(folder.glob("quick/*.nc")), recorded)
+    if command == "judge":
+        assert call("kit", "benchmark")[0] == 0
+        shutil.copytree(folder / "benchmark" / "sample", folder / arguments[0])
     code, out, error = call(command, *arguments)
     assert code == 0, error
     assert out

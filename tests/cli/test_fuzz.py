@@ -46,6 +46,9 @@ COMMANDS = {
     "ramp": (("ramp", "--longest", "3", "--points", "0", "--finite-element-points", "0", "--out",
               "{folder}/out"),
              ("--omega", "--longest", "--points", "--element", "--elements", "--config")),
+    "stability": (("stability", "--omega", "1", "--section", "tube", "--amplitude", "0.02",
+                   "--out", "{folder}/out"),
+                  ("--section", "--ratio", "--poisson-ratio", "--amplitude", "--mode", "--config")),
     "animate": (("animate", "--out", "{folder}/film.pdf"),
                 ("--omega", "--ramp-time", "--duration", "--rate", "--slow-motion", "--config")),
 }  # fmt: skip

@@ -93,7 +93,8 @@ def test_all_faults_and_nothing_else(call, folder):
     ]
 
 
-def test_what_is_missing_is_run_first(call, folder):
+def test_what_is_missing_is_run_first(call, folder, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
     script = "import shutil, sys; shutil.copy('S1/m032_h1e-3.csv', sys.argv[1])"
     (folder / "copy.py").write_text(script, "utf-8")
     (folder / "run.toml").write_text(

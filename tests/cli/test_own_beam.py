@@ -8,6 +8,8 @@ from analytic import Beam
 from rotbeam_exu import paper
 from rotbeam_exu.cli import compare as compare_job
 from rotbeam_exu.cli import explore as explore_job
+from rotbeam_exu.cli import reference as reference_job
+from rotbeam_exu.cli import verify as verify_job
 from rotbeam_exu.cli.motion import Motion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
 
@@ -106,3 +108,25 @@ def test_the_budget_says_what_a_dash_is(capsys):
     assert "nan" not in out
     assert "+1.0e-04" in out
     assert "-: the amplitude is above 0.6" in out
+
+
+def test_ctrl_c_says_what_is_kept_or_that_nothing_is(call, tmp_path, monkeypatch):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    cache = tmp_path / "cache"
+    monkeypatch.setattr(explore_job, "explorer_page", stopped)
+    page = ("explore", "--out", tmp_path / "page.html")
+    assert f"kept in the cache {cache}" in call(*page, "--cache", cache)[2]
+    code, _, error = call(*page)
+    assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
+    monkeypatch.setattr(compare_job.comparison, "figure_14", stopped)
+    code, _, error = call("compare", "--cache", cache, "--out", tmp_path)
+    assert code == 130
+    assert f"kept in the cache {cache}" in error
+    monkeypatch.setattr(verify_job, "verification_of", stopped)
+    monkeypatch.setattr(reference_job, "spin_up_response", stopped)
+    for command in (("verify", "--element", "cable"), ("reference", "--out", tmp_path)):
+        code, _, error = call(*command)
+        assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
+    assert not list(tmp_path.iterdir())

@@ -57,7 +57,7 @@ def test_a_section_out_of_a_file(call, tmp_path):
         "stability", "--omega", "2", "--amplitude", "0.1", "--config", file, "--out", tmp_path
     )
     assert code == 0
-    assert "period doubling of flap 1" in out
+    assert "stay in their plane, up to a = 0.1." in out
     growth = load(tmp_path / "stability-given-omega-2-mode-1.nc")["growth_rate"].to_numpy()
     assert np.array_equal(growth, [0.0])
 

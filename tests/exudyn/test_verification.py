@@ -97,7 +97,8 @@ def test_cost_is_read_off_a_ladder():
     assert np.isnan(cost_at_error(entry, 1e-9)[0])
 
 
-def test_command_line(capsys):
+def test_command_line(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
     main(["verify", "--element", "linear"])
     out = capsys.readouterr().out
     assert "does not converge (L, S1" in out
@@ -116,8 +117,9 @@ def test_unknown_peer():
         peer("ansys")
 
 
-def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys):
+def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys, monkeypatch):
     """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
+    monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 0.4\naxial_stiffness = 2e9\n"
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"

@@ -72,9 +72,9 @@ def test_models_differ_by_more_than_their_color():
 
 
 def test_an_unknown_style_names_those_that_are_known():
-    with pytest.raises(ValueError, match="known are house, journal, grey"):
-        with figures.style("sepia"):
-            pass
+    known = pytest.raises(ValueError, match="known are house, journal, grey")
+    with known, figures.style("sepia"):
+        pass
 
 
 def test_models_are_spelled_out_where_there_is_room(data):
@@ -88,4 +88,4 @@ def test_models_are_spelled_out_where_there_is_room(data):
     ]
     figure, ax = plt.subplots(figsize=(3.5, 3.0))
     figures.figure_14(data, ax=[ax])
-    assert [text.get_text() for text in figure.legends[0].get_texts()][0] == "CE"
+    assert figure.legends[0].get_texts()[0].get_text() == "CE"

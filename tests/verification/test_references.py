@@ -61,7 +61,7 @@ def test_rates_are_those_of_theory():
     assert reference(CASES["S1"]).rate(times) == pytest.approx(exact.q_dot, abs=1e-5)
 
 
-@pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.413), ("S1", 0.333), ("S1+h", 0.251)])
+@pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.413), ("S1", 0.333), ("S4", 0.333)])
 def test_a_shipped_backbone_is_exact_between_its_points(name, amplitude):
     blade, speed = shipped_backbones()[name]
     exact = periodic_orbits(blade, speed, amplitude, functions=20).frequency[0]

@@ -15,10 +15,11 @@ from rotbeam_exu.verification.submission_files.reading import read_submission
 from rotbeam_exu.verification.submission_files.writing import write_submission
 
 
-def the_same(submission, folder):
+def the_same(submission, folder, cases=CASES):
     """The judgement of a submission, equal to that of its files."""
-    ours = judged(submission)
-    theirs = judged(read_submission(write_submission(submission, folder)))
+    ours = judged(submission, cases=cases)
+    read = read_submission(write_submission(submission, folder), cases=cases)
+    theirs = judged(read, cases=cases)
     assert theirs.by_quantity.keys() == ours.by_quantity.keys()
     for key, found in ours.by_quantity.items():
         other = theirs.by_quantity[key]
@@ -50,8 +51,11 @@ def test_the_cable(tmp_path):
 @pytest.mark.skipif(not installed("kratos"), reason="no Kratos: the extra peers")
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 def test_kratos(tmp_path):
-    entry = replace(peer("kratos"), elements=16)
-    assert the_same(handed_in(entry, [CASES["S1"]]), tmp_path).passed
+    """Half of S1 on coarse meshes: the point is that nothing is lost, not how good they are."""
+    case = replace(CASES["S1"], duration=8.0)
+    submission = handed_in(replace(peer("kratos"), elements=8, step=1e-3), [case])
+    found = the_same(submission, tmp_path, {"S1": case})
+    assert found.histories["S1"].rows.finest.elements == 16
 
 
 def test_steps_that_do_not_end_with_the_case(made_of_the_exact_answer, tmp_path):
