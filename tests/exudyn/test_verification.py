@@ -9,6 +9,7 @@ import xarray as xr
 from analytic import Beam, spin_up_response
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
+from rotbeam_exu.verification import measures
 from rotbeam_exu.verification.cases import CASES, frequency_case
 from rotbeam_exu.verification.cost import cost_at_error
 from rotbeam_exu.verification.entries import formulation_entry
@@ -99,6 +100,7 @@ def test_cost_is_read_off_a_ladder():
 
 def test_command_line(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr(measures, "DEFAULT", ("L", "S1"))
     main(["verify", "--element", "linear"])
     out = capsys.readouterr().out
     assert "does not converge (L, S1" in out
