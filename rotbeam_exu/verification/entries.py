@@ -25,12 +25,12 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     Of second order it has twice as many elements as of fourth, unless told; the paper's element
     goes on to 64.
     """
-    order = _declared_order(model)
+    order, coupled = _declared_order(model), getattr(model, "law", "") == "coupled"
     meshes: tuple[int, ...] = ()
     if elements is None:
         elements = 32 if order == _SECOND else 16
-        # At 8 rad/s its order shows from 16 on.
-        meshes = (8, 16, 32, 64) if isinstance(model, Ancf3) else ()
+        # At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so.
+        meshes = (8, 16, 32, 64) if isinstance(model, Ancf3) and not coupled else ()
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
@@ -66,7 +66,7 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         simulate=spin,
         first_frequency=first,
         # The orbit does not say how thick its sections are, which that law would need to start.
-        release=None if getattr(model, "law", "") == "coupled" else release,
+        release=None if coupled else release,
         elements=elements,
         meshes=meshes,
         step=step,
