@@ -142,7 +142,7 @@ def write_interactive() -> None:
         "explore --cache _build/runs --out _static/explorer.html",
         "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
         "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
-        "--out _static/linear.gif",
+        "--out _static/figures/linear.gif",
     ):
         rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
         subprocess.run([*rotbeam, *line.split()], check=True, cwd=HERE, stdout=subprocess.DEVNULL)

@@ -88,6 +88,16 @@ def linear_response(
         If the times are not ascending from 0 on, a point is beyond the blade, or it is damped.
     RuntimeError
         If the deflection grows beyond all numbers before the last time.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp
+    >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
+    >>> for term in (False, True):
+    ...     q = linear_response(Beam.reference(), spin_up, [5.0], foreshortening=term).q
+    ...     print(f"{q[0]:.4g} m")
+    -2.176e+04 m
+    1.673 m
     """
     require_ramp(spin_up)
     require_undamped(beam, "the linear frame has no damping")
