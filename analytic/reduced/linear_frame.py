@@ -96,7 +96,7 @@ def linear_response(
     >>> for term in (False, True):
     ...     q = linear_response(Beam.reference(), spin_up, [5.0], foreshortening=term).q
     ...     print(f"{q[0]:.4g} m")
-    -2.176e+04 m
+    -2.177e+04 m
     1.673 m
     """
     require_ramp(spin_up)
