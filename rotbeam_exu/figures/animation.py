@@ -187,7 +187,9 @@ def _two_models(response: SpinUpResponse, beside: LinearResponse) -> _Scene:
     _mark_instability(history, beside)
     left = _time_of_leaving(beside, beams[1])
     if left < response.time[-1]:
-        text = views[1].set_title(f"left the picture at {left:.2f} s", loc="right", color=RED)
+        said = f"left the picture at {left:.2f} s"
+        # A fixed place: that of a title that is not seen yet would put the other one anywhere.
+        text = views[1].set_title(said, loc="right", color=RED, y=1.0)
         notes.append((left, text))
     return _Scene(beams, clamps, dots, history, notes)
 

@@ -100,6 +100,10 @@ def test_two_models_are_seen_from_outside_on_one_scale(two_models, side_by_side)
     history.figure.draw_without_rendering()  # only now the axes take their shape
     sizes = [(*ax.get_window_extent().size, *ax.get_xlim(), *ax.get_ylim()) for ax in views]
     np.testing.assert_allclose(*sizes)
+    for ax, name in zip(views, ("exact beam", "linear floating frame"), strict=True):
+        (title,) = (text for text in ax.findobj(Text) if text.get_text() == name)
+        box = title.get_window_extent()
+        assert ax.bbox.y1 < box.y0 < box.y1 < history.figure.bbox.y1
 
 
 def test_the_time_at_which_the_linear_one_leaves_is_said(two_models, side_by_side):
