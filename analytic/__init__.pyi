@@ -44,6 +44,8 @@ from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
 from .ramps import SmoothRamp as SmoothRamp
 from .ramps import Table as Table
+from .reduced.linear_frame import LinearResponse as LinearResponse
+from .reduced.linear_frame import linear_response as linear_response
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed
