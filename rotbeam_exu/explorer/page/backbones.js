@@ -1,0 +1,52 @@
+// Frequency against amplitude.
+
+const backbone = new Chart("backbone", {x: "a = q/L", y: "ω_NL/ω_n", label: "Frequency against amplitude, one curve per model"});
+const RATIO = {close: {own: [0.98, 1.02], exact: [0.97, 1.07]}, all: {own: [0.5, 1.06], exact: [0.5, 1.35]}};
+const base = (m, w) => state.norm === "own" ? linear(m, w) : D.exact_omega_n[w];
+function drawBackbone() {
+  const w = state.w, curves = {};
+  backbone.frame([0, LARGEST], RATIO[state.scale][state.norm], back => {
+    if (LARGEST <= PAPER_BOUND) return;
+    const x = backbone.x(PAPER_BOUND);
+    node("rect", {class: "wash", x, width: backbone.x1 - x, y: backbone.y1, height: backbone.y0 - backbone.y1}, back);
+    node("text", {x: backbone.x0, y: backbone.y0 + 31}, back, "shaded: beyond the paper");
+  });
+  write(backbone.yTitle, state.norm === "own" ? "ω_NL/ω_n, each model by its own" : "ω_NL/ω_n of the exact beam");
+  for (const m of shown()) {
+    const points = curves[m] = [];
+    for (let i = -1; i < A; i++) points.push([i < 0 ? 0 : D.a[i], frequency(m, w, i) / base(m, w)]);
+  }
+  backbone.draw(curves);
+  backbone.name(curves);
+  backbone.front.replaceChildren();
+  const x = backbone.x(D.a[state.a]);
+  node("line", {class: "now", x1: x, x2: x, y1: backbone.y0, y2: backbone.y1}, backbone.front);
+  const here = finiteElements();
+  for (const [a, f] of here) if (a <= LARGEST) node("circle", {class: "point", cx: backbone.x(a), cy: backbone.y(f), r: 4}, backbone.front);
+  if (here.length) {
+    const beyond = here.filter(p => p[0] > LARGEST).map(p => fixed(p[0], 2));
+    node("circle", {class: "point", cx: backbone.x0 + 12, cy: backbone.y1 + 12, r: 4}, backbone.labels);
+    node("text", {class: "halo", x: backbone.x0 + 22, y: backbone.y1 + 16}, backbone.labels,
+      `${DATA.elements} finite elements` + (beyond.length ? ` (more at a = ${beyond.join(", ")})` : ""));
+  }
+}
+/** Points at the present speed, [a, ratio, frequency]; none between the speeds of the runs. */
+function finiteElements() {
+  const j = D.fe_omega.findIndex(v => Math.abs(v - D.omega[state.w]) < 1e-9), T = SHAPE.fe_amplitude[1], found = [];
+  if (j < 0 || state.hide.has("FE")) return found;
+  for (let i = 0; i < T; i++) {
+    const f = D.fe_frequency[j * T + i];
+    found.push([D.fe_amplitude[j * T + i], f / (state.norm === "own" ? D.fe_omega_n[j * T + i] : D.exact_omega_n[state.w]), f]);
+  }
+  return found;
+}
+backbone.listen(place => {
+  backbone.over.replaceChildren();
+  if (!place || place[0] < backbone.x0 || place[0] > backbone.x1 + 20) return backbone.tell(null);
+  const i = nearest(D.a, backbone.invertX(place[0])), x = backbone.x(D.a[i]), w = state.w;
+  const point = finiteElements().find(([a, f]) => Math.hypot(backbone.x(a) - place[0], backbone.y(f) - place[1]) < 9);
+  if (point) return backbone.tell(place, `${DATA.elements} finite elements`, [[null, "a", fixed(point[0], 4)], [null, "ω_NL", fixed(point[2], 4) + " rad/s"], [null, "ratio", fixed(point[1], 5)]]);
+  node("line", {class: "cross", x1: x, x2: x, y1: backbone.y0, y2: backbone.y1}, backbone.over);
+  const lines = shown().map(m => [m, frequency(m, w, i) / base(m, w)]).filter(([, f]) => Number.isFinite(f)).sort((p, q) => q[1] - p[1]);
+  backbone.tell(place, `a = ${fixed(D.a[i], 2)}`, lines.map(([m, f]) => [m, m, fixed(f, 5)]));
+}, place => set({a: nearest(D.a, backbone.invertX(place[0]))}));
