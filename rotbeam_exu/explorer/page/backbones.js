@@ -9,7 +9,6 @@ function drawBackbone() {
     if (LARGEST <= PAPER_BOUND) return;
     const x = backbone.x(PAPER_BOUND);
     node("rect", {class: "wash", x, width: backbone.x1 - x, y: backbone.y1, height: backbone.y0 - backbone.y1}, back);
-    node("text", {x: backbone.x0, y: backbone.y0 + 31}, back, "shaded: beyond the paper");
   });
   write(backbone.yTitle, state.norm === "own" ? "ω_NL/ω_n, each model by its own" : "ω_NL/ω_n of the exact beam");
   for (const m of shown()) {
@@ -19,16 +18,14 @@ function drawBackbone() {
   backbone.draw(curves);
   backbone.name(curves);
   backbone.front.replaceChildren();
-  const x = backbone.x(D.a[state.a]);
-  node("line", {class: "now", x1: x, x2: x, y1: backbone.y0, y2: backbone.y1}, backbone.front);
+  backbone.mark(D.a[state.a], `a = ${fixed(D.a[state.a], 2)}`);
   const here = finiteElements();
   for (const [a, f] of here) if (a <= LARGEST) node("circle", {class: "point", cx: backbone.x(a), cy: backbone.y(f), r: 4}, backbone.front);
-  if (here.length) {
-    const beyond = here.filter(p => p[0] > LARGEST).map(p => fixed(p[0], 2));
-    node("circle", {class: "point", cx: backbone.x0 + 12, cy: backbone.y1 + 12, r: 4}, backbone.labels);
-    node("text", {class: "halo", x: backbone.x0 + 22, y: backbone.y1 + 16}, backbone.labels,
-      `${DATA.elements} finite elements` + (beyond.length ? ` (more at a = ${beyond.join(", ")})` : ""));
-  }
+  const beyond = here.filter(p => p[0] > LARGEST).map(p => fixed(p[0], 2));
+  document.getElementById("about-backbone").textContent =
+    (state.hide.has("FE") ? "" : `○ ${DATA.elements} finite elements` + (!here.length ? `: at ${[...D.fe_omega].map(plain).join(", ")} rad/s only. `
+      : beyond.length ? `, more at a = ${beyond.join(", ")}. ` : ". ")) +
+    (LARGEST > PAPER_BOUND ? "Shaded: amplitudes beyond the paper's own bound." : "");
 }
 /** Points at the present speed, [a, ratio, frequency]; none between the speeds of the runs. */
 function finiteElements() {

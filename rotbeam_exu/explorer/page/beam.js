@@ -34,7 +34,7 @@ function drawBeam() {
   beam.ghosts.setAttribute("d", ghosts);
   beam.trace.setAttribute("d", trace);
   const period = 2 * Math.PI / exactFrequency(w, i);
-  document.getElementById("period").textContent = `rotating frame, to scale; period ${fixed(period, 3)} s`;
+  document.getElementById("period").textContent = `Rotating frame, to scale; period ${fixed(period, 3)} s.`;
   moveBeam();
   const key = [width, height, scale].join();
   if (beam.key === key) return;

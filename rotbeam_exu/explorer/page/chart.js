@@ -1,43 +1,14 @@
-// Drawing: nodes, ticks, and a chart of one curve per model.
+// A chart of one curve per model, with names, marks and a box that tells numbers.
 
-const SVG = "http://www.w3.org/2000/svg";
-function node(tag, attributes = {}, parent = null, text = null) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  if (text !== null) made.textContent = text;
-  if (parent) parent.append(made);
-  return made;
-}
-/** Write a label, its subscripts after an underscore each. */
-function write(text, label) {
-  if (text.dataset.label === label) return;
-  text.dataset.label = label;
-  text.replaceChildren();
-  for (const [, sub, part] of label.matchAll(/(_?)([A-Za-z]+|[^_A-Za-z]+)/g))
-    node("tspan", sub ? {"font-size": "80%", dy: 3} : {}, text, part).after(...(sub ? [node("tspan", {dy: -3}, null, "\u200b")] : []));
-}
-const minus = text => text.replace("-", "−");
-const fixed = (x, digits) => Number.isFinite(x) ? minus((Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)) : "–";
-const stroke = m => `color-mix(in srgb, ${LOOK[m]?.[0] ?? "#8a8f96"}, white var(--lift))`;
-const ink = m => `color-mix(in srgb, ${LOOK[m]?.[0] ?? "#8a8f96"}, var(--towards) var(--darken))`;
-const colors = m => `--s:${stroke(m)};--c:${ink(m)}`;
-const dashes = m => LOOK[m]?.[1] ?? "1 2";
-
-function ticks(low, high, room) {
-  const rough = (high - low) / Math.max(2, room), power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * [1, 2, 5, 10].find(s => s * power >= 0.999 * rough);
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), values = [];
-  for (let k = Math.ceil(low / step - 1e-6); k * step <= high + 1e-6 * step; k++) values.push(k * step);
-  return values.map(v => [v, fixed(v, digits)]);
-}
+const LETTERS = 15;  // pixels from one line of words to the next
 
 class Chart {
-  constructor(id, {x, y, margin = {left: 52, right: 46, top: 28, bottom: 36}, label}) {
+  constructor(id, {x, y, margin = {left: 52, right: 50, top: 28, bottom: 36}, label}) {
     this.host = document.getElementById(id);
     this.svg = node("svg", {role: "img", "aria-label": label}, this.host);
     this.clip = node("rect", {}, node("clipPath", {id: id + "-clip"}, node("defs", {}, this.svg)));
     const layer = clipped => node("g", clipped ? {"clip-path": `url(#${id}-clip)`} : {}, this.svg);
-    this.back = layer(); this.curves = layer(true); this.front = layer(true); this.labels = layer(); this.over = layer(true);
+    this.back = layer(); this.curves = layer(true); this.front = layer(true); this.labels = layer(); this.marks = layer(); this.over = layer(true);
     this.readout = document.createElement("div");
     this.readout.className = "readout";
     this.host.append(this.readout);
@@ -54,12 +25,12 @@ class Chart {
       this.clip.setAttribute(n, v);
     this.back.replaceChildren();
     if (decorate) decorate(this.back);
-    for (const [v, text] of ticks(...xDomain, (this.x1 - this.x0) / 70)) {
+    for (const [v, text] of ticks(...xDomain, this.x1 - this.x0, 58)) {
       const x = this.x(v);
       node("line", {class: "grid", x1: x, x2: x, y1: this.y0, y2: this.y1}, this.back);
-      node("text", {x, y: this.y0 + 16, "text-anchor": "middle"}, this.back, text);
+      node("text", {class: "along", x, y: this.y0 + 16, "text-anchor": "middle"}, this.back, text);
     }
-    for (const [v, text] of ticks(...yDomain, (this.y0 - this.y1) / 45)) {
+    for (const [v, text] of ticks(...yDomain, this.y0 - this.y1, 42)) {
       const y = this.y(v);
       node("line", {class: "grid", x1: this.x0, x2: this.x1, y1: y, y2: y}, this.back);
       node("text", {x: this.x0 - 6, y: y + 4, "text-anchor": "end"}, this.back, text);
@@ -72,6 +43,8 @@ class Chart {
   }
   x(v) { return this.x0 + (v - this.xDomain[0]) / (this.xDomain[1] - this.xDomain[0]) * (this.x1 - this.x0); }
   y(v) { return this.y0 - (v - this.yDomain[0]) / (this.yDomain[1] - this.yDomain[0]) * (this.y0 - this.y1); }
+  invertX(px) { return this.xDomain[0] + (px - this.x0) / (this.x1 - this.x0) * (this.xDomain[1] - this.xDomain[0]); }
+  inside(y) { return y >= this.yDomain[0] && y <= this.yDomain[1]; }
   /** Draw one curve per model from [x, y] values; the exact one on top. */
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
@@ -83,55 +56,65 @@ class Chart {
         const above = ORDER.slice(0, ORDER.indexOf(m)).reverse().find(o => this.paths[o]);
         this.curves.insertBefore(path, above ? this.paths[above] : null);
       }
-      let d = "", pen = "M";
-      for (const [x, y] of curves[m]) {
-        if (!Number.isFinite(y)) { pen = "M"; continue; }
-        d += pen + this.x(x).toFixed(1) + "," + Math.max(-9999, Math.min(9999, this.y(y))).toFixed(1);
-        pen = "L";
-      }
-      path.setAttribute("d", d);
+      path.setAttribute("d", this.line(curves[m]));
     }
+  }
+  /** The path through [x, y] values, interrupted where there is none. */
+  line(points) {
+    let d = "", pen = "M";
+    for (const [x, y] of points) {
+      if (!Number.isFinite(y)) { pen = "M"; continue; }
+      d += pen + this.x(x).toFixed(1) + "," + Math.max(-9999, Math.min(9999, this.y(y))).toFixed(1);
+      pen = "L";
+    }
+    return d;
   }
   /** Name each curve where it ends or leaves the frame. */
   name(curves) {
     this.labels.replaceChildren();
     const right = [], edge = [];
     for (const m of ORDER) {
-      if (!(m in curves)) continue;
-      const ends = curves[m].filter(p => Number.isFinite(p[1]));
-      if (!ends.length) continue;
-      const inside = y => y >= this.yDomain[0] && y <= this.yDomain[1];
-      const last = ends[ends.length - 1];
-      if (inside(last[1])) { right.push({m, at: this.y(last[1]), y: this.y(last[1]), x: this.x(last[0])}); continue; }
-      const up = last[1] > this.yDomain[1], bound = this.yDomain[up ? 1 : 0];
-      let j = ends.length - 1;
-      while (j > 0 && !inside(ends[j - 1][1])) j--;
-      let x = ends[0][0];
-      if (j > 0) { const [p, q] = [ends[j - 1], ends[j]]; x = p[0] + (bound - p[1]) / (q[1] - p[1]) * (q[0] - p[0]); }
-      edge.push({m, up, x: this.x(x)});
+      const ends = (curves[m] ?? []).filter(p => Number.isFinite(p[1])), last = ends.at(-1);
+      if (!last) continue;
+      if (this.inside(last[1])) right.push({m, at: this.y(last[1]), x: this.x(last[0])});
+      else edge.push({m, up: last[1] > this.yDomain[1], x: this.x(this.#leaves(ends))});
     }
     right.sort((p, q) => p.at - q.at);
-    const gap = 13, low = this.y1 + 4, high = this.y0 - 2;
-    for (let pass = 0; pass < 40; pass++)
-      for (let i = 0; i < right.length; i++) {
-        right[i].y = Math.min(high, Math.max(low, right[i].y));
-        if (i && right[i].y - right[i - 1].y < gap) {
-          const push = (gap - right[i].y + right[i - 1].y) / 2;
-          right[i - 1].y -= push; right[i].y += push;
-        }
-      }
-    for (const {m, at, y, x} of right) {
+    spread(right.map(p => p.at), LETTERS, this.y1 + 4, this.y0 - 4).forEach((y, i) => {
+      const {m, at, x} = right[i];
       if (Math.abs(y - at) > 2 || x < this.x1 - 2) node("path", {class: "leader", fill: "none", style: colors(m), d: `M${x + 1},${at}L${this.x1 + 8},${y}`}, this.labels);
       node("text", {class: "name", style: colors(m), x: this.x1 + 10, y: y + 4}, this.labels, m);
-    }
-    edge.sort((p, q) => p.x - q.x);
+    });
     const taken = [];
-    for (const {m, up, x} of edge) {
+    for (const {m, up, x} of edge.sort((p, q) => p.x - q.x)) {
+      const text = node("text", {class: "name halo", style: colors(m)}, this.labels, m + (up ? " ↑" : " ↓"));
+      const width = text.getComputedTextLength(), left = Math.max(this.x0 + 3, Math.min(x + 5, this.x1 - 3 - width));
       let row = 0;
-      const left = Math.min(x + 5, this.x1 - 34);
       while (taken.some(t => t.up === up && t.row === row && left < t.end)) row++;
-      taken.push({up, row, end: left + 36});
-      node("text", {class: "name halo", style: colors(m), x: left, y: up ? this.y1 + 12 + 14 * row : this.y0 - 6 - 14 * row}, this.labels, m + (up ? " ↑" : " ↓"));
+      taken.push({up, row, end: left + width + 4});
+      text.setAttribute("x", left);
+      text.setAttribute("y", up ? this.y1 + 12 + LETTERS * row : this.y0 - 6 - LETTERS * row);
+    }
+  }
+  /** Where a curve whose end is not in the frame has left it. */
+  #leaves(ends) {
+    let j = ends.length - 1;
+    while (j > 0 && !this.inside(ends[j - 1][1])) j--;
+    if (j === 0) return ends[0][0];
+    const [p, q] = [ends[j - 1], ends[j]], bound = this.yDomain[q[1] > this.yDomain[1] ? 1 : 0];
+    return p[0] + (bound - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
+  }
+  /** Rule a line at a value of the x-axis, and say it there in place of the ticks it would cover. */
+  mark(value, label) {
+    this.marks.replaceChildren();
+    const x = this.x(value);
+    node("line", {class: "now", x1: x, x2: x, y1: this.y0 + 4, y2: this.y1}, this.marks);
+    const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = text.getComputedTextLength() / 2;
+    const at = Math.max(this.x0 + half - 20, Math.min(this.width - half, x));
+    text.setAttribute("x", at);
+    for (const tick of this.back.querySelectorAll(".along")) {
+      const covered = Math.abs(tick.getAttribute("x") - at) < half + tick.getComputedTextLength() / 2 + 8;
+      tick.setAttribute("visibility", covered ? "hidden" : "visible");
     }
   }
   /** Report the pointer, in pixels of the plot; null when it has left. */
@@ -143,7 +126,6 @@ class Chart {
     this.svg.addEventListener("pointerleave", () => move(null));
     document.addEventListener("pointerdown", e => { if (!this.host.contains(e.target)) move(null); });
   }
-  invertX(px) { return this.xDomain[0] + (px - this.x0) / (this.x1 - this.x0) * (this.xDomain[1] - this.xDomain[0]); }
   /** Show a box of lines [model or null, text, text] beside a place. */
   tell(place, title, lines) {
     this.readout.style.display = place ? "block" : "none";

@@ -9,10 +9,6 @@ for (const [name, packed] of Object.entries(DATA.arrays)) { D[name] = unpack(pac
 const W = D.omega.length, A = D.a.length;
 const LARGEST = D.a[A - 1], FASTEST = D.omega[W - 1], PAPER_BOUND = 0.2;
 
-const LOOK = {  // Okabe and Ito's colors, and dashes, as in the figures
-  exact: ["var(--ink)", ""], FrM: ["#0072B2", ""], FrM5: ["#0072B2", "1 3"], FrE: ["#009E73", "7 3"], FrI: ["#E69F00", "9 2 2 2"], CE: ["#CC79A7", "5 2"],
-  CI: ["#D55E00", "2 2"], FrC: ["#56B4E9", "7 2 2 2 2 2"], P3: ["#8a8f96", "1 3"], P4: ["#8a8f96", "4 4"], P5: ["#8a8f96", "12 3"],
-};
 const ABOUT = {
   exact: "periodic orbits of the geometrically exact beam", CI: "cantilever mode, inextensible (paper)",
   CE: "cantilever mode, extensible (paper)", FrI: "rotating mode, inextensible (paper)",

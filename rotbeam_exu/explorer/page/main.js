@@ -28,6 +28,11 @@ function showControls() {
   for (const key of ["scale", "norm"])
     for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
 }
+// Beside the charts where there is room, below them where there is none; Tab follows what is seen.
+const wide = matchMedia("(min-width: 1181px)");
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .notes")); }
+wide.addEventListener("change", arrange);
+arrange();
 function drawAll() {
   showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase();
 }

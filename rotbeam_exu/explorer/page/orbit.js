@@ -1,6 +1,6 @@
 // The tip's orbits in phase space.
 
-const orbit = new Chart("orbit", {x: "x = q/L", y: "dx/dτ", margin: {left: 44, right: 14, top: 28, bottom: 36}, label: "Orbit of the tip in phase space, one curve per model"});
+const orbit = new Chart("orbit", {x: "x = q/L", y: "dx/dτ", margin: {left: 44, right: 20, top: 28, bottom: 36}, label: "Orbit of the tip in phase space, one curve per model"});
 const LEVELS = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 8];
 const level = v => LEVELS.find(l => l >= v) ?? 10;
 let orbits = {};
@@ -29,6 +29,7 @@ function drawDot() {
   if (!dot) dot = node("circle", {class: "dot", r: 5}, orbit.front);
   const [x, v] = exactState(state.w, state.a, state.phase);
   dot.setAttribute("cx", orbit.x(x)); dot.setAttribute("cy", orbit.y(v));
+  document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam.`;
 }
 orbit.listen(place => {
   orbit.over.replaceChildren();

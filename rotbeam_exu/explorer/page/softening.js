@@ -8,9 +8,6 @@ function drawSoftening() {
   softening.frame([D.omega[0], FASTEST], LAMBDA[state.scale], back => {
     const y = softening.y(0);
     node("line", {class: "zero", x1: softening.x0, x2: softening.x1, y1: y, y2: y}, back);
-    const x = softening.x0 + 0.64 * (softening.x1 - softening.x0);
-    node("text", {class: "halo", x, y: softening.y1 + 12}, back, "softens");
-    node("text", {class: "halo", x, y: softening.y0 - 6}, back, "hardens");
   });
   for (const m of shown()) curves[m] = Array.from(D.omega, (v, w) => [v, lambda(m, w)]);
   softening.draw(curves);
@@ -19,7 +16,7 @@ function drawSoftening() {
 function markSpeed() {
   softening.front.replaceChildren();
   const x = softening.x(D.omega[state.w]);
-  node("line", {class: "now", x1: x, x2: x, y1: softening.y0, y2: softening.y1}, softening.front);
+  softening.mark(D.omega[state.w], `ω = ${fixed(D.omega[state.w], 2)}`);
   for (const m of shown().reverse()) {
     const y = softening.y(lambda(m, state.w));
     if (Number.isFinite(y)) node("circle", {cx: x, cy: y, r: 3.5, fill: stroke(m), "data-model": m}, softening.front);

@@ -8,7 +8,6 @@ function nearest(grid, value) {
   return best;
 }
 const shown = () => ORDER.filter(m => !state.hide.has(m));
-const plain = x => String(+x.toFixed(6));
 function hash() {
   return "#" + new URLSearchParams({omega: plain(D.omega[state.w]), a: plain(D.a[state.a]), scale: state.scale, norm: state.norm,
     hide: ORDER.concat("FE").filter(m => state.hide.has(m)).join(".")});
