@@ -40,6 +40,12 @@ WRAPPED = """() => [...document.querySelectorAll(".group, .hint, figcaption")].f
     return Math.max(...tops) - Math.min(...tops) > 6;
 }).map(row => row.textContent)"""
 
+BEYOND = """() => [...document.querySelectorAll("table, .hint, .slider, figcaption, .motion")]
+    .filter(e => e.getBoundingClientRect().right > e.parentElement.getBoundingClientRect().right + 1
+        || [...e.querySelectorAll("*")].some(c => c.checkVisibility()
+            && c.getBoundingClientRect().right > e.getBoundingClientRect().right + 1))
+    .map(e => e.textContent)"""
+
 
 def at_state(page, state):
     page.evaluate("hash => { location.hash = hash; }", state)
@@ -56,6 +62,7 @@ def test_nothing_overprints(open_page, url, width):
     assert not any(found.values()), found
     assert page.evaluate(WRAPPED) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert page.evaluate(BEYOND) == []
 
 
 @pytest.mark.parametrize("width", [1400, 1024, 800, 390])

@@ -37,13 +37,19 @@ function finiteElements() {
   }
   return found;
 }
-backbone.listen(place => {
+/** What the curves say at an amplitude. */
+function backboneNumbers(i) {
+  const lines = shown().map(m => [m, frequency(m, state.w, i) / base(m, state.w)]).filter(([, f]) => Number.isFinite(f)).sort((p, q) => q[1] - p[1]);
+  return [`a = ${fixed(D.a[i], 2)}`, lines.map(([m, f]) => [m, m, fixed(f, 5)])];
+}
+function tellBackbone(place) {
   backbone.over.replaceChildren();
   if (!place || place[0] < backbone.x0 || place[0] > backbone.x1 + 20) return backbone.tell(null);
-  const i = nearest(D.a, backbone.invertX(place[0])), x = backbone.x(D.a[i]), w = state.w;
+  const i = nearest(D.a, backbone.invertX(place[0])), x = backbone.x(D.a[i]);
   const point = finiteElements().find(([a, f]) => Math.hypot(backbone.x(a) - place[0], backbone.y(f) - place[1]) < 9);
   if (point) return backbone.tell(place, `${DATA.elements} finite elements`, [[null, "a", fixed(point[0], 4)], [null, "ω_NL", fixed(point[2], 4) + " rad/s"], [null, "ratio", fixed(point[1], 5)]]);
   node("line", {class: "cross", x1: x, x2: x, y1: backbone.y0, y2: backbone.y1}, backbone.over);
-  const lines = shown().map(m => [m, frequency(m, w, i) / base(m, w)]).filter(([, f]) => Number.isFinite(f)).sort((p, q) => q[1] - p[1]);
-  backbone.tell(place, `a = ${fixed(D.a[i], 2)}`, lines.map(([m, f]) => [m, m, fixed(f, 5)]));
-}, place => set({a: nearest(D.a, backbone.invertX(place[0]))}));
+  backbone.tell(place, ...backboneNumbers(i));
+}
+backbone.listen(tellBackbone, place => set({a: nearest(D.a, backbone.invertX(place[0]))}));
+backbone.step("a", D.a, tellBackbone, backboneNumbers);

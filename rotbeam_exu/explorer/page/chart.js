@@ -107,13 +107,14 @@ class Chart {
   /** Rule a line at a value of the x-axis, and say it there in place of the ticks it would cover. */
   mark(value, label) {
     this.marks.replaceChildren();
+    if (this.said) this.said();
     const x = this.x(value);
     node("line", {class: "now", x1: x, x2: x, y1: this.y0 + 4, y2: this.y1}, this.marks);
     const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = text.getComputedTextLength() / 2;
     const at = Math.max(this.x0 + half - 20, Math.min(this.width - half, x));
     text.setAttribute("x", at);
     for (const tick of this.back.querySelectorAll(".along")) {
-      const covered = Math.abs(tick.getAttribute("x") - at) < half + tick.getComputedTextLength() / 2 + 8;
+      const covered = Math.abs(tick.getAttribute("x") - at) < half + tick.getComputedTextLength() / 2 + 6;
       tick.setAttribute("visibility", covered ? "hidden" : "visible");
     }
   }
@@ -125,6 +126,26 @@ class Chart {
     if (pick) this.svg.addEventListener("click", e => pick(at(e)));
     this.svg.addEventListener("pointerleave", () => move(null));
     document.addEventListener("pointerdown", e => { if (!this.host.contains(e.target)) move(null); });
+  }
+  /** Let Tab reach the chart, and arrows move `key` of the state over a grid; `move` shows the numbers, `tells` says them. */
+  step(key, grid, move, tells) {
+    const steps = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10, Home: -Infinity, End: Infinity};
+    const show = () => move([this.x(grid[state[key]]), (this.y0 + this.y1) / 2]);
+    for (const [n, v] of Object.entries({tabindex: 0, role: "slider", "aria-label": `${this.svg.getAttribute("aria-label")}; arrow keys move the mark`, "aria-valuemin": 0, "aria-valuemax": grid.length - 1}))
+      this.svg.setAttribute(n, v);
+    this.svg.addEventListener("focus", () => { if (this.svg.matches(":focus-visible")) show(); });
+    this.svg.addEventListener("blur", () => move(null));
+    this.svg.addEventListener("keydown", e => {
+      if (!(e.key in steps) || e.ctrlKey || e.altKey || e.metaKey) return;
+      e.preventDefault();
+      set({[key]: Math.max(0, Math.min(grid.length - 1, state[key] + steps[e.key]))});
+      show();
+    });
+    this.said = () => {
+      this.svg.setAttribute("aria-valuenow", state[key]);
+      const [title, lines] = tells(state[key]);
+      this.svg.setAttribute("aria-valuetext", [title, ...lines.map(([, left, right]) => `${left} ${right}`)].join(", "));
+    };
   }
   /** Show a box of lines [model or null, text, text] beside a place. */
   tell(place, title, lines) {

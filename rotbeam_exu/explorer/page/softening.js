@@ -22,11 +22,17 @@ function markSpeed() {
     if (Number.isFinite(y)) node("circle", {cx: x, cy: y, r: 3.5, fill: stroke(m), "data-model": m}, softening.front);
   }
 }
-softening.listen(place => {
+/** What the curves say at a speed. */
+function softeningNumbers(w) {
+  const lines = shown().map(m => [m, lambda(m, w)]).filter(([, v]) => Number.isFinite(v)).sort((p, q) => q[1] - p[1]);
+  return [`ω = ${fixed(D.omega[w], 2)} rad/s`, lines.map(([m, v]) => [m, m, fixed(v, 5)])];
+}
+function tellSoftening(place) {
   softening.over.replaceChildren();
   if (!place || place[0] < softening.x0 || place[0] > softening.x1 + 20) return softening.tell(null);
   const w = nearest(D.omega, softening.invertX(place[0])), x = softening.x(D.omega[w]);
   node("line", {class: "cross", x1: x, x2: x, y1: softening.y0, y2: softening.y1}, softening.over);
-  const lines = shown().map(m => [m, lambda(m, w)]).filter(([, v]) => Number.isFinite(v)).sort((p, q) => q[1] - p[1]);
-  softening.tell(place, `ω = ${fixed(D.omega[w], 2)} rad/s`, lines.map(([m, v]) => [m, m, fixed(v, 5)]));
-}, place => set({w: nearest(D.omega, softening.invertX(place[0]))}));
+  softening.tell(place, ...softeningNumbers(w));
+}
+softening.listen(tellSoftening, place => set({w: nearest(D.omega, softening.invertX(place[0]))}));
+softening.step("w", D.omega, tellSoftening, softeningNumbers);
