@@ -19,7 +19,8 @@ from .data import AMPLITUDES, OMEGAS, explorer_data
 __all__ = ["AMPLITUDES", "OMEGAS", "explorer_data", "explorer_page"]
 
 _SCRIPTS = (
-    "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "table", "main",
+    "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "table",
+    "export", "main",
 )  # fmt: skip
 """Of page/, in the order in which they run."""
 _AXIS_STEP = 5e-5
