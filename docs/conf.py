@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 import subprocess
 import sys
@@ -26,6 +25,7 @@ version = release = rotbeam_exu.__version__
 extensions = [
     "computed",
     "myst_parser",
+    "reference_pages",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
@@ -129,13 +129,6 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
             lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
 
 
-def skip(app: Any, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
-    """Leave a function out that shares its full name with a module, which the link would find."""
-    del app, what, options
-    module = f"{getattr(obj, '__module__', '')}.{name}"
-    return True if inspect.isfunction(obj) and module in sys.modules else skipped or None
-
-
 def write_interactive() -> None:
     """Write the explorer and the animation that the pages embed, by the command line itself."""
     static = HERE / "_static"
@@ -159,5 +152,4 @@ def write_interactive() -> None:
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("autodoc-process-docstring", plain, priority=400)
-    app.connect("autodoc-skip-member", skip)
     app.connect("builder-inited", lambda _: write_interactive(), priority=100)
