@@ -57,6 +57,10 @@ bibtex_default_style = "unsrt"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
+autodoc_type_aliases = {
+    "ArrayLike": "numpy.typing.ArrayLike",
+    **dict.fromkeys(("FloatArray", "ComplexArray"), "numpy.ndarray"),
+}
 autodoc_default_options = {"members": True, "ignore-module-all": True}
 default_role = "literal"
 napoleon_google_docstring = False

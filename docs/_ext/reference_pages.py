@@ -10,8 +10,9 @@ import contextlib
 import doctest
 import io
 import pkgutil
+import re
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +81,34 @@ def add_picture(app: Any, what: str, name: str, obj: Any, options: Any, lines: l
         ]
 
 
+def link_names(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Make links of the public names that a docstring speaks of."""
+    del app, what, options
+    own = getattr(obj, "__name__", "")
+    for i, line in enumerate(lines):
+        if not line.lstrip().startswith((">>>", "...")):
+            lines[i] = re.sub(r"(?<![:`~])`(\w+)`(?!`)", partial(_link, own), line)
+
+
+def _link(own: str, match: re.Match[str]) -> str:
+    name = _by_short_name().get(match[1])
+    return f":py:{role_of(name)}:`~{name}`" if name and match[1] != own else match[0]
+
+
+@cache
+def _by_short_name() -> dict[str, str]:
+    # Of two with one name the first, the theory's.
+    return {name.rpartition(".")[2]: name for name in reversed(list(public_names()))}
+
+
+def hide_constructor(
+    app: Any, what: str, name: str, obj: Any, options: Any, signature: str, returned: str
+) -> tuple[str, str] | None:
+    """Leave out how a result is made: not by its reader."""
+    del app, name, options, signature, returned
+    return ("", "") if what == "class" and "Parameters\n" not in (obj.__doc__ or "") else None
+
+
 @cache
 def _known() -> dict[str, Path]:
     return modules(*PACKAGES)
@@ -94,7 +123,7 @@ def to_source(app: Any, env: Any, node: Any, contnode: nodes.Element) -> nodes.N
     if module is None:
         return None
     name = target[len(module) + 1 :]
-    analyzer = ModuleAnalyzer.for_module(module)
+    analyzer = ModuleAnalyzer.for_file(_known()[module], module)
     tags = analyzer.find_tags()
     if name and name not in tags:
         return None
@@ -117,5 +146,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("builder-inited", write_pages)
     app.connect("autodoc-process-docstring", add_picture, priority=900)  # after napoleon
+    app.connect("autodoc-process-docstring", link_names, priority=300)  # before all else
+    app.connect("autodoc-process-signature", hide_constructor)
     app.connect("missing-reference", to_source)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": False}
