@@ -30,7 +30,8 @@ GROUPS = (
     _group(
         "Motion and loads",
         "How its clamp turns, and what acts on it.",
-        analytic="SpinUp SmoothRamp Table SteadyRotation Gravity TipForce DistributedForce SpeedRipple",
+        analytic="SpinUp SmoothRamp Table SteadyRotation Gravity TipForce DistributedForce "
+        "SpeedRipple",
     ),
     _group(
         "Linear vibration",
