@@ -69,6 +69,14 @@ class Campbell:
         Where frequencies cross the lines kω, k from 1, within the speeds.
     planes : tuple of str
         The family of each column.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 2), count=2, orders=5)
+    >>> print(diagram.frequencies[-1].round(4), f"rad/s, tracked by {diagram.mac.min():.3f}")
+    [ 4.8604 33.3739] rad/s, tracked by 0.977
+    >>> axes = diagram.plot()
     """
 
     beam: AnyBlade
@@ -161,6 +169,16 @@ def campbell(
     ------
     ValueError
         If the speeds do not ascend from 0 or above, or `linear_modes` refuses one.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 3), count=2, orders=4)
+    >>> for meeting in diagram.crossings[:3]:
+    ...     print(f"mode {meeting.mode} meets {meeting.order}ω at {meeting.omega:.3f} rad/s")
+    mode 1 meets 1ω at 3.208 rad/s
+    mode 1 meets 2ω at 1.490 rad/s
+    mode 1 meets 3ω at 0.980 rad/s
     """
     speeds = finite_values("omegas", omegas, "rad/s")
     for speed in speeds:

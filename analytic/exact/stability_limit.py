@@ -112,6 +112,12 @@ def stability_limit(
         If the section out of the plane is unknown, or its torsion where that decides.
     AmplitudeNotReachedError
         If no orbit grows out of the mode at all.
+
+    Examples
+    --------
+    >>> from analytic import Beam, stability_limit
+    >>> round(stability_limit(Beam.reference().rectangle(), omega=4.0).amplitude, 4)
+    0.0545
     """
     require_out_of_plane(blade)
     require_undamped(blade, "a damped blade has no free periodic orbits")
@@ -213,6 +219,12 @@ def growth_map(
         Rotation speeds [rad/s] and peak tip deflections |q|/L.
     mode : int
         In-plane mode from which the orbits grow, from 1.
+
+    Examples
+    --------
+    >>> from analytic import Beam, growth_map
+    >>> print(growth_map(Beam.reference().rectangle(), [4.0], [0.02, 0.1]).round(2))
+    [[ 0.   33.67]]
     """
     require_out_of_plane(blade)
     speeds = finite_values("omegas", omegas, "rad/s")
@@ -247,6 +259,12 @@ def limit_map(
         Rotation speeds [rad/s].
     mode, largest
         As for `stability_limit`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, limit_map
+    >>> print(limit_map(Beam.reference(), ratios=[1.0], omegas=[4.0], largest=0.03))
+    [[inf]]
     """
     shapes = [OutOfPlane.rectangle(ratio) for ratio in finite_values("ratios", ratios).tolist()]
     speeds = finite_values("omegas", omegas, "rad/s").tolist()
@@ -276,6 +294,12 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     amplitude : float
         Peak |q|/L of the motion, about that of an orbit of `mode`.
     mode : int
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_note
+    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
+    ''
     """
     unit = blade.unit
     if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
