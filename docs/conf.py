@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 import subprocess
 import sys
@@ -26,6 +25,7 @@ version = release = rotbeam_exu.__version__
 extensions = [
     "computed",
     "myst_parser",
+    "reference_pages",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
@@ -57,6 +57,10 @@ bibtex_default_style = "unsrt"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
+autodoc_type_aliases = {
+    "ArrayLike": "numpy.typing.ArrayLike",
+    **dict.fromkeys(("FloatArray", "ComplexArray"), "numpy.ndarray"),
+}
 autodoc_default_options = {"members": True, "ignore-module-all": True}
 default_role = "literal"
 napoleon_google_docstring = False
@@ -129,13 +133,6 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
             lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
 
 
-def skip(app: Any, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
-    """Leave a function out that shares its full name with a module, which the link would find."""
-    del app, what, options
-    module = f"{getattr(obj, '__module__', '')}.{name}"
-    return True if inspect.isfunction(obj) and module in sys.modules else skipped or None
-
-
 def write_interactive() -> None:
     """Write the explorer and the animations that the pages embed, by the command line itself."""
     for line in (
@@ -151,5 +148,4 @@ def write_interactive() -> None:
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("autodoc-process-docstring", plain, priority=400)
-    app.connect("autodoc-skip-member", skip)
     app.connect("builder-inited", lambda _: write_interactive(), priority=100)

@@ -63,6 +63,13 @@ class BackboneBranch:
         Where amplitude turns around.
     branch_points : tuple of Fold
         Where another branch crosses a piece that was followed by arclength; `switched` follows it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_branch
+    >>> found = backbone_branch(Beam.reference(), omega=6.0, up_to=0.1, inextensible=True)
+    >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
+    3.73001 rad/s at 0.10 L
     """
 
     beam: AnyBlade
@@ -157,6 +164,14 @@ def backbone_branch(
         If an argument is refused.
     AmplitudeNotReachedError
         If no orbit grows out of the mode.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_branch
+    >>> found = backbone_branch(Beam.reference(), omega=4.0, up_to=0.15, inextensible=True)
+    >>> for one in found.resonances:
+    ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
+    harmonic 16 meets mode 3 at a = 0.1269
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     if positive("up_to", up_to) >= 1.0:
