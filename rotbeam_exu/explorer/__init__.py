@@ -20,7 +20,7 @@ __all__ = ["AMPLITUDES", "EXACT_RAMP_TIMES", "OMEGAS", "explorer_data", "explore
 
 _SCRIPTS = (
     "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "spin_up",
-    "table", "export", "main",
+    "table", "table_file", "own", "export", "main",
 )  # fmt: skip
 """Of page/, in the order in which they run."""
 _STEP = 5e-5
@@ -90,7 +90,7 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
 
 
 def _rounded(values: xr.DataArray) -> dict[str, Any]:
-    return _packed(np.rint(values / _STEP).fillna(_UNKNOWN), "int16")
+    return _packed(np.rint((values / _STEP).fillna(_UNKNOWN)), "int16")
 
 
 def _packed(values: ArrayLike, dtype: str) -> dict[str, Any]:

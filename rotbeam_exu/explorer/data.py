@@ -88,16 +88,7 @@ def explorer_data(
     beam = beam or Beam.reference()
     _evenly("omegas", omegas)
     _evenly("amplitudes", amplitudes)
-    if exact_ramp_times is None:
-        exact_ramp_times = [T for T in EXACT_RAMP_TIMES if duration > T]
-    if (
-        np.any(np.diff(exact_ramp_times) <= 0.0)
-        or not max(exact_ramp_times, default=duration) < duration
-    ):
-        raise ValueError(
-            f"exact_ramp_times must ascend and end before duration = {duration:g} s, got "
-            f"{list(exact_ramp_times)}"
-        )
+    exact_ramp_times = _ramp_times(exact_ramp_times, duration)
     ramps = list(itertools.product(finite_element_omegas, exact_ramp_times))
     total = len(omegas) + len(finite_element_omegas) * len(ramp_times) + len(ramps)
 
@@ -127,7 +118,7 @@ def explorer_data(
             orbits = xr.concat([future.result() for future in exact], dim="omega")
             spin_ups = xr.combine_by_coords(
                 [one.result().expand_dims(("fe_omega", "exact_ramp_time")) for one in spun]
-            )
+            ).sel(fe_omega=list(finite_element_omegas))
         finally:
             for future in (*exact, *spun):
                 future.cancel()
@@ -180,3 +171,12 @@ def _evenly(name: str, values: Sequence[float]) -> None:
         raise ValueError(
             f"{name} must ascend in equal steps, for a slider shows them, got {list(values)}"
         )
+
+
+def _ramp_times(given: Sequence[float] | None, duration: float) -> list[float]:
+    times = [T for T in EXACT_RAMP_TIMES if duration > T] if given is None else list(given)
+    if np.any(np.diff(times) <= 0.0) or max(times, default=duration) >= duration:
+        raise ValueError(
+            f"exact_ramp_times must ascend and end before duration = {duration:g} s, got {times}"
+        )
+    return times

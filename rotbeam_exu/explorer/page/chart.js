@@ -45,10 +45,10 @@ class Chart {
   y(v) { return this.y0 - (v - this.yDomain[0]) / (this.yDomain[1] - this.yDomain[0]) * (this.y0 - this.y1); }
   invertX(px) { return this.xDomain[0] + (px - this.x0) / (this.x1 - this.x0) * (this.xDomain[1] - this.xDomain[0]); }
   inside(y) { return y >= this.yDomain[0] && y <= this.yDomain[1]; }
-  /** Draw one curve per model from [x, y] values; the exact one on top. */
+  /** Draw one curve per model from [x, y] values; the exact one above others, own ones above it. */
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
-    const order = [...ORDER, ...Object.keys(curves).filter(m => !ORDER.includes(m))];
+    const order = [...Object.keys(curves).filter(m => !ORDER.includes(m)), ...ORDER];
     for (const m of order.toReversed()) {
       if (!(m in curves)) continue;
       let path = this.paths[m];

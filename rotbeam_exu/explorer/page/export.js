@@ -54,7 +54,7 @@ function toSVG(figure) {
     keys.sort((m, n) => ORDER.indexOf(m) - ORDER.indexOf(n)).forEach((m, i) => {
       const x = 8 + 78 * (i % across), y = 26 + height + 18 * Math.floor(i / across) + 6;
       node("line", {class: m === "exact" ? "curve exact" : "curve", style: colors(m), "stroke-dasharray": dashes(m), x1: x, x2: x + 24, y1: y, y2: y}, made);
-      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, m === "closed" ? "closed form" : m);
+      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, nameOf(m));
     });
     const all = [...made.querySelectorAll("*")];
     const styles = all.map(e => { const computed = getComputedStyle(e); return KEPT.map(name => `${name}:${computed.getPropertyValue(name)}`).join(";"); });
@@ -89,7 +89,7 @@ function chosen(id) {
 const stateInWords = id => chosen(id).map(([, letter, value, unit]) => `${letter} = ${plain(value)}${unit}`).join(", ");
 async function save(figure, kind) {
   const id = figure.querySelector(".plot").id, about = `Rotating beam explorer, ${titleOf(figure)}: ${stateInWords(id)}`;
-  const blob = kind === "csv" ? new Blob([toCSV(COLUMNS[id](), [about, ...DATA.blade.split("\n")].filter(Boolean).join("; "))], {type: "text/csv"})
+  const blob = kind === "csv" ? new Blob([toCSV([...COLUMNS[id](), ...ownColumns(id)], [about, ...DATA.blade.split("\n")].filter(Boolean).join("; "))], {type: "text/csv"})
     : kind === "svg" ? new Blob([toSVG(figure).text], {type: "image/svg+xml"}) : await toPNG(toSVG(figure));
   const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: [id, ...chosen(id).map(([name, , value]) => name + plain(value))].join("-") + `.${kind}`});
   link.click();

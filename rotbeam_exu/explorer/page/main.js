@@ -16,7 +16,7 @@ for (const key of ["scale", "norm"])
     button.addEventListener("click", () => set({[key]: button.dataset[key]}));
 document.getElementById("blade").textContent = DATA.blade;
 document.getElementById("mesh").textContent = `Finite elements: ${DATA.elements} cables in Exudyn, spun up in ` +
-  `${Math.min(...D.ramp_time)} to ${Math.max(...D.ramp_time)} s, ratio to the mesh's own natural frequency.`;
+  `${Math.min(...D.ramp_time)} to ${Math.max(...D.ramp_time)} s, over the mesh's own ω_n.`;
 
 function showControls() {
   const omega = fixed(D.omega[state.w], 2) + " rad/s", amplitude = fixed(D.a[state.a], 2);
@@ -32,7 +32,7 @@ function showControls() {
 }
 // Beside the charts where there is room, below them where there is none; Tab follows what is seen.
 const wide = matchMedia("(min-width: 1181px)");
-function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .notes")); }
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .own-data, .notes")); }
 wide.addEventListener("change", arrange);
 arrange();
 function drawAll() {

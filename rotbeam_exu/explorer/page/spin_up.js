@@ -29,7 +29,7 @@ function drawSpinUp() {
     node("path", {class: "zero", fill: "none", d: `M${spinUp.x0},${spinUp.y(0)}H${spinUp.x1}`}, back);
   });
   spinUp.ramp.setAttribute("width", spinUp.x(T()) - spinUp.x0);
-  spinUp.draw(state.hide.has("exact") ? {} : {exact: spinUpCurve()});
+  spinUp.draw({...state.hide.has("exact") ? {} : {exact: spinUpCurve()}, ...ownHistories()});
   spinUp.mark(T(), `T = ${plain(T())}`);
   spinUp.front.replaceChildren();
   const a = exactLeft(j, state.t), mesh = meshLeft(j, T());
