@@ -102,12 +102,14 @@ def _by_short_name() -> dict[str, str]:
 
 
 def brief_signature(
-    app: Any, what: str, name: str, obj: Any, options: Any, signature: str, returned: str
-) -> tuple[str, str]:
+    app: Any, what: str, name: str, obj: Any, options: Any, signature: str | None, returned: Any
+) -> tuple[str, str] | None:
     """Write arrays as such, and leave out how a result is made: not by its reader."""
     del app, name, options
     if what == "class" and "Parameters\n" not in (obj.__doc__ or ""):
         return "", ""
+    if not signature:
+        return None
     forward, array = r"TypeAliasForwardRef\('numpy\.([\w.]+)'\)", r"ndarray\[tuple.*?dtype\[\w+\]\]"
     signature, returned = (re.sub(forward, r"\1", text or "") for text in (signature, returned))
     return re.sub(array, "ndarray", signature), re.sub(array, "ndarray", returned)
