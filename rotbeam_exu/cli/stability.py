@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
-from cyclopts import Parameter
 
 from analytic import AnyBlade, Beam, Blade, OutOfPlane, planar_stability, stability_limit
 from analytic.input_checks import whole_number
@@ -17,7 +16,7 @@ from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .cost import require_affordable
-from .options import Results, Whole
+from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns
 from .targets import listed, refuse_to_replace
 
@@ -35,7 +34,7 @@ def stability(
     section: Shape = "given",
     ratio: float | None = None,
     poisson_ratio: float = 0.3,
-    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = _AMPLITUDES,
+    amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     config: Path | None = None,
     results: Results = _RESULTS,
