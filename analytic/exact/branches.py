@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
+from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import Branch, branch_of
@@ -22,6 +23,7 @@ from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue
 
 _GRID = 0.05  # of |q|/L between the orbits of the main path
+_CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
 
 
@@ -179,7 +181,7 @@ def backbone_branch(
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     branch = branch_of(
-        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions)
+        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions), _CARE
     )
     main = _main_path(branch, up_to)
     per_second = beam.frequency_scale

@@ -73,9 +73,9 @@ class Campbell:
     Examples
     --------
     >>> from analytic import Beam, campbell
-    >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 2), count=2, orders=5)
+    >>> diagram = campbell(Beam.reference(), omegas=range(13), count=2, orders=5)
     >>> print(diagram.frequencies[-1].round(4), f"rad/s, tracked by {diagram.mac.min():.3f}")
-    [ 4.8604 33.3739] rad/s, tracked by 0.977
+    [ 4.8604 33.3739] rad/s, tracked by 0.994
     >>> axes = diagram.plot()
     """
 

@@ -98,7 +98,8 @@ GROUPS = (
 
 DATA = {
     "analytic.AnyBlade": "What theory and simulation take: a `Beam` or a `Blade`.",
-    "analytic.VARIANTS": "The variants of the reduced model, by name.",
+    "analytic.VARIANTS": "The variants of the reduced model by name: CI, CE, FrI, FrE and, by "
+    "polynomials, P3, P4 and P5 of the paper; FrC, FrM and FrM5, which are ours.",
 }
 """What names say that have no docstring of their own."""
 

@@ -101,12 +101,18 @@ def _by_short_name() -> dict[str, str]:
     return {name.rpartition(".")[2]: name for name in reversed(list(public_names()))}
 
 
-def hide_constructor(
-    app: Any, what: str, name: str, obj: Any, options: Any, signature: str, returned: str
+def brief_signature(
+    app: Any, what: str, name: str, obj: Any, options: Any, signature: str | None, returned: Any
 ) -> tuple[str, str] | None:
-    """Leave out how a result is made: not by its reader."""
-    del app, name, options, signature, returned
-    return ("", "") if what == "class" and "Parameters\n" not in (obj.__doc__ or "") else None
+    """Write arrays as such, and leave out how a result is made: not by its reader."""
+    del app, name, options
+    if what == "class" and "Parameters\n" not in (obj.__doc__ or ""):
+        return "", ""
+    if not signature:
+        return None
+    forward, array = r"TypeAliasForwardRef\('numpy\.([\w.]+)'\)", r"ndarray\[tuple.*?dtype\[\w+\]\]"
+    signature, returned = (re.sub(forward, r"\1", text or "") for text in (signature, returned))
+    return re.sub(array, "ndarray", signature), re.sub(array, "ndarray", returned)
 
 
 @cache
@@ -125,6 +131,8 @@ def to_source(app: Any, env: Any, node: Any, contnode: nodes.Element) -> nodes.N
     name = target[len(module) + 1 :]
     analyzer = ModuleAnalyzer.for_file(_known()[module], module)
     tags = analyzer.find_tags()
+    if ("", name) in analyzer.find_attr_docs():
+        name = ""  # of a constant no place is known, but its module
     if name and name not in tags:
         return None
     sources = vars(env).setdefault("_viewcode_modules", {})
@@ -147,6 +155,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("builder-inited", write_pages)
     app.connect("autodoc-process-docstring", add_picture, priority=900)  # after napoleon
     app.connect("autodoc-process-docstring", link_names, priority=300)  # before all else
-    app.connect("autodoc-process-signature", hide_constructor)
+    app.connect("autodoc-process-signature", brief_signature)
     app.connect("missing-reference", to_source)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": False}

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
-from cyclopts import Parameter
 
 from analytic import Beam, planar_stability, stability_limit
 from analytic.input_checks import whole_number
@@ -17,7 +15,7 @@ from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .cost import require_affordable
-from .options import Results, Whole
+from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns
 from .sections import SectionShape
 from .targets import listed, refuse_to_replace
@@ -33,7 +31,7 @@ def stability(
     *,
     omega: float,
     shape: SectionShape = _GIVEN,
-    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = _AMPLITUDES,
+    amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     config: Path | None = None,
     results: Results = _RESULTS,
