@@ -265,8 +265,8 @@ def test_an_unstable_rectangle_grows_as_theory_says():
 def test_the_cable_grows_inside_its_tongue(amplitude, w_bar, periods):
     """Three quarters of an hour of the blade's time for three powers of ten at half its length.
 
-    Steps of 5 ms move the tongue, 0.025 wide, by 0.0016; 10 ms by four times as much, and the
-    motion then grows by a sixth too slowly.
+    Steps of 5 ms move the tongue, 0.025 wide, by 0.0016; 10 ms by four times as much, and then
+    the motion grows by a sixth too slowly.
     """
     omega = w_bar * ALIKE.frequency_scale
     stability = planar_stability(ALIKE, omega, [amplitude])
