@@ -49,7 +49,7 @@ class Chart {
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
     const order = [...Object.keys(curves).filter(m => !ORDER.includes(m)), ...ORDER];
-    for (const m of order.toReversed()) {
+    for (const m of [...order].reverse()) {
       if (!(m in curves)) continue;
       let path = this.paths[m];
       if (!path) {

@@ -32,7 +32,7 @@ function showControls() {
 }
 // Beside the charts where there is room, below them where there is none; Tab follows what is seen.
 const wide = matchMedia("(min-width: 1181px)");
-function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .own-data, .notes")); }
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .words")); }
 wide.addEventListener("change", arrange);
 arrange();
 function drawAll() {
