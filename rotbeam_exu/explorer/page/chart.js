@@ -49,7 +49,7 @@ class Chart {
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
     const order = [...Object.keys(curves).filter(m => !ORDER.includes(m)), ...ORDER];
-    for (const m of order.toReversed()) {
+    for (const m of [...order].reverse()) {
       if (!(m in curves)) continue;
       let path = this.paths[m];
       if (!path) {
@@ -89,7 +89,7 @@ class Chart {
     const taken = [];
     for (const {m, up, x} of edge.sort((p, q) => p.x - q.x)) {
       const text = node("text", {class: "name halo", style: colors(m)}, this.labels, m + (up ? " ↑" : " ↓"));
-      const width = text.getComputedTextLength(), left = Math.max(this.x0 + 3, Math.min(x + 5, this.x1 - 3 - width));
+      const width = widthOf(text), left = Math.max(this.x0 + 3, Math.min(x + 5, this.x1 - 3 - width));
       let row = 0;
       while (taken.some(t => t.up === up && t.row === row && left < t.end)) row++;
       taken.push({up, row, end: left + width + 4});
@@ -111,11 +111,11 @@ class Chart {
     if (this.said) this.said();
     const x = this.x(value);
     node("line", {class: "now", x1: x, x2: x, y1: this.y0 + 4, y2: this.y1}, this.marks);
-    const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = text.getComputedTextLength() / 2;
+    const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = widthOf(text) / 2;
     const at = Math.max(this.x0 + half - 20, Math.min(this.width - half, x));
     text.setAttribute("x", at);
     for (const tick of this.back.querySelectorAll(".along")) {
-      const covered = Math.abs(tick.getAttribute("x") - at) < half + tick.getComputedTextLength() / 2 + 6;
+      const covered = Math.abs(tick.getAttribute("x") - at) < half + widthOf(tick) / 2 + 6;
       tick.setAttribute("visibility", covered ? "hidden" : "visible");
     }
   }

@@ -16,6 +16,13 @@ function write(text, label) {
   for (const [, sub, part] of label.matchAll(/(_?)([A-Za-z]+|[^_A-Za-z]+)/g))
     node("tspan", sub ? {"font-size": "80%", dy: 3} : {}, text, part).after(...(sub ? [node("tspan", {dy: -3}, null, "\u200b")] : []));
 }
+const WIDTHS = new Map();
+/** How wide a text is; remembered, for to measure makes the browser lay out the page. */
+function widthOf(text) {
+  const key = text.getAttribute("class") + text.textContent;
+  if (!WIDTHS.has(key)) WIDTHS.set(key, text.getComputedTextLength());
+  return WIDTHS.get(key);
+}
 const minus = text => text.replace("-", "−");
 const fixed = (x, digits) => Number.isFinite(x) ? minus((Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)) : "–";
 const plain = x => String(+x.toFixed(6));
