@@ -135,23 +135,15 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
 
 
 def write_interactive() -> None:
-    """Write the explorer and the animation that the pages embed, by the command line itself."""
-    static = HERE / "_static"
-    for arguments in (
-        ["explore", "--cache", str(HERE / "_build" / "runs"), "--out", f"{static}/explorer.html"],
-        [
-            "animate",
-            "--omega",
-            "6",
-            "--ramp-time",
-            "3",
-            "--force",
-            "--out",
-            f"{static}/spin_up.gif",
-        ],
+    """Write the explorer and the animations that the pages embed, by the command line itself."""
+    for line in (
+        "explore --cache _build/runs --out _static/explorer.html",
+        "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
+        "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
+        "--out _static/figures/linear.gif",
     ):
         rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
-        subprocess.run([*rotbeam, *arguments], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
+        subprocess.run([*rotbeam, *line.split()], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
 
 
 def setup(app: Any) -> None:

@@ -53,9 +53,9 @@ GROUPS = (
     ),
     _group(
         "Spin-up",
-        "The transient, exactly, what a ramp leaves, and ramps that leave nothing.",
+        "The transient, exactly and linear, what a ramp leaves, and ramps that leave nothing.",
         analytic="spin_up_response SpinUpResponse residual_amplitude exact_residual "
-        "quiet_ramp_times QuietRamps design_ramp",
+        "quiet_ramp_times QuietRamps design_ramp linear_response LinearResponse",
     ),
     _group(
         "Out of the plane",

@@ -1,6 +1,6 @@
 """The Explorer: one self-contained page that shows every model, the exact beam and the mesh.
 
-`explorer_data` computes, `explorer_page` writes; the page itself is template.html.
+`explorer_data` computes, `explorer_page` writes: the files in page/ joined into one.
 """
 
 from __future__ import annotations
@@ -18,7 +18,11 @@ from .data import AMPLITUDES, OMEGAS, explorer_data
 
 __all__ = ["AMPLITUDES", "OMEGAS", "explorer_data", "explorer_page"]
 
-_MARK = "/*DATA*/null"
+_SCRIPTS = (
+    "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "table",
+    "export", "main",
+)  # fmt: skip
+"""Of page/, in the order in which they run."""
 _AXIS_STEP = 5e-5
 """Step to which the beam's axis is rounded, of the length: a hundredth of a pixel."""
 
@@ -42,9 +46,15 @@ def explorer_page(data: xr.Dataset | None = None, **options: Any) -> str:
         data = explorer_data(**options)
     elif options:
         raise TypeError(f"options are for new data, but data were given with {', '.join(options)}")
-    template = resources.files(__name__).joinpath("template.html").read_text(encoding="utf-8")
+    scripts = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
+    page = _part("page.html").replace("/*STYLE*/", _part("style.css"))
+    page = page.replace("/*SCRIPTS*/", scripts)
     # "<" escaped: no text in the data can end the script.
-    return template.replace(_MARK, json.dumps(_document(data)).replace("<", "\\u003c"))
+    return page.replace("/*DATA*/null", json.dumps(_document(data)).replace("<", "\\u003c"))
+
+
+def _part(name: str) -> str:
+    return resources.files(__name__).joinpath("page", name).read_text(encoding="utf-8")
 
 
 def _document(data: xr.Dataset) -> dict[str, Any]:

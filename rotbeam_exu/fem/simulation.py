@@ -153,8 +153,8 @@ def run_case(
         "wall_time": wall_time,
     }
     run = _checked(run, cause)
-    if "w" in run:
-        return run  # in space it shows by itself
+    if getattr(case.model, "leaves_plane", False):
+        return run  # shows by itself whether it does
     steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
     if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
         run.attrs["out_of_plane"] = note

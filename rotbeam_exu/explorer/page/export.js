@@ -1,0 +1,100 @@
+// Each chart as PNG, SVG or CSV, made here: nothing is asked of a network.
+
+/** Columns [name with its unit, values] of each chart's CSV; a chart adds its own here. */
+const COLUMNS = {
+  backbone() {
+    const steps = Array.from({length: A + 1}, (_, i) => i - 1), points = finiteElements();
+    return [
+      ["a [-]", steps.map(i => i < 0 ? 0 : D.a[i])],
+      ...shown().map(m => [`omega_NL ${m} [rad/s]`, steps.map(i => frequency(m, state.w, i))]),
+      ...points.length ? [["a finite elements [-]", points.map(p => p[0])], ["omega_NL finite elements [rad/s]", points.map(p => p[2])]] : [],
+    ];
+  },
+  orbit() {
+    const degrees = Array.from({length: TURN + 1}, (_, k) => 360 * k / TURN);
+    return [["phase [deg]", degrees], ...shown().flatMap(m => [[`x ${m} [-]`, orbits[m].map(p => p[0])], [`dx/dtau ${m} [-]`, orbits[m].map(p => p[1])]])];
+  },
+  softening: () => [["omega [rad/s]", [...D.omega]], ...shown().map(m => [`lambda_omega ${m} [-]`, [...D.omega].map((_, w) => lambda(m, w))])],
+  beam() {
+    const points = beamAxis(state.w, state.a, state.phase);
+    return [["x/L [-]", points.map(p => p[0])], ["y/L [-]", points.map(p => p[1])]];
+  },
+};
+const quoted = text => /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+function toCSV(columns, about) {
+  const rows = Math.max(...columns.map(([, values]) => values.length));
+  const lines = Array.from({length: rows}, (_, i) => columns.map(([, values]) => Number.isFinite(values[i]) ? String(values[i]) : "").join(","));
+  return [`# ${about}`, columns.map(([name]) => quoted(name)).join(","), ...lines, ""].join("\n");
+}
+
+const KEPT = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "stroke-linecap", "opacity", "paint-order",
+  "font-family", "font-size", "font-weight", "text-anchor"];
+/** The drawing with its styles written into it, under its title; curves that bear no name get a key. */
+function toSVG(figure) {
+  const drawn = figure.querySelector(".plot > svg"), {width, height} = drawn.getBoundingClientRect();
+  document.documentElement.classList.add("printing");  // on white, whatever the screen
+  try {
+    const named = figure.querySelector("text.name"), keys = named ? [] : [...new Set([...drawn.querySelectorAll("[data-model]")].map(e => e.dataset.model))];
+    const across = Math.max(1, Math.floor((width - 16) / 78)), tall = 26 + height + 18 * Math.ceil(keys.length / across);
+    const made = node("svg", {xmlns: SVG, width, height: tall, viewBox: `0 0 ${width} ${tall}`});
+    drawn.append(made);  // where styles reach it
+    node("rect", {width, height: tall, fill: "var(--paper)"}, made);
+    const title = node("text", {class: "here", x: 2, y: 17}, made);
+    write(title, titleOf(figure));
+    node("tspan", {"font-weight": 400}, title, `, ${stateInWords()}`);
+    const copy = node("g", {transform: "translate(0,26)"}, made);
+    for (const child of drawn.children) if (child !== made) copy.append(child.cloneNode(true));
+    keys.sort((m, n) => ORDER.indexOf(n) - ORDER.indexOf(m)).reverse().forEach((m, i) => {
+      const x = 8 + 78 * (i % across), y = 26 + height + 18 * Math.floor(i / across) + 6;
+      node("line", {class: m === "exact" ? "curve exact" : "curve", style: colors(m), "stroke-dasharray": dashes(m), x1: x, x2: x + 24, y1: y, y2: y}, made);
+      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, m);
+    });
+    const all = [...made.querySelectorAll("*")];
+    const styles = all.map(e => { const computed = getComputedStyle(e); return KEPT.map(name => `${name}:${computed.getPropertyValue(name)}`).join(";"); });
+    all.forEach((e, i) => {
+      if (e.getAttribute("visibility") === "hidden") return e.remove();
+      e.setAttribute("style", styles[i]);
+      for (const name of ["class", "fill", "stroke-dasharray"]) e.removeAttribute(name);
+    });
+    made.remove();
+    return {width, height: tall, text: new XMLSerializer().serializeToString(made)};
+  } finally {
+    drawn.querySelector(":scope > svg")?.remove();
+    document.documentElement.classList.remove("printing");
+  }
+}
+const SHARPER = 3;  // pixels of the PNG to one of the page: 288 to the inch
+async function toPNG({width, height, text}) {
+  const image = new Image();
+  image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(text);
+  await image.decode();
+  const canvas = Object.assign(document.createElement("canvas"), {width: Math.round(SHARPER * width), height: Math.round(SHARPER * height)});
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise(done => canvas.toBlob(done, "image/png"));
+}
+
+const titleOf = figure => figure.querySelector("h2").dataset.title ?? figure.querySelector("h2").textContent;
+const stateInWords = () => `ω = ${plain(D.omega[state.w])} rad/s, a = ${plain(D.a[state.a])}`;
+async function save(figure, kind) {
+  const id = figure.querySelector(".plot").id, about = `Rotating beam explorer, ${titleOf(figure)}: ${stateInWords()}`;
+  const blob = kind === "csv" ? new Blob([toCSV(COLUMNS[id](), [about, ...DATA.blade.split("\n")].filter(Boolean).join("; "))], {type: "text/csv"})
+    : kind === "svg" ? new Blob([toSVG(figure).text], {type: "image/svg+xml"}) : await toPNG(toSVG(figure));
+  const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: `${id}-omega${plain(D.omega[state.w])}-a${plain(D.a[state.a])}.${kind}`});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+for (const figure of document.querySelectorAll("figure")) {
+  const menu = document.createElement("details"), offered = document.createElement("div");
+  menu.className = "save";
+  menu.append(Object.assign(document.createElement("summary"), {textContent: "Save"}), offered);
+  menu.firstChild.setAttribute("aria-label", `Save ${titleOf(figure)}`);
+  for (const kind of ["png", "svg", "csv"]) {
+    const button = Object.assign(document.createElement("button"), {textContent: kind.toUpperCase()});
+    button.setAttribute("aria-label", `Save ${titleOf(figure)} as ${kind.toUpperCase()}`);
+    button.addEventListener("click", () => { menu.open = false; save(figure, kind); });
+    offered.append(button);
+  }
+  document.addEventListener("pointerdown", e => { if (!menu.contains(e.target)) menu.open = false; });
+  menu.addEventListener("keydown", e => { if (e.key === "Escape") { menu.open = false; menu.firstChild.focus(); } });
+  figure.querySelector("figcaption").append(menu);
+}

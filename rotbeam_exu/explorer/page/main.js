@@ -1,0 +1,66 @@
+// Controls, and what is drawn when.
+
+const omegaInput = document.getElementById("omega"), amplitudeInput = document.getElementById("amplitude");
+Object.assign(omegaInput, {min: 0, max: W - 1, step: 1});
+Object.assign(amplitudeInput, {min: 0, max: A - 1, step: 1});
+omegaInput.addEventListener("input", () => set({w: +omegaInput.value}));
+amplitudeInput.addEventListener("input", () => set({a: +amplitudeInput.value}));
+for (const v of D.fe_omega) {
+  const jump = Object.assign(document.createElement("button"), {textContent: plain(v), title: `ω = ${plain(v)} rad/s`});
+  jump.dataset.omega = v;
+  jump.addEventListener("click", () => set({w: nearest(D.omega, v)}));
+  document.getElementById("jumps").append(jump);
+}
+for (const key of ["scale", "norm"])
+  for (const button of document.querySelectorAll(`[data-${key}]`))
+    button.addEventListener("click", () => set({[key]: button.dataset[key]}));
+document.getElementById("blade").textContent = DATA.blade;
+document.getElementById("mesh").textContent = `Finite elements: ${DATA.elements} cables in Exudyn, spun up in ` +
+  `${Math.min(...DATA.rampTimes)} to ${Math.max(...DATA.rampTimes)} s, ratio to the mesh's own natural frequency.`;
+
+function showControls() {
+  const omega = fixed(D.omega[state.w], 2) + " rad/s", amplitude = fixed(D.a[state.a], 2);
+  omegaInput.value = state.w; amplitudeInput.value = state.a;
+  omegaInput.setAttribute("aria-valuetext", omega); amplitudeInput.setAttribute("aria-valuetext", amplitude);
+  document.getElementById("omega-value").textContent = omega;
+  document.getElementById("amplitude-value").textContent = amplitude;
+  for (const button of document.querySelectorAll("#jumps button")) button.setAttribute("aria-pressed", Math.abs(button.dataset.omega - D.omega[state.w]) < 1e-9);
+  for (const key of ["scale", "norm"])
+    for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
+}
+// Beside the charts where there is room, below them where there is none; Tab follows what is seen.
+const wide = matchMedia("(min-width: 1181px)");
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .notes")); }
+wide.addEventListener("change", arrange);
+arrange();
+function drawAll() {
+  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase();
+}
+let waiting = false, changed = new Set();
+/** Change the state; what depends on it is drawn once, in the next frame. */
+function set(change) {
+  for (const [key, value] of Object.entries(change)) if (state[key] !== value) { state[key] = value; changed.add(key); }
+  if (!changed.size) return;
+  showControls(); showNumbers(); remember();
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    const any = (...keys) => keys.some(key => changed.has(key));
+    drawBackbone();
+    if (any("w", "a", "hide")) drawOrbit();
+    if (any("scale", "hide")) drawSoftening();
+    if (any("w", "hide", "scale")) markSpeed();
+    if (any("w", "a")) drawBeam();
+    changed.clear();
+    waiting = false;
+  });
+}
+window.addEventListener("hashchange", () => { restore(); drawAll(); });
+const resized = new ResizeObserver(() => drawAll());
+for (const plot of document.querySelectorAll(".plot")) resized.observe(plot);
+restore();
+makeRows();
+drawAll();
+showPlaying();
+if (state.playing) start();
+document.documentElement.dataset.ready = performance.now().toFixed(0);

@@ -1,0 +1,32 @@
+// What the person has chosen; the address keeps it.
+
+const START = {w: nearest(D.omega, 6), a: nearest(D.a, 0.3), scale: "close", norm: "own", hide: new Set(["P3", "P4", "P5"])};
+const state = {...START, hide: new Set(START.hide), phase: Math.PI / 3, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches};
+function nearest(grid, value) {
+  let best = 0;
+  for (let i = 1; i < grid.length; i++) if (Math.abs(grid[i] - value) < Math.abs(grid[best] - value)) best = i;
+  return best;
+}
+const shown = () => ORDER.filter(m => !state.hide.has(m));
+function hash() {
+  return "#" + new URLSearchParams({omega: plain(D.omega[state.w]), a: plain(D.a[state.a]), scale: state.scale, norm: state.norm,
+    hide: ORDER.concat("FE").filter(m => state.hide.has(m)).join(".")});
+}
+function restore() {
+  const given = new URLSearchParams(location.hash.slice(1));
+  const number = (key, grid, otherwise) => {
+    const value = parseFloat(given.get(key));
+    return Number.isFinite(value) ? nearest(grid, value) : otherwise;
+  };
+  state.w = number("omega", D.omega, START.w);
+  state.a = number("a", D.a, START.a);
+  state.scale = ["close", "all"].includes(given.get("scale")) ? given.get("scale") : START.scale;
+  state.norm = ["own", "exact"].includes(given.get("norm")) ? given.get("norm") : START.norm;
+  state.hide = given.has("hide") ? new Set(given.get("hide").split(".").filter(m => ORDER.includes(m) || m === "FE")) : new Set(START.hide);
+}
+let remembering = 0;
+function remember() {  // not at every step of a slider: browsers limit how often the address may change
+  document.getElementById("link").href = hash();
+  clearTimeout(remembering);
+  remembering = setTimeout(() => { try { history.replaceState(null, "", hash()); } catch { /* a sandboxed frame */ } }, 150);
+}

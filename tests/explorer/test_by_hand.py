@@ -1,0 +1,98 @@
+"""The Explorer by keyboard, pointer, finger and ear."""
+
+import re
+
+import pytest
+
+from analytic import periodic_orbits, reduced_model
+
+pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+
+
+def test_keyboard(open_page, url, data):
+    page = open_page(url)
+    value = page.locator("#omega-value")
+    page.get_by_label("Speed ω").focus()
+    for key, wanted in (("ArrowRight", "7.00"), ("ArrowLeft", "6.00"), ("Home", "0.00")):
+        page.keyboard.press(key)
+        assert value.inner_text() == f"{wanted} rad/s"
+    page.keyboard.press("End")
+    assert page.locator("#omega").get_attribute("aria-valuetext") == "12.00 rad/s"
+    page.get_by_label("Amplitude a").focus()
+    page.keyboard.press("ArrowUp")
+    assert page.locator("#amplitude-value").inner_text() == "0.35"
+    # Everything that can be used is reached with Tab, in order.
+    reached = set()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
+    assert {"play", "phase", "INPUT", "BUTTON", "link"} <= reached
+
+
+def test_numbers_under_the_cursor(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 6.0, 0.2)
+    box = page.locator("#softening > svg").bounding_box()
+    x = page.evaluate("softening.x(4)")
+    page.mouse.move(box["x"] + x, box["y"] + 100)
+    readout = page.locator("#softening .readout")
+    assert "ω = 4.00 rad/s" in readout.inner_text()
+    for name in ("FrE", "FrM", "CI"):
+        value = f"{reduced_model(beam, 4.0, name).lambda_omega:.5f}".replace("-", "−")
+        assert re.search(rf"{name}\s*{value}", readout.inner_text())
+    page.mouse.click(box["x"] + x, box["y"] + 100)
+    assert page.locator("#omega-value").inner_text() == "4.00 rad/s"
+    page.mouse.move(5, 5)
+    assert not readout.is_visible()
+
+    box = page.locator("#orbit > svg").bounding_box()
+    place = page.evaluate("(([x, v]) => [orbit.x(x), orbit.y(v)])(exactState(state.w, state.a, 0))")
+    page.mouse.move(box["x"] + place[0], box["y"] + place[1] + 1)
+    assert page.locator("#orbit .readout").is_visible()
+
+
+def test_touch(open_page, url):
+    page = open_page(url, phone=True)
+    box = page.locator("#backbone > svg").bounding_box()
+    x = page.evaluate("backbone.x(0.5)")
+    page.touchscreen.tap(box["x"] + x, box["y"] + 60)
+    assert page.locator("#amplitude-value").inner_text() == "0.50"
+    page.locator("#jumps button").tap()
+    assert page.locator("#omega-value").inner_text() == "6.00 rad/s"
+
+
+def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(open_page, url, at, beam):
+    page = open_page(url)
+    at(page, 5.0, 0.3)
+    page.locator("#softening > svg").focus()
+    page.keyboard.press("ArrowLeft")
+    settle = "new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
+    page.evaluate(settle)
+    assert page.locator("#omega-value").inner_text() == "4.00 rad/s"
+    value = f"{reduced_model(beam, 4.0, 'FrE').lambda_omega:.5f}"
+    assert re.search(rf"FrE\s*{value}", page.locator("#softening .readout").inner_text())
+    said = page.locator("#softening > svg").get_attribute("aria-valuetext")
+    assert said.startswith("ω = 4.00 rad/s, ")
+    assert f"FrE {value}" in said
+    page.locator("#backbone > svg").focus()
+    assert not page.locator("#softening .readout").is_visible()
+    page.keyboard.press("End")
+    page.evaluate(settle)
+    assert page.locator("#amplitude-value").inner_text() == "0.60"
+    assert "a = 0.60" in page.locator("#backbone .readout").inner_text()
+    page.wait_for_function("document.getElementById('said').textContent.includes('a = 0.60')")
+    exact = periodic_orbits(beam, 4.0, [0.6])
+    assert f"{exact.frequency[0]:.4f} rad/s" in page.locator("#said").text_content()
+
+
+@pytest.mark.parametrize("omega", [0.0, 6.0, 12.0])
+def test_the_speed_is_ruled_on_its_axis(open_page, url, at, omega):
+    page = open_page(url)
+    at(page, omega, 0.2)
+    label = page.locator("#softening text.here")
+    assert label.text_content() == f"ω = {omega:.2f}"
+    rule = page.locator("#softening line.now").bounding_box()
+    box = label.bounding_box()
+    assert rule["x"] == pytest.approx(page.evaluate(f"softening.x({omega})") + page.locator(
+        "#softening > svg").bounding_box()["x"], abs=1.0)  # fmt: skip
+    assert box["x"] <= rule["x"] <= box["x"] + box["width"]

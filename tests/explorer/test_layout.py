@@ -1,0 +1,152 @@
+"""Nothing overprints anything, all words can be read: by boxes and colors, not by eye."""
+
+import re
+
+import pytest
+
+STATES = [
+    "",
+    "omega=0&a=0.05&hide=",
+    "omega=12&a=0.6&scale=all&norm=exact&hide=",
+    "omega=4&a=0.2&scale=close&norm=exact&hide=exact.FrM5.FE",
+    "omega=6&a=0.45&scale=all&hide=",
+]
+# Boxes of letters reach above and below what is drawn: two pixels may be shared.
+OVERLAPS = """() => {
+    const seen = e => e.checkVisibility({visibilityProperty: true, opacityProperty: true});
+    const things = [...document.querySelectorAll(
+        ".plot svg text, button, input, summary, output, h1, h2, p.about, td, thead th, label")]
+        .filter(e => seen(e) && e.textContent + e.value)
+        .map(e => [e, e.getBoundingClientRect()]).filter(([, b]) => b.width && b.height);
+    const named = e => `${e.closest("figure")?.querySelector("h2").textContent ?? ""} ` +
+        `${e.tagName} ${e.id} "${e.textContent}"`;
+    const found = [];
+    things.forEach(([e, p], i) => {
+        const svg = e.closest(".plot svg")?.getBoundingClientRect();
+        if (svg && (p.left < svg.left - 1 || p.right > svg.right + 1 || p.top < svg.top - 1
+                || p.bottom > svg.bottom + 1)) found.push(named(e) + " leaves its chart");
+        for (const [f, q] of things.slice(i + 1)) {
+            const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+            const high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+            if (wide > 1 && high > 2 && !e.contains(f) && !f.contains(e))
+                found.push(named(e) + " over " + named(f));
+        }
+    });
+    return found;
+}"""
+WRAPPED = """() => [...document.querySelectorAll(".group, .hint, figcaption")].filter(row => {
+    const tops = [...row.children].filter(e => e.checkVisibility())
+        .map(e => e.getBoundingClientRect()).map(b => (b.top + b.bottom) / 2);
+    return Math.max(...tops) - Math.min(...tops) > 6;
+}).map(row => row.textContent)"""
+
+BEYOND = """() => [...document.querySelectorAll("table, .hint, .slider, figcaption, .motion")]
+    .filter(e => e.getBoundingClientRect().right > e.parentElement.getBoundingClientRect().right + 1
+        || [...e.querySelectorAll("*")].some(c => c.checkVisibility()
+            && c.getBoundingClientRect().right > e.getBoundingClientRect().right + 1))
+    .map(e => e.textContent)"""
+
+
+def at_state(page, state):
+    page.evaluate("hash => { location.hash = hash; }", state)
+    page.evaluate("new Promise(f => setTimeout(() => requestAnimationFrame(f), 30))")
+
+
+@pytest.mark.parametrize("width", [1400, 1024, 800, 390])
+def test_nothing_overprints(open_page, url, width):
+    page = open_page(url, phone=width == 390, width=width)
+    found = {}
+    for state in STATES:
+        at_state(page, state)
+        found[state] = page.evaluate(OVERLAPS)
+    assert not any(found.values()), found
+    assert page.evaluate(WRAPPED) == []
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert page.evaluate(BEYOND) == []
+
+
+@pytest.mark.parametrize("width", [1400, 1024, 800, 390])
+def test_every_axis_has_ticks_enough(open_page, url, width):
+    page = open_page(url, phone=width == 390, width=width)
+    for state in STATES:
+        at_state(page, state)
+        counts = page.evaluate(
+            """[...document.querySelectorAll(".plot > svg")].map(svg =>
+                ["middle", "end"].map(anchor => [...svg.querySelectorAll(
+                    `text[text-anchor=${anchor}]`)].filter(t => /^−?[\\d.]+$/.test(t.textContent))
+                    .length)).filter(([x]) => x)"""
+        )
+        assert len(counts) >= 3
+        assert min(map(min, counts)) >= 3, (state, counts)
+
+
+def test_on_a_phone_the_charts_begin_early(open_page, url):
+    page = open_page(url, phone=True)
+    header, controls = (
+        page.locator(one).bounding_box()["height"] for one in ("header", ".controls")
+    )
+    assert header + controls < 0.2 * 844
+    page.evaluate("scrollTo(0, 1000)")
+    assert page.locator(".controls").bounding_box()["y"] == pytest.approx(0.0, abs=1.0)
+    assert controls < 0.15 * 844  # what stays while the page is scrolled
+
+
+COLORS = """() => {
+    const found = [];
+    for (const e of document.querySelectorAll("body *")) {
+        const words = [...e.childNodes].filter(n => n.nodeType === 3).map(n => n.data).join("");
+        if (!words.trim() || ["SCRIPT", "STYLE"].includes(e.tagName) || !e.checkVisibility())
+            continue;
+        const style = getComputedStyle(e), drawn = e instanceof SVGElement;
+        let opacity = 1, behind = null;
+        for (let p = e; p; p = p.parentElement) {
+            const {opacity: own, backgroundColor} = getComputedStyle(p);
+            opacity *= own;
+            if (behind === null && !/, 0\\)|^transparent/.test(backgroundColor))
+                behind = backgroundColor;
+        }
+        const on = [behind];
+        const wash = e.closest(".plot")?.querySelector(".wash");
+        if (drawn && wash) on.push(getComputedStyle(wash).fill);
+        for (const back of on)
+            found.push([words.trim(), drawn ? style.fill : style.color, back, opacity]);
+    }
+    return found;
+}"""
+
+
+def rgb(color):
+    numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", color.split("(")[1])][:3]
+    return numbers if color.startswith("color(") else [x / 255.0 for x in numbers]
+
+
+def luminance(color):
+    linear = [x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4 for x in color]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(words, ink, back, opacity):
+    """WCAG's ratio of the words as they appear."""
+    behind = rgb(back)
+    seen = [opacity * a + (1.0 - opacity) * b for a, b in zip(rgb(ink), behind, strict=True)]
+    low, high = sorted((luminance(seen), luminance(behind)))
+    return (high + 0.05) / (low + 0.05), words, ink, back, opacity
+
+
+def test_contrast_is_that_of_the_standard():
+    assert contrast("", "rgb(0, 0, 0)", "rgb(255, 255, 255)", 1.0)[0] == pytest.approx(21.0)
+    # WebAIM's example: gray of 119 is just below 4.5 on white.
+    assert contrast("", "rgb(119, 119, 119)", "rgb(255, 255, 255)", 1.0)[0] == pytest.approx(
+        4.48, abs=5e-3
+    )
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_all_words_can_be_read(open_page, url, dark):
+    page = open_page(f"{url}#a=0.45&hide=", dark=dark)
+    page.locator("tr[data-model=CE] input").uncheck()
+    box = page.locator("#softening > svg").bounding_box()
+    page.mouse.move(box["x"] + 150, box["y"] + 100)
+    found = [contrast(*one) for one in page.evaluate(COLORS)]
+    assert len(found) > 100
+    assert min(found)[0] >= 4.5, sorted(found)[:5]

@@ -1,0 +1,127 @@
+"""Each chart as a picture and as numbers, made by the page itself."""
+
+import csv
+import io
+import struct
+import xml.etree.ElementTree as ET
+import zlib
+
+import numpy as np
+import pytest
+
+from analytic import periodic_orbits, reduced_model
+
+pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def saved(page, chart, kind):
+    """Return the name and the bytes of what a button saves."""
+    figure = page.locator(f"figure:has(#{chart})")
+    figure.locator("summary").click()
+    with page.expect_download() as download:
+        figure.get_by_role("button", name=f"as {kind}").click()
+    return download.value.suggested_filename, download.value.path().read_bytes()
+
+
+def table(content):
+    """Return the columns by name, without the rows that they lack."""
+    about, *rows = content.decode("utf-8").splitlines()
+    assert about.startswith("# Rotating beam explorer, ")
+    names, *cells = csv.reader(io.StringIO("\n".join(rows)))
+    assert len(set(names)) == len(names)
+    assert all(name.endswith("]") for name in names)  # each has a unit
+    columns = zip(*cells, strict=True)
+    return {
+        name: np.array([float(x) for x in column if x])
+        for name, column in zip(names, columns, strict=True)
+    }
+
+
+def test_tables_are_the_data(open_page, url, at, beam, data):
+    page = open_page(url)
+    at(page, 6.0, 0.2)
+    name, content = saved(page, "backbone", "CSV")
+    assert name == "backbone-omega6-a0.2.csv"
+    columns = table(content)
+    amplitudes = data["a"].to_numpy()
+    np.testing.assert_array_equal(columns["a [-]"], [0.0, *amplitudes])
+    exact = periodic_orbits(beam, 6.0, amplitudes)
+    # A series through sixteen orbits.
+    np.testing.assert_allclose(columns["omega_NL exact [rad/s]"][1:], exact.frequency, rtol=1e-6)
+    model = reduced_model(beam, 6.0, "FrE")
+    wanted = model.frequency(model.first_harmonic(amplitudes))
+    # The page holds the first harmonics in single precision.
+    np.testing.assert_allclose(columns["omega_NL FrE [rad/s]"][1:], wanted, rtol=1e-8)
+    here = data.sel(fe_omega=6.0)
+    for column, variable in (("a", "fe_amplitude"), ("omega_NL", "fe_frequency")):
+        unit = "-" if column == "a" else "rad/s"
+        found = columns[f"{column} finite elements [{unit}]"]
+        np.testing.assert_array_equal(found, here[variable].to_numpy())
+
+    columns = table(saved(page, "softening", "CSV")[1])
+    np.testing.assert_array_equal(columns["omega [rad/s]"], data["omega"].to_numpy())
+    wanted = data["lambda_omega"].sel(model="CI").to_numpy()
+    np.testing.assert_array_equal(columns["lambda_omega CI [-]"], wanted)
+
+    columns = table(saved(page, "orbit", "CSV")[1])
+    x, rate = periodic_orbits(beam, 6.0, [0.2]).orbit(0, 121)
+    np.testing.assert_allclose(columns["x exact [-]"], x, atol=5e-6)
+    np.testing.assert_allclose(columns["dx/dtau exact [-]"], rate, atol=5e-6)
+
+    columns = table(saved(page, "beam", "CSV")[1])
+    assert columns["x/L [-]"][0] == columns["y/L [-]"][0] == 0.0
+    # As long as the beam: the polygon through thirteen points is shorter by 2e-4.
+    length = np.hypot(*np.diff([columns["x/L [-]"], columns["y/L [-]"]])).sum()
+    assert length == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("chart", ["backbone", "orbit", "beam"])
+def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, chart, dark):
+    page = open_page(url, dark=dark)
+    name, content = saved(page, chart, "SVG")
+    assert name.endswith(".svg")
+    root = ET.fromstring(content)
+    assert root.tag == SVG + "svg"
+    assert b"var(" not in content
+    assert b"class=" not in content
+    ground, *_ = root.iter(SVG + "rect")
+    assert "fill:rgb(255, 255, 255)" in ground.get("style")  # on white in the dark as well
+    for text in root.iter(SVG + "text"):
+        assert "fill:rgb(" in text.get("style")
+    words = ["".join(text.itertext()).replace("\u200b", "") for text in root.iter(SVG + "text")]
+    assert words[0].endswith("ω = 6 rad/s, a = 0.3")
+    if chart != "beam":
+        assert {"exact", "FrM", "CE"} <= set(words)  # each curve is named
+    assert page.evaluate("document.documentElement.className") == ""
+
+
+def test_a_picture_is_three_times_as_sharp(open_page, url):
+    page = open_page(url)
+    name, content = saved(page, "backbone", "PNG")
+    assert name == "backbone-omega6-a0.3.png"
+    assert content[:8] == b"\x89PNG\r\n\x1a\n"
+    size = struct.unpack(">II", content[16:24])
+    box = page.locator("#backbone > svg").bounding_box()
+    assert size == pytest.approx((3.0 * box["width"], 3.0 * (box["height"] + 26.0)), abs=1.0)
+    body, at = b"", 8
+    while at < len(content):
+        (count,) = struct.unpack(">I", content[at : at + 4])
+        if content[at + 4 : at + 8] == b"IDAT":
+            body += content[at + 8 : at + 8 + count]
+        at += 12 + count
+    assert len(set(zlib.decompress(body))) > 50  # not an empty sheet
+
+
+def test_the_menu_opens_by_keyboard_and_closes_again(open_page, url):
+    page = open_page(url)
+    menu = page.locator("figure:has(#orbit) details")
+    menu.locator("summary").focus()
+    page.keyboard.press("Enter")
+    button = page.get_by_role("button", name="Save Orbit of the tip as CSV")
+    assert button.is_visible()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Escape")
+    assert not button.is_visible()
+    assert menu.locator("summary").evaluate("e => e === document.activeElement")
