@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
-from ..explorer import OMEGAS, explorer_page
+from ..explorer import EXACT_RAMP_TIMES, OMEGAS, explorer_page
 from ..files.results import whole_file, writable_folder
 from .configuration import configured
 from .motion import chosen_speeds, chosen_times, grid_motion
@@ -82,6 +82,7 @@ def _scaled(beam: AnyBlade) -> dict[str, Any]:
         "omegas": [interval * i for i in range(len(OMEGAS))],
         "finite_element_omegas": omegas,
         "ramp_times": ramp_times,
+        "exact_ramp_times": chosen_times(beam, *EXACT_RAMP_TIMES, digits=4),
         "duration": motion.duration,
         "step": motion.step,
     }

@@ -14,17 +14,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from .data import AMPLITUDES, OMEGAS, explorer_data
+from .data import AMPLITUDES, EXACT_RAMP_TIMES, OMEGAS, explorer_data
 
-__all__ = ["AMPLITUDES", "OMEGAS", "explorer_data", "explorer_page"]
+__all__ = ["AMPLITUDES", "EXACT_RAMP_TIMES", "OMEGAS", "explorer_data", "explorer_page"]
 
 _SCRIPTS = (
-    "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "table",
-    "export", "main",
+    "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "spin_up",
+    "table", "table_file", "own", "export", "main",
 )  # fmt: skip
 """Of page/, in the order in which they run."""
-_AXIS_STEP = 5e-5
-"""Step to which the beam's axis is rounded, of the length: a hundredth of a pixel."""
+_STEP = 5e-5
+"""Step to which positions are rounded, of the length: a hundredth of a pixel."""
+_UNKNOWN = -32768
+"""In their place where there are none."""
 
 
 def explorer_page(data: xr.Dataset | None = None, **options: Any) -> str:
@@ -63,26 +65,32 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
         for name in (
             "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x",
             "exact_omega_n", "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude",
-            "fe_frequency", "fe_omega_n",
+            "fe_frequency", "fe_omega_n", "ramp_time", "exact_ramp_time", "ramp_curve",
         )
     }  # fmt: skip
     return {
         "models": data["model"].to_numpy().tolist(),
         "notes": data["note"].to_numpy().tolist(),
-        "rampTimes": data["ramp_time"].to_numpy().tolist(),
         "frequencyScale": data.attrs["frequency_scale"],
         "length": data.attrs["length"],
         "elements": data.attrs["elements"],
         "blade": data.attrs["blade"],
-        "axisStep": _AXIS_STEP,
+        "duration": float(data["time"][-1]),
+        "step": _STEP,
+        "unknown": _UNKNOWN,
         "arrays": {
             **numbers,
             "first_harmonic": _packed(data["first_harmonic"], "float32"),
             "harmonics": _packed(data["harmonics"], "float32"),
-            "axis_x": _packed(np.rint(data["axis_x"] / _AXIS_STEP), "int16"),
-            "axis_y": _packed(np.rint(data["axis_y"] / _AXIS_STEP), "int16"),
+            "exact_left": _packed(data["exact_left"], "float32"),
+            "closed_left": _packed(data["closed_left"], "float32"),
+            **{name: _rounded(data[name]) for name in ("axis_x", "axis_y", "spin_up")},
         },
     }
+
+
+def _rounded(values: xr.DataArray) -> dict[str, Any]:
+    return _packed(np.rint((values / _STEP).fillna(_UNKNOWN)), "int16")
 
 
 def _packed(values: ArrayLike, dtype: str) -> dict[str, Any]:

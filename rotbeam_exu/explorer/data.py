@@ -18,11 +18,14 @@ from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
 from .exact import exact_orbits
+from .spin_ups import closed_form, exact_spin_up
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""
 AMPLITUDES = tuple((np.arange(1, 61) / 100.0).tolist())
 """Amplitudes of the slider."""
+EXACT_RAMP_TIMES = tuple(sorted({*RAMP_TIMES, *(0.5 * np.arange(4, 21)).tolist()}))
+"""Ramp times of the slider [s]: the paper's, and every half second from 2 to 10 s."""
 
 _NONE = {"units": "1"}
 _FREQUENCY = {"units": "rad/s"}
@@ -35,6 +38,7 @@ def explorer_data(
     amplitudes: Sequence[float] = AMPLITUDES,
     finite_element_omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
+    exact_ramp_times: Sequence[float] | None = None,
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
@@ -55,6 +59,9 @@ def explorer_data(
         Peaks |q|/L of the exact orbits, ascending in equal steps.
     finite_element_omegas, ramp_times, elements, duration, step
         Grid [rad/s], [s], mesh, end [s] and step [s] of the finite element points.
+    exact_ramp_times : sequence of float
+        Ramp times [s] of the exact spin-ups to the same speeds, ascending; by default
+        EXACT_RAMP_TIMES, those below `duration`.
     executor, jobs, cache
         Where the work is done and where finished spin-ups are kept, as for `sweep`.
     progress : callable, optional
@@ -69,12 +76,21 @@ def explorer_data(
         exact_frequency [rad/s] over (omega, a), the sine coefficients `harmonics` of q/L, and the
         beam's axis over L in the rotating frame, along Σ axis_x cos kφ, across Σ axis_y sin kφ,
         k = 0, 1 ...; `note`, what `periodic_orbits` warned of. Points over (fe_omega, ramp_time):
-        fe_amplitude [-], fe_frequency and fe_omega_n [rad/s].
+        fe_amplitude [-], fe_frequency and fe_omega_n [rad/s]. Exact `spin_up`, q/L over (fe_omega,
+        exact_ramp_time, time), and the amplitude over L that it leaves, exact_left; by the closed
+        form closed_left over (fe_omega, ramp_curve).
+
+    Raises
+    ------
+    ValueError
+        If speeds, amplitudes or ramp times do not ascend as said.
     """
     beam = beam or Beam.reference()
     _evenly("omegas", omegas)
     _evenly("amplitudes", amplitudes)
-    total = len(omegas) + len(finite_element_omegas) * len(ramp_times)
+    exact_ramp_times = _ramp_times(exact_ramp_times, duration)
+    ramps = list(itertools.product(finite_element_omegas, exact_ramp_times))
+    total = len(omegas) + len(finite_element_omegas) * len(ramp_times) + len(ramps)
 
     done = itertools.count(1)  # its next() is atomic: orbits report from the pool's own thread
 
@@ -84,7 +100,8 @@ def explorer_data(
 
     with worker_pool(executor, jobs, total) as pool:
         exact = [pool.submit(exact_orbits, beam, omega, tuple(amplitudes)) for omega in omegas]
-        for future in exact:
+        spun = [pool.submit(exact_spin_up, beam, *ramp, duration) for ramp in ramps]
+        for future in (*exact, *spun):
             future.add_done_callback(one_more)
         try:
             points = sweep(
@@ -99,13 +116,18 @@ def explorer_data(
                 progress=one_more,
             )
             orbits = xr.concat([future.result() for future in exact], dim="omega")
+            spin_ups = xr.combine_by_coords(
+                [one.result().expand_dims(("fe_omega", "exact_ramp_time")) for one in spun]
+            ).sel(fe_omega=list(finite_element_omegas))
         finally:
-            for future in exact:
+            for future in (*exact, *spun):
                 future.cancel()
     points = points[["amplitude", "frequency", "omega_n"]].rename(
         {"omega": "fe_omega", **{n: f"fe_{n}" for n in ("amplitude", "frequency", "omega_n")}}
     )
-    data = xr.merge([_models(beam, omegas, amplitudes), orbits, points], combine_attrs="drop")
+    left = closed_form(beam, finite_element_omegas, exact_ramp_times)
+    models = _models(beam, omegas, amplitudes)
+    data = xr.merge([models, orbits, points, spin_ups, left], combine_attrs="drop", join="exact")
     data.attrs = {
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
@@ -149,3 +171,12 @@ def _evenly(name: str, values: Sequence[float]) -> None:
         raise ValueError(
             f"{name} must ascend in equal steps, for a slider shows them, got {list(values)}"
         )
+
+
+def _ramp_times(given: Sequence[float] | None, duration: float) -> list[float]:
+    times = [T for T in EXACT_RAMP_TIMES if duration > T] if given is None else list(given)
+    if np.any(np.diff(times) <= 0.0) or max(times, default=duration) >= duration:
+        raise ValueError(
+            f"exact_ramp_times must ascend and end before duration = {duration:g} s, got {times}"
+        )
+    return times

@@ -7,6 +7,7 @@ from rotbeam_exu.explorer import explorer_data, explorer_page
 
 OMEGAS = tuple(np.arange(0.0, 12.5, 1.0).tolist())
 AMPLITUDES = tuple((np.arange(1, 13) * 5 / 100).tolist())
+RAMPS = (2.5, 3.0, 4.0, 6.5)
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
@@ -22,6 +23,7 @@ def data():
         amplitudes=AMPLITUDES,
         finite_element_omegas=(6.0,),
         ramp_times=(3.0, 2.5),
+        exact_ramp_times=RAMPS,
         elements=4,
         jobs=2,
     )

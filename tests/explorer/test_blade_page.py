@@ -15,6 +15,7 @@ def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
         amplitudes=(0.1, 0.2, 0.3),
         finite_element_omegas=(6.0,),
         ramp_times=(8.0,),
+        exact_ramp_times=(8.0,),
         elements=4,
         jobs=2,
     )

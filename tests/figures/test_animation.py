@@ -195,9 +195,16 @@ def test_bad_arguments_are_one_sentence(tmp_path, capsys, monkeypatch, arguments
 
 
 @pytest.mark.slow
-def test_the_default_is_small_and_short(tmp_path):
+@pytest.mark.parametrize(
+    ("arguments", "largest"),
+    [
+        (["--omega", "6"], 5e6),
+        (["--omega", "4", "--duration", "6", "--beside", "linear"], 2e6),
+    ],
+)
+def test_films_of_the_site_are_small_and_short(tmp_path, arguments, largest):
     out = tmp_path / "beam.gif"
-    main(["animate", "--omega", "6", "--ramp-time", "3", "--out", str(out)])
-    assert out.stat().st_size < 5e6
+    main(["animate", "--ramp-time", "3", *arguments, "--out", str(out)])
+    assert out.stat().st_size < largest
     with Image.open(out) as picture:
         assert picture.n_frames * picture.info["duration"] < 15e3

@@ -21,6 +21,7 @@ function drawBackbone() {
   backbone.mark(D.a[state.a], `a = ${fixed(D.a[state.a], 2)}`);
   const here = finiteElements();
   for (const [a, f] of here) if (a <= LARGEST) node("circle", {class: "point", cx: backbone.x(a), cy: backbone.y(f), r: 4}, backbone.front);
+  drawOwnPoints();
   const beyond = here.filter(p => p[0] > LARGEST).map(p => fixed(p[0], 2));
   document.getElementById("about-backbone").textContent =
     (state.hide.has("FE") ? "" : `○ ${DATA.elements} finite elements` + (!here.length ? `: at ${[...D.fe_omega].map(plain).join(", ")} rad/s only. `
@@ -48,6 +49,8 @@ function tellBackbone(place) {
   const i = nearest(D.a, backbone.invertX(place[0])), x = backbone.x(D.a[i]);
   const point = finiteElements().find(([a, f]) => Math.hypot(backbone.x(a) - place[0], backbone.y(f) - place[1]) < 9);
   if (point) return backbone.tell(place, `${DATA.elements} finite elements`, [[null, "a", fixed(point[0], 4)], [null, "ω_NL", fixed(point[2], 4) + " rad/s"], [null, "ratio", fixed(point[1], 5)]]);
+  const own = ownPoints().find(([a, f]) => Math.hypot(backbone.x(a) - place[0], backbone.y(f) - place[1]) < 9);
+  if (own) return backbone.tell(place, OWN[own[3]].name, [[null, "a", fixed(own[0], 4)], [null, "ω_NL", fixed(own[2], 4) + " rad/s"], [null, "ratio", fixed(own[1], 5)]]);
   node("line", {class: "cross", x1: x, x2: x, y1: backbone.y0, y2: backbone.y1}, backbone.over);
   backbone.tell(place, ...backboneNumbers(i));
 }

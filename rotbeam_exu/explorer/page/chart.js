@@ -15,7 +15,7 @@ class Chart {
     this.names = {x, y}; this.margin = margin; this.paths = {}; this.key = "";
   }
   /** Measure, and redraw the axes if anything about them is new. */
-  frame(xDomain, yDomain, decorate) {
+  frame(xDomain, yDomain, decorate, yTicks = null) {
     const {left, right, top, bottom} = this.margin, width = this.host.clientWidth, height = this.host.clientHeight;
     const key = JSON.stringify([width, height, xDomain, yDomain]);
     if (key === this.key) return false;
@@ -30,7 +30,7 @@ class Chart {
       node("line", {class: "grid", x1: x, x2: x, y1: this.y0, y2: this.y1}, this.back);
       node("text", {class: "along", x, y: this.y0 + 16, "text-anchor": "middle"}, this.back, text);
     }
-    for (const [v, text] of ticks(...yDomain, this.y0 - this.y1, 42)) {
+    for (const [v, text] of yTicks ?? ticks(...yDomain, this.y0 - this.y1, 42)) {
       const y = this.y(v);
       node("line", {class: "grid", x1: this.x0, x2: this.x1, y1: y, y2: y}, this.back);
       node("text", {x: this.x0 - 6, y: y + 4, "text-anchor": "end"}, this.back, text);
@@ -45,15 +45,16 @@ class Chart {
   y(v) { return this.y0 - (v - this.yDomain[0]) / (this.yDomain[1] - this.yDomain[0]) * (this.y0 - this.y1); }
   invertX(px) { return this.xDomain[0] + (px - this.x0) / (this.x1 - this.x0) * (this.xDomain[1] - this.xDomain[0]); }
   inside(y) { return y >= this.yDomain[0] && y <= this.yDomain[1]; }
-  /** Draw one curve per model from [x, y] values; the exact one on top. */
+  /** Draw one curve per model from [x, y] values; the exact one above others, own ones above it. */
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
-    for (const m of [...ORDER].reverse()) {
+    const order = [...Object.keys(curves).filter(m => !ORDER.includes(m)), ...ORDER];
+    for (const m of order.toReversed()) {
       if (!(m in curves)) continue;
       let path = this.paths[m];
       if (!path) {
         path = this.paths[m] = node("path", {class: m === "exact" ? "curve exact" : "curve", "data-model": m, style: colors(m), "stroke-dasharray": dashes(m)});
-        const above = ORDER.slice(0, ORDER.indexOf(m)).reverse().find(o => this.paths[o]);
+        const above = order.slice(0, order.indexOf(m)).reverse().find(o => this.paths[o]);
         this.curves.insertBefore(path, above ? this.paths[above] : null);
       }
       path.setAttribute("d", this.line(curves[m]));

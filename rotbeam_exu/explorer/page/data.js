@@ -53,7 +53,7 @@ const LAST = SHAPE.axis_x[3] - 1;
 function beamAxis(w, i, phase, from = 0) {
   const [, , K, P] = SHAPE.axis_x, start = (w * A + i) * K * P, points = [];
   const cos = [], sin = [];
-  for (let k = 0; k < K; k++) { cos.push(DATA.axisStep * Math.cos(k * phase)); sin.push(DATA.axisStep * Math.sin(k * phase)); }
+  for (let k = 0; k < K; k++) { cos.push(DATA.step * Math.cos(k * phase)); sin.push(DATA.step * Math.sin(k * phase)); }
   for (let p = from; p < P; p++) {
     let x = 0, y = 0;
     for (let k = 0; k < K; k++) { x += cos[k] * D.axis_x[start + k * P + p]; y += sin[k] * D.axis_y[start + k * P + p]; }

@@ -20,15 +20,16 @@ const minus = text => text.replace("-", "−");
 const fixed = (x, digits) => Number.isFinite(x) ? minus((Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)) : "–";
 const plain = x => String(+x.toFixed(6));
 
-const COLORED = {exact: "ink", FrM5: "FrM", P3: "other", P4: "other", P5: "other"};  // style.css has the rest
-const colorOf = m => COLORED[m] ?? (getComputedStyle(document.documentElement).getPropertyValue(`--${m}`) ? m : "other");
+const COLORED = {exact: "ink", FrM5: "FrM", closed: "FrM", P3: "other", P4: "other", P5: "other"};  // style.css has the rest
+const colorOf = m => m.startsWith("own-") ? "own" : COLORED[m] ?? (getComputedStyle(document.documentElement).getPropertyValue(`--${m}`) ? m : "other");
 const stroke = m => `var(--${colorOf(m)})`;
 const ink = m => m === "exact" ? "var(--ink)" : `var(--${colorOf(m)}-word)`;
 const colors = m => `--s:${stroke(m)};--c:${ink(m)}`;
 const DASHES = {
-  exact: "", FrM: "", FrM5: "1 3", FrE: "7 3", FrI: "9 2 2 2", CE: "5 2", CI: "2 2", FrC: "7 2 2 2 2 2", P3: "1 3", P4: "4 4", P5: "12 3",
+  exact: "", closed: "", FrM: "", FrM5: "1 3", FrE: "7 3", FrI: "9 2 2 2", CE: "5 2", CI: "2 2", FrC: "7 2 2 2 2 2", P3: "1 3", P4: "4 4", P5: "12 3",
 };
-const dashes = m => DASHES[m] ?? "1 2";
+const dashes = m => DASHES[m] ?? (m.startsWith("own-") ? OWN_DASHES[m.slice(4) % OWN_DASHES.length] : "1 2");
+const nameOf = m => m === "closed" ? "closed form" : m.startsWith("own-") ? OWN[m.slice(4)].name : m;
 
 /** Values and texts on an axis of so many pixels: about `apart` from each other, but three at least. */
 function ticks(low, high, pixels, apart) {

@@ -15,6 +15,13 @@ const COLUMNS = {
     return [["phase [deg]", degrees], ...shown().flatMap(m => [[`x ${m} [-]`, orbits[m].map(p => p[0])], [`dx/dtau ${m} [-]`, orbits[m].map(p => p[1])]])];
   },
   softening: () => [["omega [rad/s]", [...D.omega]], ...shown().map(m => [`lambda_omega ${m} [-]`, [...D.omega].map((_, w) => lambda(m, w))])],
+  "spin-up": () => [["t [s]", spinUpCurve().map(p => p[0])], ["q/L [-]", spinUpCurve().map(p => p[1])]],
+  left() {
+    const j = speed(), n = D.ramp_curve.length, runs = D.ramp_time.length;
+    return [["T [s]", [...D.exact_ramp_time]], ["a exact [-]", [...D.exact_left.subarray(j * RAMPS, (j + 1) * RAMPS)]],
+      ["T closed form [s]", [...D.ramp_curve]], ["a closed form [-]", [...D.closed_left.subarray(j * n, (j + 1) * n)]],
+      ["T finite elements [s]", [...D.ramp_time]], ["a finite elements [-]", [...D.fe_amplitude.subarray(j * runs, (j + 1) * runs)]]];
+  },
   beam() {
     const points = beamAxis(state.w, state.a, state.phase);
     return [["x/L [-]", points.map(p => p[0])], ["y/L [-]", points.map(p => p[1])]];
@@ -41,13 +48,13 @@ function toSVG(figure) {
     node("rect", {width, height: tall, fill: "var(--paper)"}, made);
     const title = node("text", {class: "here", x: 2, y: 17}, made);
     write(title, titleOf(figure));
-    node("tspan", {"font-weight": 400}, title, `, ${stateInWords()}`);
+    node("tspan", {"font-weight": 400}, title, `, ${stateInWords(figure.querySelector(".plot").id)}`);
     const copy = node("g", {transform: "translate(0,26)"}, made);
     for (const child of drawn.children) if (child !== made) copy.append(child.cloneNode(true));
-    keys.sort((m, n) => ORDER.indexOf(n) - ORDER.indexOf(m)).reverse().forEach((m, i) => {
+    keys.sort((m, n) => ORDER.indexOf(m) - ORDER.indexOf(n)).forEach((m, i) => {
       const x = 8 + 78 * (i % across), y = 26 + height + 18 * Math.floor(i / across) + 6;
       node("line", {class: m === "exact" ? "curve exact" : "curve", style: colors(m), "stroke-dasharray": dashes(m), x1: x, x2: x + 24, y1: y, y2: y}, made);
-      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, m);
+      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, nameOf(m));
     });
     const all = [...made.querySelectorAll("*")];
     const styles = all.map(e => { const computed = getComputedStyle(e); return KEPT.map(name => `${name}:${computed.getPropertyValue(name)}`).join(";"); });
@@ -74,12 +81,17 @@ async function toPNG({width, height, text}) {
 }
 
 const titleOf = figure => figure.querySelector("h2").dataset.title ?? figure.querySelector("h2").textContent;
-const stateInWords = () => `ω = ${plain(D.omega[state.w])} rad/s, a = ${plain(D.a[state.a])}`;
+/** What is chosen of what a chart shows: [name, letter, value, unit]. */
+function chosen(id) {
+  const spun = id === "spin-up" || id === "left";
+  return [["omega", "ω", spun ? D.fe_omega[speed()] : D.omega[state.w], " rad/s"], spun ? ["T", "T", T(), " s"] : ["a", "a", D.a[state.a], ""]];
+}
+const stateInWords = id => chosen(id).map(([, letter, value, unit]) => `${letter} = ${plain(value)}${unit}`).join(", ");
 async function save(figure, kind) {
-  const id = figure.querySelector(".plot").id, about = `Rotating beam explorer, ${titleOf(figure)}: ${stateInWords()}`;
-  const blob = kind === "csv" ? new Blob([toCSV(COLUMNS[id](), [about, ...DATA.blade.split("\n")].filter(Boolean).join("; "))], {type: "text/csv"})
+  const id = figure.querySelector(".plot").id, about = `Rotating beam explorer, ${titleOf(figure)}: ${stateInWords(id)}`;
+  const blob = kind === "csv" ? new Blob([toCSV([...COLUMNS[id](), ...ownColumns(id)], [about, ...DATA.blade.split("\n")].filter(Boolean).join("; "))], {type: "text/csv"})
     : kind === "svg" ? new Blob([toSVG(figure).text], {type: "image/svg+xml"}) : await toPNG(toSVG(figure));
-  const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: `${id}-omega${plain(D.omega[state.w])}-a${plain(D.a[state.a])}.${kind}`});
+  const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: [id, ...chosen(id).map(([name, , value]) => name + plain(value))].join("-") + `.${kind}`});
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }

@@ -16,7 +16,7 @@ for (const key of ["scale", "norm"])
     button.addEventListener("click", () => set({[key]: button.dataset[key]}));
 document.getElementById("blade").textContent = DATA.blade;
 document.getElementById("mesh").textContent = `Finite elements: ${DATA.elements} cables in Exudyn, spun up in ` +
-  `${Math.min(...DATA.rampTimes)} to ${Math.max(...DATA.rampTimes)} s, ratio to the mesh's own natural frequency.`;
+  `${Math.min(...D.ramp_time)} to ${Math.max(...D.ramp_time)} s, over the mesh's own ω_n.`;
 
 function showControls() {
   const omega = fixed(D.omega[state.w], 2) + " rad/s", amplitude = fixed(D.a[state.a], 2);
@@ -24,17 +24,19 @@ function showControls() {
   omegaInput.setAttribute("aria-valuetext", omega); amplitudeInput.setAttribute("aria-valuetext", amplitude);
   document.getElementById("omega-value").textContent = omega;
   document.getElementById("amplitude-value").textContent = amplitude;
+  rampInput.value = state.t; rampInput.setAttribute("aria-valuetext", `${plain(T())} s`);
+  document.getElementById("ramp-value").textContent = `${plain(T())} s`;
   for (const button of document.querySelectorAll("#jumps button")) button.setAttribute("aria-pressed", Math.abs(button.dataset.omega - D.omega[state.w]) < 1e-9);
   for (const key of ["scale", "norm"])
     for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
 }
 // Beside the charts where there is room, below them where there is none; Tab follows what is seen.
 const wide = matchMedia("(min-width: 1181px)");
-function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .notes")); }
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .own-data, .notes")); }
 wide.addEventListener("change", arrange);
 arrange();
 function drawAll() {
-  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase();
+  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft();
 }
 let waiting = false, changed = new Set();
 /** Change the state; what depends on it is drawn once, in the next frame. */
@@ -46,11 +48,12 @@ function set(change) {
   waiting = true;
   requestAnimationFrame(() => {
     const any = (...keys) => keys.some(key => changed.has(key));
-    drawBackbone();
+    if (any("w", "a", "hide", "scale", "norm")) drawBackbone();
     if (any("w", "a", "hide")) drawOrbit();
     if (any("scale", "hide")) drawSoftening();
     if (any("w", "hide", "scale")) markSpeed();
     if (any("w", "a")) drawBeam();
+    if (any("w", "t", "hide")) { drawSpinUp(); drawLeft(); }
     changed.clear();
     waiting = false;
   });

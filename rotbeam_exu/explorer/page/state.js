@@ -1,6 +1,6 @@
 // What the person has chosen; the address keeps it.
 
-const START = {w: nearest(D.omega, 6), a: nearest(D.a, 0.3), scale: "close", norm: "own", hide: new Set(["P3", "P4", "P5"])};
+const START = {w: nearest(D.omega, 6), a: nearest(D.a, 0.3), t: nearest(D.exact_ramp_time, 3), scale: "close", norm: "own", hide: new Set(["P3", "P4", "P5"])};
 const state = {...START, hide: new Set(START.hide), phase: Math.PI / 3, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches};
 function nearest(grid, value) {
   let best = 0;
@@ -9,7 +9,7 @@ function nearest(grid, value) {
 }
 const shown = () => ORDER.filter(m => !state.hide.has(m));
 function hash() {
-  return "#" + new URLSearchParams({omega: plain(D.omega[state.w]), a: plain(D.a[state.a]), scale: state.scale, norm: state.norm,
+  return "#" + new URLSearchParams({omega: plain(D.omega[state.w]), a: plain(D.a[state.a]), T: plain(D.exact_ramp_time[state.t]), scale: state.scale, norm: state.norm,
     hide: ORDER.concat("FE").filter(m => state.hide.has(m)).join(".")});
 }
 function restore() {
@@ -20,6 +20,7 @@ function restore() {
   };
   state.w = number("omega", D.omega, START.w);
   state.a = number("a", D.a, START.a);
+  state.t = number("T", D.exact_ramp_time, START.t);
   state.scale = ["close", "all"].includes(given.get("scale")) ? given.get("scale") : START.scale;
   state.norm = ["own", "exact"].includes(given.get("norm")) ? given.get("norm") : START.norm;
   state.hide = given.has("hide") ? new Set(given.get("hide").split(".").filter(m => ORDER.includes(m) || m === "FE")) : new Set(START.hide);
