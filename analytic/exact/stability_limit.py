@@ -1,4 +1,4 @@
-"""The least amplitude that leaves the plane, over speed and shape, and what to say of results."""
+"""The least amplitude that leaves the plane, and what to say of results that do."""
 
 from __future__ import annotations
 
@@ -8,14 +8,11 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped
 from ..blade import Blade
-from ..input_checks import finite_values, positive, rotation_speed, whole_number
+from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
-from ..out_of_plane import OutOfPlane
 from .branch import AmplitudeNotReachedError, branch_of
 from .growth import STEPS, Growth, grown, settled_functions
 from .modes import resolved_model
@@ -23,7 +20,8 @@ from .space import out_of_plane_of, require_out_of_plane
 from .steady import BeamOrbit
 
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
-_LARGEST = 0.6
+LARGEST = 0.6
+"""Peak |q|/L up to which is looked unless told."""
 _FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 _BISECTED = 1e-4  # of |q|/L
 _CONVERGED = 0.01  # of the limit, as half as many functions and steps again tell it
@@ -84,7 +82,7 @@ def stability_limit(
     omega: float,
     mode: int = 1,
     *,
-    largest: float = _LARGEST,
+    largest: float = LARGEST,
     inextensible: bool = False,
 ) -> StabilityLimit:
     """Return the least amplitude at which the planar orbits of a blade leave their plane.
@@ -177,7 +175,7 @@ def _bisected(growth: _GrowthAt, low: float, high: float) -> float:
 @lru_cache(maxsize=32)
 def _growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> _GrowthAt:
     """Return what grows about an orbit, by its amplitude and the multiple of the resolution."""
-    orbit = _orbits(_in_plane(blade), omega, mode, inextensible)
+    orbit = planar_orbits(blade, omega, mode, inextensible)
 
     @lru_cache(maxsize=256)
     def growth(amplitude: float, finer: int) -> Growth:
@@ -188,95 +186,24 @@ def _growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> _G
     return growth
 
 
-def _in_plane(blade: AnyBlade) -> AnyBlade:
-    """Return what of the blade its planar orbits depend on, so that sections share them."""
+def planar_orbits(
+    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
+) -> Callable[[float], BeamOrbit]:
+    """Return what finds the planar orbits of a mode by their amplitude, each once.
+
+    Sections that differ out of the plane share them.
+    """
     if isinstance(blade, Blade):
-        return replace(blade, section=replace(blade.section, out_of_plane=None))
-    return blade
+        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
+    return _orbits(blade, omega, mode, inextensible)
 
 
 @lru_cache(maxsize=32)
 def _orbits(
     blade: AnyBlade, omega: float, mode: int, inextensible: bool
 ) -> Callable[[float], BeamOrbit]:
-    """Return what finds the planar orbits of a mode, each once."""
     model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
-
-
-def growth_map(
-    blade: AnyBlade, omegas: ArrayLike, amplitudes: ArrayLike, mode: int = 1
-) -> FloatArray:
-    """Return the growth rates [1/s] out of the plane, (speeds, amplitudes), zero where stable.
-
-    On as many functions and steps as `planar_stability` begins with; NaN where no orbit was found.
-
-    Parameters
-    ----------
-    blade : Blade
-        With a section out of the plane.
-    omegas, amplitudes : array_like
-        Rotation speeds [rad/s] and peak tip deflections |q|/L.
-    mode : int
-        In-plane mode from which the orbits grow, from 1.
-
-    Examples
-    --------
-    >>> from analytic import Beam, growth_map
-    >>> print(growth_map(Beam.reference().rectangle(), [4.0], [0.02, 0.1]).round(2))
-    [[ 0.   33.67]]
-    """
-    require_out_of_plane(blade)
-    speeds = finite_values("omegas", omegas, "rad/s")
-    peaks = finite_values("amplitudes", amplitudes)
-    rates = np.full((speeds.size, peaks.size), np.nan)
-    for row, omega in zip(rates, speeds.tolist(), strict=True):
-        orbit = _orbits(_in_plane(blade), rotation_speed(omega, "omegas"), mode, False)
-        for k, a in enumerate(peaks.tolist()):
-            try:
-                at = orbit(a)
-            except NoOrbitError:
-                break
-            functions = settled_functions(blade, at.system)
-            rate = at.frequency * blade.frequency_scale
-            row[k] = grown(blade, at, functions, STEPS).rate(rate)
-    return rates
-
-
-def limit_map(
-    blade: AnyBlade, ratios: ArrayLike, omegas: ArrayLike, mode: int = 1, largest: float = _LARGEST
-) -> FloatArray:
-    """Return the least unstable amplitudes of rectangles, (ratios, speeds); infinite: none.
-
-    The blade keeps its EA, EI and m: material and size follow the ratio.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    ratios : array_like
-        Height in the plane over width.
-    omegas : array_like
-        Rotation speeds [rad/s].
-    mode, largest
-        As for `stability_limit`.
-
-    Examples
-    --------
-    >>> from analytic import Beam, limit_map
-    >>> print(limit_map(Beam.reference(), ratios=[1.0], omegas=[4.0], largest=0.03))
-    [[inf]]
-    """
-    shapes = [OutOfPlane.rectangle(ratio) for ratio in finite_values("ratios", ratios).tolist()]
-    speeds = finite_values("omegas", omegas, "rad/s").tolist()
-    return np.array(
-        [
-            [
-                stability_limit(blade.with_out_of_plane(shape), w, mode, largest=largest).amplitude
-                for w in speeds
-            ]
-            for shape in shapes
-        ]
-    )
 
 
 def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:

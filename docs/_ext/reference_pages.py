@@ -84,6 +84,8 @@ def add_picture(app: Any, what: str, name: str, obj: Any, options: Any, lines: l
 def link_names(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Make links of the public names that a docstring speaks of."""
     del app, what, options
+    if not set(public_names()) & set(_prefixes(name)):
+        return  # elsewhere the same word may name a variable
     own = getattr(obj, "__name__", "")
     for i, line in enumerate(lines):
         if not line.lstrip().startswith((">>>", "...")):

@@ -62,7 +62,7 @@ def campbell(
     count
         Number of modes, of each family.
     orders
-        Lines k omega up to this k.
+        Lines k ω up to this k.
     config
         TOML file with the beam; without it, the paper's beam.
     format

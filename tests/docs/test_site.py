@@ -8,7 +8,10 @@ import pytest
 
 SITE = Path(__file__).parents[2] / "docs" / "_build" / "html"
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
-PAGES = ("index", "theory/continuum", "theory/errata", "reference/api/analytic.Backbone", "search")
+PAGES = (
+    "index", "class/index", "theory/continuum", "theory/errata", "explorer", "search",
+    "reference/api/analytic.Backbone",
+)  # fmt: skip
 pytestmark = [
     pytest.mark.site,
     pytest.mark.skipif(not (SITE / "index.html").exists(), reason="no site: make docs"),
