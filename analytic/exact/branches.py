@@ -16,7 +16,7 @@ from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import Branch, branch_of
-from .internal_resonance import Resonance, resonances_along
+from .internal_resonance import Resonance, pinned, resonances_along
 from .modes import resolved_model
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
@@ -185,7 +185,12 @@ def backbone_branch(
     )
     main = _main_path(branch, up_to)
     per_second = beam.frequency_scale
-    met = resonances_along(main, branch.modes, mode, per_second)
+    met = []
+    for one in resonances_along(main, branch.modes, mode, per_second):
+        near, place = pinned(branch.path.at, main, one)
+        main = sorted([*main, *near], key=lambda orbit: orbit.amplitude)
+        met.append(one._replace(amplitude=place, frequency=_frequency(main, place) * per_second))
+    met.sort(key=lambda one: one.amplitude)
     followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
     if main[-1].amplitude < up_to - 1e-9:
         followed.append(follow(main[-2], main[-1], lambda orbit: False))
@@ -210,6 +215,10 @@ def backbone_branch(
         _crossings=tuple(crossings),
         _orbits=tuple(orbits),
     )
+
+
+def _frequency(orbits: list[BeamOrbit], amplitude: float) -> float:
+    return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
 def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:
