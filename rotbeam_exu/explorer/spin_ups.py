@@ -8,7 +8,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from analytic import AnyBlade, SpinUp, linear_modes, residual_amplitude, spin_up_response
 
@@ -18,8 +17,6 @@ _CURVE = 300  # ramp times of the closed form
 _A_PERIOD = 200  # samples of what is left
 _LARGEST = 1.1  # left by the closed form; beyond, the blade is thrown about and costs minutes
 _TOLERANCE = 1e-3  # of the largest |q|: a tenth of a pixel
-
-Floats = NDArray[np.float64]
 
 
 def exact_spin_up(beam: AnyBlade, omega: float, ramp_time: float, duration: float) -> xr.Dataset:
