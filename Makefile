@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures images golden references test test-all coverage bench bench-peers lint docs check clean
+.PHONY: run figures images golden references test test-all coverage bench bench-peers lint docs check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -27,13 +27,13 @@ references: $(VENV)/.docs  ## the benchmark's reference data and its problem sta
 	$(BIN)/python -m rotbeam_exu.verification.problem_statement
 
 test: $(VENV)/.dev  ## the default test suite
-	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks"
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
-	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks"
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site"
 
 coverage: $(VENV)/.dev  ## which lines the default suite runs, in htmlcov/
-	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks" \
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site" \
 	  --cov=analytic --cov=rotbeam_exu --cov-report=html --cov-report=term:skip-covered
 
 bench: $(VENV)/.dev  ## speed and memory, each against a reference measured in the same run
@@ -49,6 +49,9 @@ lint: $(VENV)/.dev  ## linters and type checks
 
 docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
 	$(BIN)/python -m sphinx -E -W --keep-going -q docs docs/_build/html
+
+check-site: docs $(VENV)/.dev  ## the built site in a browser without a network
+	$(BIN)/python -m pytest -m site tests/docs/test_site.py
 
 check: lint test
 
@@ -74,4 +77,4 @@ $(VENV)/.peers: $(VENV)/.dev
 	touch $@
 
 clean:
-	rm -rf $(VENV) results docs/_build docs/gallery docs/_static/figures docs/sg_execution_times.rst docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/sg_execution_times.rst docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache

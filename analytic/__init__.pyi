@@ -28,10 +28,10 @@ from .exact.planarity import planar_stability as planar_stability
 from .exact.response import SpinUpResponse as SpinUpResponse
 from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
-from .exact.stability_limit import growth_map as growth_map
-from .exact.stability_limit import limit_map as limit_map
 from .exact.stability_limit import planar_note as planar_note
 from .exact.stability_limit import stability_limit as stability_limit
+from .exact.stability_maps import growth_map as growth_map
+from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
@@ -44,6 +44,8 @@ from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
 from .ramps import SmoothRamp as SmoothRamp
 from .ramps import Table as Table
+from .reduced.linear_frame import LinearResponse as LinearResponse
+from .reduced.linear_frame import linear_response as linear_response
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
 from .reduced.speeds import critical_speed as critical_speed

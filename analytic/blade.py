@@ -66,6 +66,14 @@ class Blade:
     ------
     ValueError
         If a value is out of range, a mass or station off the blade, or the section vanishes.
+
+    Examples
+    --------
+    >>> from analytic import Blade, Section
+    >>> section = Section(axial_stiffness=5e6, bending_stiffness=(566, -300), mass_per_length=0.2)
+    >>> blade = Blade(length=8.0, section=section, hub_radius=0.5).with_tip_mass(0.1)
+    >>> print(f"{blade.mass:.2f} kg, {blade.frequencies_at_rest[0]:.4f} rad/s at rest")
+    1.70 kg, 2.4539 rad/s at rest
     """
 
     length: float

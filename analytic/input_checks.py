@@ -123,6 +123,15 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
     Quantities of a units library are converted to `unit`; masked arrays and bytes, which NumPy
     would take for numbers, are refused.
     """
+    array = float_array(name, values, unit)
+    finite = np.isfinite(array)
+    if not finite.all():
+        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
+    return array
+
+
+def float_array(name: str, values: object, unit: str = "") -> FloatArray:
+    """Return numbers as `finite_array` does, for callers that look for NaN themselves."""
     values = _magnitude(name, values, unit)
     if _is_masked(values):
         raise TypeError(
@@ -135,11 +144,7 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
     if array.dtype.kind == "O":
         # Integers beyond 64 bits; each is small enough for a float, or named.
         array = np.reshape([_float(name, item, unit) for item in array.flat], array.shape)
-    array = np.asarray(array, dtype=np.float64)
-    finite = np.isfinite(array)
-    if not finite.all():
-        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
-    return array
+    return np.asarray(array, dtype=np.float64)
 
 
 def finite_values(name: str, values: object, unit: str = "") -> FloatArray:

@@ -25,6 +25,13 @@ class Damping:
         η_a [s].
     external : float
         d [kg/(m s)]; c times the mass per length damps a uniform blade by its mass.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, damping_ratios
+    >>> blade = Beam.reference().with_damping(Damping(bending=1e-3))
+    >>> print(damping_ratios(blade, omega=6.0).round(5))
+    [0.00127 0.00723 0.02303]
     """
 
     bending: float = 0.0
@@ -97,6 +104,15 @@ class SpeedRipple(_Harmonic):
         ε [rad/s].
     frequency : float, optional
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, SpeedRipple, forced_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
+    >>> ripple = SpeedRipple(amplitude=0.02)
+    >>> found = forced_response(blade, 6.0, ripple, [3.6, 3.7], functions=8)
+    >>> print(f"{found.amplitude[-1]:.4f} L at {found.frequency[-1]:.1f} rad/s")
+    0.0440 L at 3.7 rad/s
     """
 
     unit: ClassVar[str] = "rad/s"
@@ -113,6 +129,14 @@ class TipForce(_Harmonic):
         F [N].
     frequency : float, optional
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
+    >>> found = forced_response(blade, 6.0, TipForce(amplitude=0.5), [3.6, 3.7], functions=8)
+    >>> print(f"{found.amplitude[-1]:.4f} L at {found.frequency[-1]:.1f} rad/s")
+    0.0768 L at 3.7 rad/s
     """
 
     unit: ClassVar[str] = "N"
@@ -129,6 +153,15 @@ class DistributedForce(_Harmonic):
         p [N/m].
     frequency : float, optional
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, DistributedForce, forced_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
+    >>> push = DistributedForce(amplitude=0.1)
+    >>> found = forced_response(blade, 6.0, push, [3.6, 3.7], functions=8)
+    >>> print(f"{found.amplitude[-1]:.4f} L at {found.frequency[-1]:.1f} rad/s")
+    0.0517 L at 3.7 rad/s
     """
 
     unit: ClassVar[str] = "N/m"
@@ -145,6 +178,16 @@ class Gravity:
     ----------
     gravity : float
         g [m/s²].
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, gravity_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.3))
+    >>> found = gravity_response(blade, [5.0, 5.5], gravity=1.62, functions=8)
+    >>> found.load
+    Gravity(gravity=1.62)
+    >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")
+    0.0220 L at 5.0 rad/s, on the moon
     """
 
     gravity: float = 9.81

@@ -40,6 +40,13 @@ class SteadyRotation:
     ----------
     omega : float
         Angular velocity ω [rad/s]; zero or positive.
+
+    Examples
+    --------
+    >>> from analytic import SteadyRotation
+    >>> motion = SteadyRotation(omega=6.0)
+    >>> print(motion.angle(0.5), motion.rate(0.5))
+    3.0 6.0
     """
 
     omega: float

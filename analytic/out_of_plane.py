@@ -34,6 +34,13 @@ class OutOfPlane:
     polar_inertia : float, optional
         ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None of a homogeneous section,
         which has m (1 + r) EI/EA. Zero makes the twist follow without inertia.
+
+    Examples
+    --------
+    >>> from analytic import Beam, OutOfPlane, linear_modes
+    >>> blade = Beam.reference().with_out_of_plane(OutOfPlane(bending_ratio=4.0, torsion_ratio=0.5))
+    >>> print(linear_modes(blade, 6.0, plane="flap").frequencies.round(4))
+    [  8.7358  39.5322 105.1932]
     """
 
     bending_ratio: float

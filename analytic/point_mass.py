@@ -19,6 +19,15 @@ class PointMass:
         [kg].
     inertia : float
         Against rotation in the plane of bending [kg m²].
+
+    Examples
+    --------
+    >>> from analytic import Beam, Blade, PointMass
+    >>> beam = Beam.reference()
+    >>> mass = PointMass(position=4.0, mass=0.5)
+    >>> blade = Blade(length=beam.length, section=beam.blade.section, point_masses=(mass,))
+    >>> print(f"{beam.omega_0:.4f} rad/s, with the mass {blade.frequencies_at_rest[0]:.4f} rad/s")
+    2.9092 rad/s, with the mass 2.7190 rad/s
     """
 
     position: float

@@ -30,6 +30,15 @@ class Section:
         Inertia of the slices against rotation, ρI [kg m].
     out_of_plane : OutOfPlane, optional
         What they resist out of the plane of bending, None where it is not known.
+
+    Examples
+    --------
+    >>> from analytic import Section
+    >>> given = {"axial_stiffness": 5e6, "mass_per_length": 0.2}
+    >>> polynomial = Section(bending_stiffness=(566, -300), **given)  # 566 - 300 x/L
+    >>> stations = Section(bending_stiffness=((0, 566), (8, 266)), **given)  # pairs of x [m] and EI
+    >>> stations.bending_stiffness
+    ((0.0, 566.0), (8.0, 266.0))
     """
 
     axial_stiffness: Profile

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 import subprocess
 import sys
@@ -26,6 +25,7 @@ version = release = rotbeam_exu.__version__
 extensions = [
     "computed",
     "myst_parser",
+    "reference_pages",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
@@ -57,12 +57,17 @@ bibtex_default_style = "unsrt"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
+autodoc_type_aliases = {
+    "ArrayLike": "numpy.typing.ArrayLike",
+    **dict.fromkeys(("FloatArray", "ComplexArray"), "numpy.ndarray"),
+}
 autodoc_default_options = {"members": True, "ignore-module-all": True}
 default_role = "literal"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 python_maximum_signature_line_length = 88
+toc_object_entries_show_parents = "hide"
 
 sphinx_gallery_conf = {
     "examples_dirs": "../models",
@@ -129,35 +134,19 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
             lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
 
 
-def skip(app: Any, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
-    """Leave a function out that shares its full name with a module, which the link would find."""
-    del app, what, options
-    module = f"{getattr(obj, '__module__', '')}.{name}"
-    return True if inspect.isfunction(obj) and module in sys.modules else skipped or None
-
-
 def write_interactive() -> None:
-    """Write the explorer and the animation that the pages embed, by the command line itself."""
-    static = HERE / "_static"
-    for arguments in (
-        ["explore", "--cache", str(HERE / "_build" / "runs"), "--out", f"{static}/explorer.html"],
-        [
-            "animate",
-            "--omega",
-            "6",
-            "--ramp-time",
-            "3",
-            "--force",
-            "--out",
-            f"{static}/spin_up.gif",
-        ],
+    """Write the explorer and the animations that the pages embed, by the command line itself."""
+    for line in (
+        "explore --cache _build/runs --out _static/explorer.html",
+        "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
+        "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
+        "--out _static/figures/linear.gif",
     ):
         rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
-        subprocess.run([*rotbeam, *arguments], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
+        subprocess.run([*rotbeam, *line.split()], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
 
 
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("autodoc-process-docstring", plain, priority=400)
-    app.connect("autodoc-skip-member", skip)
     app.connect("builder-inited", lambda _: write_interactive(), priority=100)

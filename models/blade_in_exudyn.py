@@ -2,7 +2,7 @@ r"""
 A blade in an Exudyn model of one's own
 =======================================
 
-:func:`~rotbeam_exu.fem.rotating_beam.add_rotating_beam` puts the driven blade into any Exudyn
+:func:`~rotbeam_exu.fem.add_rotating_beam` puts the driven blade into any Exudyn
 system and returns its numbers. Here a weight hangs on its tip by a spring.
 """
 

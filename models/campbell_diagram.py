@@ -23,3 +23,11 @@ plt.show()
 # The second engine order meets the first mode here:
 first = next(c for c in diagram.crossings if (c.mode, c.order) == (1, 2))
 print(f"mode 1 meets 2ω at ω = {first.omega:.6f} rad/s")
+
+# %%
+# Where the section is known, flap and torsion come along: the rectangle that has the paper's A and
+# I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is as slow as its third lag.
+flat = campbell(Beam.reference().rectangle(), diagram.omegas, planes=("lag", "flap", "torsion"))
+_, ax = plt.subplots(figsize=(6, 4.5))
+flat.plot(ax, highest=80.0)
+plt.show()

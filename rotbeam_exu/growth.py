@@ -64,6 +64,22 @@ def growth_rate_of(
     ValueError
         If the run has no w, is shorter than two periods, has no oscillation in the plane, or grows
         too fast to be measured.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from rotbeam_exu import growth_rate_of
+    >>> time = np.linspace(0.0, 40.0, 4001)
+    >>> w = 1e-6 * np.exp(0.5 * time)  # stands for a run of simulate_3d
+    >>> tip = {"q": np.sin(3.0 * time), "w": w, "w_dot": 0.5 * w}
+    >>> run = xr.Dataset(
+    ...     {name: ("time", values) for name, values in tip.items()},
+    ...     coords={"time": time},
+    ...     attrs={"ramp_time": 0.0, "beam_length": 8.0},
+    ... )
+    >>> print(f"{growth_rate_of(run).rate:.4f} 1/s")
+    0.5000 1/s
     """
     for name in ("q", "w", "w_dot"):
         if name not in run:

@@ -51,6 +51,18 @@ class SteadyOscillation:
         Whole cycles in the window.
     harmonics : ndarray of shape (HARMONICS,)
         Amplitudes of the harmonics over L [-], the first one first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from rotbeam_exu import steady_oscillation
+    >>> time = np.linspace(0.0, 20.0, 1001)
+    >>> q = xr.DataArray(2.0 * np.sin(3.7 * time), dims="time", coords={"time": time})
+    >>> run = xr.Dataset({"q": q}, attrs={"ramp_time": 0.0, "beam_length": 8.0})
+    >>> steady = steady_oscillation(run)
+    >>> print(f"{steady.amplitude:.4f} L at {steady.frequency:.4f} rad/s")
+    0.2500 L at 3.7000 rad/s
     """
 
     amplitude: float
@@ -87,6 +99,16 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
         A ValueError, if something is missing, not finite or out of order; if the tip does not
         oscillate; if the window holds fewer than two cycles, or fewer than 20 samples a cycle; if
         the frequency is not within half and twice ω_n. The sentence says what would do.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp
+    >>> from rotbeam_exu import simulate, steady_oscillation
+    >>> motion = SpinUp(omega=2.0, ramp_time=3.0)
+    >>> run = simulate(Beam.reference(), motion, elements=4, duration=8.0, step=4e-3)
+    >>> steady = steady_oscillation(run)
+    >>> print(f"{steady.amplitude:.4f} L at {steady.frequency:.4f} rad/s")
+    0.1654 L at 3.0361 rad/s
     """
     time, x, ramp_time = _steady_part(run)
     omega_n = _natural_frequency(run)

@@ -51,6 +51,15 @@ class Backbone:
         Largest residual of the equations of motion in the energy norm, relative to the bending.
     jacobi_drift : ndarray (orbits,)
         Change of the Jacobi integral along the orbit, relative to the largest kinetic energy.
+
+    Examples
+    --------
+    >>> from analytic import Beam, periodic_orbits
+    >>> amplitudes = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5]
+    >>> found = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=amplitudes)
+    >>> print(f"{found.frequency[-1]:.5f} rad/s, third harmonic {found.harmonics[-1, 2]:.5f} L")
+    3.71003 rad/s, third harmonic 0.00814 L
+    >>> axes = found.plot()
     """
 
     beam: AnyBlade

@@ -49,6 +49,16 @@ class BackboneMap:
         Of powers of a², of ω_NL/ω_n and of the first harmonic over the peak.
     cell_reach : ndarray (speeds - 1,)
         Peak |q|/L up to which the map holds between one speed and the next.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_map
+    >>> found = backbone_map(Beam.reference(), (5.5, 6.5), up_to=0.3, speeds=8)
+    >>> print(found.frequency([[5.6], [6.4]], [0.1, 0.2, 0.3]).round(5))
+    [[3.65077 3.64874 3.64527]
+     [3.80878 3.80635 3.80216]]
+    >>> print(found.holds(6.0, 0.3))
+    True
     """
 
     beam: AnyBlade

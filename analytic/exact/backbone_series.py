@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
-from ..input_checks import finite_array
+from ..input_checks import finite_array, float_array
 
-_SHARE = 0.3  # of a curve's error, which coefficients left out may have
+_SHARE = 1.0 / 3.0  # of a curve's error, which coefficients left out may have
 _BLOCK = 32768  # amplitudes that stay in the cache while powers are summed
 
 
@@ -37,6 +37,15 @@ class BackboneCurve:
         orbits that it was not made from show, whichever is the most.
     series, first : Chebyshev
         Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_curve
+    >>> curve = backbone_curve(Beam.reference(), omega=6.0, up_to=0.4)
+    >>> print(f"ω_NL/ω_n = 1 - {curve.lambda_omega:.5f} a² + …, within {curve.holds_up_to:.2f}")
+    ω_NL/ω_n = 1 - 0.01967 a² + …, within 0.40
+    >>> print((curve.frequency([0.1, 0.2, 0.4])).round(6))
+    [3.729665 3.727422 3.717892]
     """
 
     beam: AnyBlade
@@ -82,9 +91,10 @@ class BackboneCurve:
         return amplitude * in_square(self._first_powers, amplitude)
 
     def _within(self, a: ArrayLike) -> FloatArray:
-        amplitude = finite_array("amplitude", a)
-        low, high = amplitude.min(initial=0.0), amplitude.max(initial=0.0)
-        if low < 0.0 or high > self.holds_up_to * (1.0 + 1e-12):
+        amplitude = float_array("amplitude", a)
+        low, high = _extent(amplitude)
+        if not (low >= 0.0 and high <= self.holds_up_to * (1.0 + 1e-12)):
+            finite_array("amplitude", amplitude)
             raise ValueError(
                 f"the curve at omega = {self.omega:g} rad/s holds for amplitudes from 0 up to "
                 f"{self.holds_up_to:.6g}, got {low if low < 0.0 else high:g}: they are the peak of "
@@ -98,6 +108,16 @@ class BackboneCurve:
             f"{self.holds_up_to:.4g}: omega_n = {self.omega_n:.8f} rad/s, lambda_omega = "
             f"{self.lambda_omega:.6f}, kappa = {self.kappa:.5f}, error {self.error:.0e}"
         )
+
+
+def _extent(a: FloatArray) -> tuple[float, float]:
+    """Return the least and the greatest of the numbers and 0, not a number where one is not."""
+    flat = np.ravel(a)
+    blocks = [flat[start : start + _BLOCK] for start in range(0, flat.size, _BLOCK)]
+    return (
+        float(np.min([block.min() for block in blocks], initial=0.0)),
+        float(np.max([block.max() for block in blocks], initial=0.0)),
+    )
 
 
 def _shortened(series: Chebyshev, error: float) -> Chebyshev:

@@ -75,7 +75,13 @@ def branch_of(
         else:
             if meets_the_equations(double):
                 resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(seed=seed, double=double, longest=_LONGEST_STEP, care=care or THOROUGH)
+                path = Path(
+                    seed=seed,
+                    double=double,
+                    longest=_LONGEST_STEP,
+                    care=care or THOROUGH,
+                    tangent=tangent,
+                )
                 return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
             reason = (
                 f"{steady.functions} functions meet the equations of motion to "

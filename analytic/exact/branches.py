@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
+from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import Branch, branch_of
@@ -22,6 +23,7 @@ from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue
 
 _GRID = 0.05  # of |q|/L between the orbits of the main path
+_CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
 
 
@@ -63,6 +65,13 @@ class BackboneBranch:
         Where amplitude turns around.
     branch_points : tuple of Fold
         Where another branch crosses a piece that was followed by arclength; `switched` follows it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_branch
+    >>> found = backbone_branch(Beam.reference(), omega=6.0, up_to=0.1, inextensible=True)
+    >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
+    3.73001 rad/s at 0.10 L
     """
 
     beam: AnyBlade
@@ -157,6 +166,14 @@ def backbone_branch(
         If an argument is refused.
     AmplitudeNotReachedError
         If no orbit grows out of the mode.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_branch
+    >>> found = backbone_branch(Beam.reference(), omega=4.0, up_to=0.15, inextensible=True)
+    >>> for one in found.resonances:
+    ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
+    harmonic 16 meets mode 3 at a = 0.1269
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     if positive("up_to", up_to) >= 1.0:
@@ -164,7 +181,7 @@ def backbone_branch(
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     branch = branch_of(
-        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions)
+        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions), _CARE
     )
     main = _main_path(branch, up_to)
     per_second = beam.frequency_scale

@@ -69,6 +69,14 @@ class Campbell:
         Where frequencies cross the lines kω, k from 1, within the speeds.
     planes : tuple of str
         The family of each column.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(13), count=2, orders=5)
+    >>> print(diagram.frequencies[-1].round(4), f"rad/s, tracked by {diagram.mac.min():.3f}")
+    [ 4.8604 33.3739] rad/s, tracked by 0.994
+    >>> axes = diagram.plot()
     """
 
     beam: AnyBlade
@@ -78,13 +86,23 @@ class Campbell:
     crossings: tuple[Crossing, ...]
     planes: tuple[Plane, ...]
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    @property
+    def names(self) -> list[str]:
+        """The name of each column, as "flap 1"."""
+        return [
+            f"{plane} {self.planes[:column].count(plane) + 1}"
+            for column, plane in enumerate(self.planes)
+        ]
+
+    def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
         """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
 
         Parameters
         ----------
         ax : Axes, optional
             Drawn on these; otherwise on a new figure.
+        highest : float, optional
+            Frequency [rad/s] up to which is drawn; otherwise all are.
 
         Examples
         --------
@@ -93,8 +111,9 @@ class Campbell:
         """
         ax = axes_or_new(ax)
         low, high = float(self.omegas[0]), float(self.omegas[-1])
-        top = 1.05 * float(self.frequencies.max())
-        for order in range(1, max((c.order for c in self.crossings), default=1) + 1):
+        top = 1.05 * float(self.frequencies.max()) if highest is None else highest
+        met = [c for c in self.crossings if c.frequency <= top]
+        for order in range(1, max((c.order for c in met), default=1) + 1):
             ax.plot([low, high], [order * low, order * high], color="0.75", lw=0.6, zorder=0)
             # Where the line leaves the frame: above it, or before the names at its right.
             at = top / order if order * high > top else low + 0.97 * (high - low)
@@ -103,21 +122,19 @@ class Campbell:
                 ha="center", va="bottom", clip_on=False,
             )  # fmt: skip
         families = list(dict.fromkeys(self.planes))
-        names = [
-            f"{plane} {self.planes[:column].count(plane) + 1}"
-            for column, plane in enumerate(self.planes)
-        ]
         heights = apart(self.frequencies[-1], 0.045 * top)
         for plane, name, row, height in zip(
-            self.planes, names, self.frequencies.T, heights, strict=True
+            self.planes, self.names, self.frequencies.T, heights, strict=True
         ):
+            if row[-1] > top:
+                continue  # leaves the frame, or never is in it
             family = families.index(plane)
             (line,) = ax.plot(self.omegas, row, color=f"C{family}", ls=("-", "--", "-.")[family])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
             )  # fmt: skip
-        crossed = np.array([(c.omega, c.frequency) for c in self.crossings]).reshape(-1, 2)
+        crossed = np.array([(c.omega, c.frequency) for c in met]).reshape(-1, 2)
         ax.plot(*crossed.T, "k.", ms=4)
         ax.set(
             xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]",
@@ -152,6 +169,16 @@ def campbell(
     ------
     ValueError
         If the speeds do not ascend from 0 or above, or `linear_modes` refuses one.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 3), count=2, orders=4)
+    >>> for meeting in diagram.crossings[:3]:
+    ...     print(f"mode {meeting.mode} meets {meeting.order}ω at {meeting.omega:.3f} rad/s")
+    mode 1 meets 1ω at 3.208 rad/s
+    mode 1 meets 2ω at 1.490 rad/s
+    mode 1 meets 3ω at 0.980 rad/s
     """
     speeds = finite_values("omegas", omegas, "rad/s")
     for speed in speeds:

@@ -164,13 +164,16 @@ def _fitted(branch: Branch, top: float, count: int) -> _Fitted:
     angle = 0.5 * np.pi / (count - 1)
     at, between = (top * np.sin(angle * (np.arange(count) + half)) for half in (0.0, 0.5))
     # The highest that it was not made from, where it is worst, one amid, and a low one.
-    checked = between[[count - 2, count // 2, 1]]
-    values = np.vstack(([1.0, 1.0], _of_orbits(branch, at[1:])))
+    checked = np.sort(between[[count - 2, count // 2, 1]])
+    # Laid in one row, so that a tangent serves its neighbours.
+    asked = np.sort(np.concatenate((at[1:], checked)))
+    found = _of_orbits(branch, asked)
+    made, shown = (found[np.isin(asked, which)] for which in (at, checked))
+    values = np.vstack(([1.0, 1.0], made))
     series, first = (
         Chebyshev.fit(at**2, column, count - 1, domain=[0.0, top**2]) for column in values.T
     )
-    shown = _of_orbits(branch, np.sort(checked))
-    apart = np.stack((series(np.sort(checked) ** 2), first(np.sort(checked) ** 2)), axis=1) - shown
+    apart = np.stack((series(checked**2), first(checked**2)), axis=1) - shown
     error = max(_tail(series), _tail(first), float(np.abs(apart).max()))
     return _Fitted(series, first, error)
 

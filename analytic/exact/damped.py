@@ -31,6 +31,15 @@ def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     ------
     ValueError
         If an input is refused, or a mode is damped so much that it does not oscillate.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, damping_ratios
+    >>> blade = Beam.reference().with_damping(Damping(bending=1e-3, external=0.01))
+    >>> for omega in (0.0, 6.0):
+    ...     print(damping_ratios(blade, omega).round(5))
+    [0.00996 0.01047 0.02601]
+    [0.00791 0.00831 0.02347]
     """
     modes = linear_modes(beam, omega, count)
     steady = steady_rotation(beam, omega, modes.model)

@@ -61,6 +61,16 @@ def forced_response(
         If an input is refused; if the blade is undamped and the frequencies hold a resonance.
     ResponseNotReachedError
         If the curve cannot be followed to its end; its `.response` holds what was found.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
+    >>> push = TipForce(amplitude=0.5)
+    >>> found = forced_response(blade, 6.0, push, frequencies=[3.4, 3.7, 4.0], functions=8)
+    >>> for peak in found.peaks:
+    ...     print(f"{peak.amplitude:.4f} L at {peak.frequency:.4f} rad/s")
+    0.0769 L at 3.7123 rad/s
     """
     if isinstance(load, Gravity):
         raise TypeError("gravity goes around once a turn, at ω itself: take gravity_response")
@@ -108,6 +118,14 @@ def gravity_response(
     ------
     ValueError, ResponseNotReachedError
         As `forced_response` does.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, gravity_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.3))
+    >>> found = gravity_response(blade, omegas=[4.5, 5.0, 5.5], functions=8)
+    >>> print(found.amplitude[found.at(5.0)].round(4))
+    [0.1355]
     """
     load, asked = Gravity(gravity), _ascending("omegas", omegas)
     for omega in asked.tolist():

@@ -69,6 +69,16 @@ class ForcedResponse:
         q/L = Re Σ h_k exp(ikφ); h_0 is the mean.
     residual : ndarray (points,)
         Largest residual of the equations of motion, relative to the motion.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> blade = Beam.reference().with_damping(Damping(external=0.05))
+    >>> push = TipForce(amplitude=0.5)
+    >>> found = forced_response(blade, 2.0, push, [2.9, 3.0, 3.1, 3.2], functions=8)
+    >>> print(f"{found.peaks[0].amplitude:.4f} L, stable throughout: {found.stable.all()}")
+    0.2001 L, stable throughout: True
+    >>> axes = found.plot()
     """
 
     beam: AnyBlade

@@ -35,6 +35,15 @@ class LinearModes:
         Natural frequencies in the rotating frame [rad/s], ascending.
     coordinates : ndarray (count, n)
         The modes in the energy norm of the discretization, by which `campbell` tells them apart.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> modes = linear_modes(Beam.reference(), omega=6.0, count=2)
+    >>> print(modes.shapes([2.0, 4.0, 8.0]).round(4))
+    [[ 0.1307 -0.3935]
+     [ 0.3889 -0.6521]
+     [ 1.      1.    ]]
     """
 
     beam: AnyBlade
@@ -134,6 +143,12 @@ def linear_modes(
         functions resolve; if 256 functions do not settle the frequencies, as beyond about
         w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp becomes too thin, and within 1 % of
         the burst.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> print(linear_modes(Beam.reference(), omega=6.0).frequencies.round(5))
+    [ 3.7304  23.01006 56.64712]
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)

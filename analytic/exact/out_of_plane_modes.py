@@ -32,6 +32,13 @@ class TorsionModes:
         Rotation speed ω [rad/s]; the frequencies do not depend on it.
     frequencies : ndarray (count,)
         [rad/s], ascending.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> twist = linear_modes(Beam.reference().rectangle(), 6.0, 2, plane="torsion")
+    >>> print(twist.frequencies.round(3))
+    [ 64.486 193.459]
     """
 
     beam: AnyBlade

@@ -60,6 +60,15 @@ def periodic_orbits(
     -----
     RotbeamWarning
         Where a harmonic of an orbit comes within 2 % of another mode's frequency.
+
+    Examples
+    --------
+    >>> from analytic import Beam, periodic_orbits
+    >>> found = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.1, 0.2, 0.3])
+    >>> print(found.frequency.round(5))
+    [3.72966 3.72742 3.72357]
+    >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
+    ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
     omega = rotation_speed(omega)
     mode = whole_number("mode", mode)

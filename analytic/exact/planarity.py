@@ -44,6 +44,12 @@ class PlanarStability:
     converged : ndarray (orbits,)
         Whether on half, or two thirds, as many functions and steps it is stable as well, or grows
         within 1 % as fast.
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_stability
+    >>> print(planar_stability(Beam.reference().rectangle(), 4.0, amplitudes=[0.01]))
+    The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
     """
 
     blade: AnyBlade
@@ -114,6 +120,14 @@ def planar_stability(
         turns so fast that its flap modes are not resolved.
     AmplitudeNotReachedError
         If an orbit does not exist, as `periodic_orbits` has it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_stability
+    >>> strip = Beam.reference().rectangle()
+    >>> found = planar_stability(strip, 4.0, amplitudes=[0.01, 0.2])
+    >>> print(found.stable, found.kind, found.growth_rate.round(3))
+    [ True False] ('', 'divergence') [  0.   120.97]
     """
     require_out_of_plane(blade)
     steps = whole_number("steps", steps)

@@ -56,6 +56,14 @@ class SpinUpResponse:
         coarser solution in step and functions, hence an upper estimate.
     steps, functions : int
         Steps of order 15 and functions for θ of the solution returned.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
+    >>> found = spin_up_response(Beam.reference(), motion, [1.0], tolerance=1e-4)
+    >>> print(found.tip.round(4), found.error < 1e-4)
+    [[7.2764 2.6466]] True
     """
 
     beam: AnyBlade
@@ -122,6 +130,14 @@ def spin_up_response(
         below 1e-11, a point is beyond the beam, or the final speed leaves no steady state.
     RuntimeError
         If the tolerance is not reached.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> motion = SpinUp(omega=6.0, ramp_time=3.0)
+    >>> found = spin_up_response(Beam.reference(), motion, [1.0, 2.0, 3.0], tolerance=1e-4)
+    >>> print(found.q.round(4))
+    [-2.0782 -3.9266  1.442 ]
     """
     time, tolerance = _checked(times, tolerance)
     require_ramp(spin_up)

@@ -1,4 +1,4 @@
-"""The least amplitude that leaves the plane, over speed and shape, and what to say of results."""
+"""The least amplitude that leaves the plane, and what to say of results that do."""
 
 from __future__ import annotations
 
@@ -6,28 +6,27 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped
 from ..blade import Blade
-from ..input_checks import finite_values, positive, rotation_speed, whole_number
+from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
-from ..out_of_plane import OutOfPlane
 from .branch import AmplitudeNotReachedError, branch_of
-from .growth import STEPS, grown, settled_functions
+from .growth import STEPS, Growth, grown, settled_functions
 from .modes import resolved_model
 from .space import out_of_plane_of, require_out_of_plane
 from .steady import BeamOrbit
 
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
-_LARGEST = 0.6
+LARGEST = 0.6
+"""Peak |q|/L up to which is looked unless told."""
 _FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 _BISECTED = 1e-4  # of |q|/L
 _CONVERGED = 0.01  # of the limit, as half as many functions and steps again tell it
+
+_GrowthAt = Callable[[float, int], Growth]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +82,7 @@ def stability_limit(
     omega: float,
     mode: int = 1,
     *,
-    largest: float = _LARGEST,
+    largest: float = LARGEST,
     inextensible: bool = False,
 ) -> StabilityLimit:
     """Return the least amplitude at which the planar orbits of a blade leave their plane.
@@ -111,6 +110,12 @@ def stability_limit(
         If the section out of the plane is unknown, or its torsion where that decides.
     AmplitudeNotReachedError
         If no orbit grows out of the mode at all.
+
+    Examples
+    --------
+    >>> from analytic import Beam, stability_limit
+    >>> round(stability_limit(Beam.reference().rectangle(), omega=4.0).amplitude, 4)
+    0.0545
     """
     require_out_of_plane(blade)
     require_undamped(blade, "a damped blade has no free periodic orbits")
@@ -125,126 +130,88 @@ def stability_limit(
 def _limit(
     blade: AnyBlade, omega: float, mode: int, largest: float, inextensible: bool
 ) -> StabilityLimit:
-    orbit = _orbits(_in_plane(blade), omega, mode, inextensible)
-    seen = [a for a in _SCANNED if a < largest] + [largest]
-    functions = settled_functions(blade, orbit(seen[0]).system)
+    growth = _growths(blade, omega, mode, inextensible)
+    stable, unstable = _bracket(growth, largest)
+    amplitude, what, agreed = math.inf, None, True
+    if math.isfinite(unstable):
+        amplitude = _bisected(growth, stable, unstable) if stable else unstable
+        what = growth(amplitude, 2)
+        agreed = growth(min((1.0 + _CONVERGED) * amplitude, unstable), 3).unstable
+        agreed = agreed and not growth((1.0 - _CONVERGED) * amplitude, 3).unstable
+    return StabilityLimit(
+        blade=blade, omega=omega, mode=mode, amplitude=amplitude,
+        searched=unstable if what else stable, kind=what.kind if what else "",
+        modes=what.modes if what else (), converged=agreed,
+    )  # fmt: skip
 
-    def unstable(a: float, finer: int = 2) -> bool:
-        return grown(blade, orbit(a), finer * functions, finer * STEPS).unstable
 
-    def found(amplitude: float, searched: float) -> StabilityLimit:
-        what, agreed = None, True
-        if math.isfinite(amplitude):
-            what = grown(blade, orbit(amplitude), 2 * functions, 2 * STEPS)
-            agreed = unstable(min((1.0 + _CONVERGED) * amplitude, searched), finer=3)
-            agreed = agreed and not unstable((1.0 - _CONVERGED) * amplitude, finer=3)
-        return StabilityLimit(
-            blade=blade, omega=omega, mode=mode, amplitude=amplitude, searched=searched,
-            kind=what.kind if what else "", modes=what.modes if what else (), converged=agreed,
-        )  # fmt: skip
+def _bracket(growth: _GrowthAt, largest: float) -> tuple[float, float]:
+    """Return the last stable and the first unstable one of the amplitudes that are looked at.
 
-    if unstable(seen[0]):
-        return found(seen[0], seen[0])
-    for low, high in pairwise(seen):
+    Zero and the first where that is unstable; infinite where none is that exists.
+    """
+    stable = 0.0
+    for a in [*(a for a in _SCANNED if a < largest), largest]:
+        ends = a == largest or not stable
         try:
-            growing = unstable(high, finer=1) or (high == largest and unstable(high))
+            # What the first resolution finds, the finer one confirms.
+            if (ends or growth(a, 1).unstable) and growth(a, 2).unstable:
+                return stable, a
         except NoOrbitError:
-            return found(math.inf, low)
-        if growing and unstable(high):  # the first that the finer resolution confirms
-            return found(_bisected(unstable, low, high), high)
-    return found(math.inf, largest)
+            if not stable:
+                raise
+            break
+        stable = a
+    return stable, math.inf
 
 
-def _bisected(unstable: Callable[[float], bool], low: float, high: float) -> float:
+def _bisected(growth: _GrowthAt, low: float, high: float) -> float:
     while high - low > _BISECTED:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if unstable(middle) else (middle, high)
+        low, high = (low, middle) if growth(middle, 2).unstable else (middle, high)
     return high
 
 
-def _in_plane(blade: AnyBlade) -> AnyBlade:
-    """Return what of the blade its planar orbits depend on, so that sections share them."""
+@lru_cache(maxsize=32)
+def _growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> _GrowthAt:
+    """Return what grows about an orbit, by its amplitude and the multiple of the resolution."""
+    orbit = planar_orbits(blade, omega, mode, inextensible)
+
+    @lru_cache(maxsize=256)
+    def growth(amplitude: float, finer: int) -> Growth:
+        at = orbit(amplitude)
+        functions = settled_functions(blade, at.system)
+        return grown(blade, at, finer * functions, finer * STEPS)
+
+    return growth
+
+
+def planar_orbits(
+    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
+) -> Callable[[float], BeamOrbit]:
+    """Return what finds the planar orbits of a mode by their amplitude, each once.
+
+    Sections that differ out of the plane share them.
+    """
     if isinstance(blade, Blade):
-        return replace(blade, section=replace(blade.section, out_of_plane=None))
-    return blade
+        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
+    return _orbits(blade, omega, mode, inextensible)
 
 
 @lru_cache(maxsize=32)
 def _orbits(
     blade: AnyBlade, omega: float, mode: int, inextensible: bool
 ) -> Callable[[float], BeamOrbit]:
-    """Return what finds the planar orbits of a mode, each once."""
     model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
-
-
-def growth_map(
-    blade: AnyBlade, omegas: ArrayLike, amplitudes: ArrayLike, mode: int = 1
-) -> FloatArray:
-    """Return the growth rates [1/s] out of the plane, (speeds, amplitudes), zero where stable.
-
-    On as many functions and steps as `planar_stability` begins with; NaN where no orbit was found.
-
-    Parameters
-    ----------
-    blade : Blade
-        With a section out of the plane.
-    omegas, amplitudes : array_like
-        Rotation speeds [rad/s] and peak tip deflections |q|/L.
-    mode : int
-        In-plane mode from which the orbits grow, from 1.
-    """
-    require_out_of_plane(blade)
-    speeds = finite_values("omegas", omegas, "rad/s")
-    peaks = finite_values("amplitudes", amplitudes)
-    rates = np.full((speeds.size, peaks.size), np.nan)
-    for row, omega in zip(rates, speeds.tolist(), strict=True):
-        orbit = _orbits(_in_plane(blade), rotation_speed(omega, "omegas"), mode, False)
-        for k, a in enumerate(peaks.tolist()):
-            try:
-                at = orbit(a)
-            except NoOrbitError:
-                break
-            functions = settled_functions(blade, at.system)
-            rate = at.frequency * blade.frequency_scale
-            row[k] = grown(blade, at, functions, STEPS).rate(rate)
-    return rates
-
-
-def limit_map(
-    blade: AnyBlade, ratios: ArrayLike, omegas: ArrayLike, mode: int = 1, largest: float = _LARGEST
-) -> FloatArray:
-    """Return the least unstable amplitudes of rectangles, (ratios, speeds); infinite: none.
-
-    The blade keeps its EA, EI and m: material and size follow the ratio.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    ratios : array_like
-        Height in the plane over width.
-    omegas : array_like
-        Rotation speeds [rad/s].
-    mode, largest
-        As for `stability_limit`.
-    """
-    shapes = [OutOfPlane.rectangle(ratio) for ratio in finite_values("ratios", ratios).tolist()]
-    speeds = finite_values("omegas", omegas, "rad/s").tolist()
-    return np.array(
-        [
-            [
-                stability_limit(blade.with_out_of_plane(shape), w, mode, largest=largest).amplitude
-                for w in speeds
-            ]
-            for shape in shapes
-        ]
-    )
 
 
 def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
     """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
 
-    "" too of a blade of which nothing is known out of its plane, or that is damped.
+    It leaves where an orbit of that amplitude does, or a smaller one of those that
+    `stability_limit` looks at; that function tells from where on, which takes several times as
+    long. "" too of a blade of which nothing is known out of its plane, or that is damped.
 
     Parameters
     ----------
@@ -254,6 +221,12 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     amplitude : float
         Peak |q|/L of the motion, about that of an orbit of `mode`.
     mode : int
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_note
+    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
+    ''
     """
     unit = blade.unit
     if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
@@ -261,16 +234,17 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     if not 0.0 < amplitude < 1.0:
         return ""
     try:
-        largest = max(_LARGEST, math.ceil(20.0 * amplitude) / 20.0 - 0.01)  # few, to be kept
-        limit = stability_limit(blade, omega, mode, largest=largest)
+        growth = _growths(blade, rotation_speed(omega), mode, False)
+        _, unstable = _bracket(growth, amplitude)
     except ValueError as unknown:
         return f"whether this motion stays in its plane is not known: {unknown}"
     except (AmplitudeNotReachedError, NoOrbitError):
         return ""
-    if amplitude < limit.amplitude:
+    if math.isinf(unstable):
         return ""
+    what = growth(unstable, 2)
     return (
-        f"this section does not stay in the plane: at {omega:g} rad/s planar orbits are unstable "
-        f"out of it from a = {limit.amplitude:.3g} on ({limit.kind} of "
-        f"{' and '.join(limit.modes)}), and this one has a = {amplitude:.3g}"
+        f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit of "
+        f"a = {unstable:.3g} is unstable out of it ({what.kind} of {' and '.join(what.modes)}), "
+        f"and this one has a = {amplitude:.3g}"
     )

@@ -31,6 +31,14 @@ class BeamState:
         The rates of all four as seen in the rotating frame [m/s, 1/s].
     shear_angle, shear_angle_dot : ndarray (points,) or float
         How far the sections lag behind the tangent [rad], and its rate [rad/s]; 0 without shear.
+
+    Examples
+    --------
+    >>> from analytic import Beam, periodic_orbits
+    >>> orbit = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.3])
+    >>> state = orbit.state(0, [4.0, 8.0], phase=1.0)
+    >>> print(state.u.round(4), state.v.round(4))
+    [-0.094  -0.2838] [0.8022 2.0198]
     """
 
     u: FloatArray

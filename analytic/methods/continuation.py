@@ -81,6 +81,8 @@ class Path(Generic[S]):
         Longest step of the amplitude.
     care : Care
         With which they are.
+    tangent : LastTangent
+        That of the smallest orbits, to begin with.
     nodes : list of PeriodicOrbit
         Those found so far, ascending.
     """
@@ -89,10 +91,10 @@ class Path(Generic[S]):
     double: PeriodicOrbit[S]
     longest: float
     care: Care = THOROUGH
+    tangent: LastTangent = field(default_factory=LastTangent, repr=False)
     nodes: list[PeriodicOrbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
-    _tangent: LastTangent = field(init=False, default_factory=LastTangent)
 
     def __post_init__(self) -> None:
         self.nodes = [self.seed, self.double]
@@ -168,9 +170,9 @@ class Path(Generic[S]):
 
     def _resolved(self, guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
         """Return the orbit near `guess` with as many harmonics and functions as it needs."""
-        orbit = solve(guess, amplitude, self._tangent)
+        orbit = solve(guess, amplitude, self.tangent)
         while (larger := refined(orbit, self.care)) is not None:
-            orbit = solve(larger, amplitude, self._tangent)
+            orbit = solve(larger, amplitude, self.tangent)
         return orbit
 
 

@@ -8,6 +8,7 @@ coefficients (2H + 1, n): the mean, H cosines, H sines.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -49,6 +50,8 @@ class HalfPeriod:
     Attributes
     ----------
     phase : ndarray (2H + 2,)
+    spacing : float
+        Between the phases.
     waves : Waves
     onto_odd, onto_even : ndarray (H, 2H + 2), (H + 1, 2H + 2)
         From samples to the coefficients of sin kφ and of cos kφ; exact for products of two waves.
@@ -56,6 +59,7 @@ class HalfPeriod:
 
     def __init__(self, harmonics: int) -> None:
         count = 2 * harmonics + 2
+        self.spacing = math.pi / count
         self.phase = np.pi * (np.arange(count) + 0.5) / count
         self.waves = Waves(self.phase, harmonics)
         self.onto_odd = 2.0 / count * self.waves.odd[0].T

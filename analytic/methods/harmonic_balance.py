@@ -8,26 +8,24 @@ beam the gauge is the tip's deflection, and the Coriolis force brings in even ha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import linalg
 
 from ..arrays import FloatArray
 from .fourier import half_period, unpacked
-from .periodic_orbit import PeriodicOrbit, S, highest, near_peak, peak_gradient
+from .periodic_orbit import Crest, PeriodicOrbit, S, highest, peak_gradient
 
 _NEWTON_STEPS, _MOST_TANGENTS = 25, 8
 _CONVERGED = 4e-15  # of the odd coordinates and of Ω; in the energies they count a 1000 times
 _ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of the mean
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
 _SLOW = 0.4  # a contraction worse than this pays for a new tangent
-
-_Indices = NDArray[np.intp]
 
 
 class NoOrbitError(Exception):
@@ -57,27 +55,21 @@ def jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
         (np.flatnonzero(system.odd), half.onto_odd, half.waves.odd),
         (np.flatnonzero(~system.odd), half.onto_even, half.waves.even),
     )
-
-    def block(rows: _Indices, onto: FloatArray, columns: _Indices, waves: FloatArray) -> FloatArray:
-        part = in_time[:, rows[:, None], columns]
-        products = onto[:, None, None, :] * waves.transpose(2, 0, 1)[None]
-        count, functions, others = len(onto), part.shape[1], part.shape[2]
-        result = products.reshape(-1, len(part)) @ part.reshape(len(part), -1)
-        result = result.reshape(count, -1, functions, others).transpose(0, 2, 1, 3)
-        return np.asarray(result.reshape(count * functions, -1))
-
-    by_harmonics = np.block(
-        [
-            [block(rows, onto, columns, waves) for columns, _, waves in sides]
-            for rows, onto, _ in sides
-        ]
-    )
+    cut = len(half.onto_odd) * len(sides[0][0])
+    unknowns = cut + len(half.onto_even) * len(sides[1][0]) + 1
+    matrix = np.zeros((unknowns, unknowns), order="F")  # as LAPACK takes it
+    places = (slice(0, cut), slice(cut, unknowns - 1))
+    for down, (rows, onto, _) in zip(places, sides, strict=True):
+        for across, (columns, _, waves) in zip(places, sides, strict=True):
+            part = in_time[:, rows[:, None], columns]
+            products = onto[:, None, None, :] * waves.transpose(2, 0, 1)[None]
+            block = products.reshape(-1, len(part)) @ part.reshape(len(part), -1)
+            place = matrix[down, across]
+            place.shape = len(onto), len(rows), -1, len(columns)  # a view
+            place[...] = block.reshape(len(onto), -1, len(rows), len(columns)).swapaxes(1, 2)
     by_frequency = (tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None])[
         ..., 0
     ] / orbit.frequency
-    unknowns = len(by_harmonics) + 1
-    matrix = np.zeros((unknowns, unknowns))
-    matrix[:-1, :-1] = by_harmonics
     matrix[:-1, -1] = half.project(by_frequency, system.odd)
     return matrix
 
@@ -108,7 +100,8 @@ class LastTangent:
     def solve(self, defect: FloatArray) -> FloatArray:
         """Return what the defect takes to vanish."""
         assert self.factors is not None
-        return np.asarray(linalg.lu_solve(self.factors, defect, check_finite=False))
+        # As `linalg.lu_solve`, whose checks take longer than it does.
+        return np.asarray(linalg.lapack.dgetrs(*self.factors, defect)[0])
 
 
 def solve(
@@ -132,21 +125,21 @@ def solve(
         If Newton's method does not converge.
     """
     tangent = tangent or LastTangent()
-    orbit, last = highest(guess), np.inf
+    orbit, last, crest = guess, np.inf, Crest(guess)
     own, fresh = False, not tangent.fits(orbit)
     half, odd = half_period(orbit.harmonics), orbit.system.odd
     tangents, steps = 0, list[FloatArray]()
     for _ in range(_NEWTON_STEPS):
-        orbit, peak = near_peak(orbit)
+        crest.follow(orbit)
         defect = orbit.system.residual(*orbit.at_waves(half.waves))
-        defect = np.append(half.project(defect, odd), peak - amplitude)
+        defect = np.append(half.project(defect, odd), crest.height - amplitude)
         if not np.all(np.isfinite(defect)):
             break
         if fresh:
             tangents += 1
             if tangents > _MOST_TANGENTS:
                 break
-            tangent.factor(orbit)
+            tangent.factor(replace(orbit, peak_phase=crest.phase))
             own, fresh = True, False
             steps = []
         change = _improved(-tangent.solve(defect), steps)
@@ -156,16 +149,16 @@ def solve(
             coefficients=orbit.coefficients + unpacked(change[:-1], odd),
             frequency=orbit.frequency + float(change[-1]),
         )
-        size = float(
-            np.linalg.norm(change[:-1]) / np.linalg.norm(orbit.sines)
-            + abs(change[-1]) / orbit.frequency
-        )
+        size = _norm(change[:-1]) / _norm(orbit.sines.ravel())
+        size += abs(float(change[-1])) / orbit.frequency
         contraction = size / last if np.isfinite(last) else 1.0
         stagnates = own and size < _ROUND_OFF and contraction > _SLOW
         if stagnates or size * min(1.0, contraction) < _CONVERGED:
-            found, peak = near_peak(highest(orbit))
-            if abs(peak - amplitude) < _SAME_PEAK * amplitude:
-                return replace(found, amplitude=amplitude)
+            found = highest(orbit)
+            if abs(found.peak_phase - crest.phase) > half.spacing:
+                crest = Crest(found)
+            if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
+                return replace(orbit, amplitude=amplitude, peak_phase=crest.phase)
             orbit = found  # a second peak is higher
         if size > 1.0 or orbit.frequency <= 0.0:
             break
@@ -175,6 +168,10 @@ def solve(
         tangent.factors = None
         return solve(guess, amplitude, tangent)
     raise NoOrbitError("Newton's method does not converge")
+
+
+def _norm(vector: FloatArray) -> float:
+    return math.sqrt(float(vector @ vector))
 
 
 def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:

@@ -63,6 +63,18 @@ class PeriodicOrbit(Generic[S]):
         """Return the gauge, (phases,)."""
         return self.system.gauge(self.coordinates(phase)[0])
 
+    def gauge_near(self, phase: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the gauge at a few phases, and its derivative to the phase; both (phases,)."""
+        k = np.arange(self.harmonics + 1.0)
+        turns = np.multiply.outer(phase, k)
+        sin, cos = np.sin(turns), np.cos(turns)
+        onto_sin, onto_cos, by_sin, by_cos = (
+            np.stack((sin, cos, k * cos, -k * sin)) @ self.coefficients
+        )
+        odd, system = self.system.odd, self.system
+        q, change = np.where(odd, onto_sin, onto_cos), np.where(odd, by_sin, by_cos)
+        return system.gauge(q), system.gauge_rate(q, change)
+
     @cached_property
     def _finely(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The coordinates at four times as many phases of half a period as harmonics."""
@@ -122,6 +134,8 @@ class PeriodicOrbit(Generic[S]):
 
     def with_harmonics(self, count: int) -> PeriodicOrbit[S]:
         """Return the same orbit with its series cut or padded to `count` harmonics."""
+        if count == self.harmonics:
+            return self
         coefficients = np.zeros((count + 1, self.system.size))
         kept = min(count, self.harmonics) + 1
         coefficients[:kept] = self.coefficients[:kept]
@@ -154,8 +168,9 @@ def at_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float, FloatArra
 
     The phase is where the gauge is stationary, so it adds nothing to the derivatives.
     """
-    orbit, peak = near_peak(highest(orbit))
-    return orbit, peak, peak_gradient(orbit)
+    crest = Crest(highest(orbit))
+    orbit = replace(orbit, peak_phase=crest.phase)
+    return orbit, crest.height, peak_gradient(orbit)
 
 
 def highest(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
@@ -165,19 +180,42 @@ def highest(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
     return replace(orbit, peak_phase=float(half.phase[np.argmax(values)]))
 
 
-def near_peak(orbit: PeriodicOrbit[S]) -> tuple[PeriodicOrbit[S], float]:
-    """Return the orbit with the phase of the peak near the one that it has, and the peak."""
-    phase = orbit.peak_phase
-    for _ in range(6):
-        q, q_dot, _ = orbit.coordinates(phase + np.array([-1e-4, 0.0, 1e-4]))
-        rate = orbit.system.gauge_rate(q, q_dot) / orbit.frequency
-        step = float(-rate[1] / ((rate[2] - rate[0]) / 2e-4))
-        phase += float(np.clip(step, -0.2, 0.2))
-        if abs(step) < _PHASE_STEP:
-            break
-    # Beyond the last step's square, which is half its rate, the cube is below round-off.
-    peak = float(orbit.system.gauge(q)[1] + 0.5 * step * rate[1])
-    return replace(orbit, peak_phase=phase), peak
+class Crest:
+    """The peak of the gauge near the phase that an orbit has, by Newton's method.
+
+    `follow` takes one more step, with the same curvature, as the orbit changes a little.
+
+    Parameters
+    ----------
+    orbit : PeriodicOrbit
+
+    Attributes
+    ----------
+    phase, height : float
+        Of the peak.
+    """
+
+    def __init__(self, orbit: PeriodicOrbit[Any]) -> None:
+        around = orbit.peak_phase + np.array([-1e-4, 0.0, 1e-4])
+        (_, value, _), (behind, slope, ahead) = orbit.gauge_near(around)
+        self.phase = orbit.peak_phase
+        self._curvature = (ahead - behind) / 2e-4
+        self._step(value, slope)
+        for _ in range(5):
+            if self._moved < _PHASE_STEP:
+                break
+            self.follow(orbit)
+
+    def follow(self, orbit: PeriodicOrbit[Any]) -> None:
+        """Take the next step."""
+        (value,), (slope,) = orbit.gauge_near(np.array([self.phase]))
+        self._step(value, slope)
+
+    def _step(self, value: float, slope: float) -> None:
+        step = -float(slope) / self._curvature
+        self.phase += max(-0.2, min(0.2, step))
+        # Beyond the step's square, which is half its slope, the cube is below round-off.
+        self._moved, self.height = abs(step), float(value) + 0.5 * step * float(slope)
 
 
 def peak_gradient(orbit: PeriodicOrbit[Any]) -> FloatArray:

@@ -12,13 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import (
-    finite_array,
-    finite_number,
-    not_negative,
-    rotation_speed,
-    whole_number,
-)
+from ..input_checks import finite_array, finite_number, not_negative, rotation_speed, whole_number
 from ..unit_blade import UNIFORM
 from .any_blade import blade_oscillator
 from .model_range import amplitudes_within, warn_beyond_range
@@ -38,16 +32,21 @@ class ReducedModel:
     Parameters
     ----------
     beam : Beam or Blade
-        The beam.
     omega : float
         Rotation speed ω [rad/s].
     variant : Variant
-        The variant.
     oscillator : Oscillator
         Eq. 41 with its coefficients, nondimensional.
     tip_coupling : float
         Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
         second order.
+
+    Examples
+    --------
+    >>> from analytic import Beam, reduced_model
+    >>> model = reduced_model(Beam.reference(), 6.0, "FrM")
+    >>> print(f"{model.omega_n:.5f} rad/s, {model.frequency(0.2):.5f} rad/s at x = 0.2")
+    3.73075 rad/s, 3.72781 rad/s at x = 0.2
     """
 
     beam: AnyBlade

@@ -23,6 +23,12 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     extensible one a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None where λ_ω
     does not rise through zero up to Ω = 4: such a model softens, or hardens, at every speed of
     interest.
+
+    Examples
+    --------
+    >>> from analytic import Beam, softening_speed
+    >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
+    2.9730 rad/s
     """
     setting = variant_named(variant) if isinstance(variant, str) else variant
 
@@ -40,7 +46,14 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
 
 
 def divergence_speed(beam: Beam) -> float:
-    """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1."""
+    """Return the speed [rad/s] at which the linear model, Eq. 45, becomes unstable: Ω = 1.
+
+    Examples
+    --------
+    >>> from analytic import Beam, divergence_speed
+    >>> print(f"{divergence_speed(Beam.reference()):.4f} rad/s")
+    2.9092 rad/s
+    """
     linear = energy_coefficients(CantileverMode(), "none")
     return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
 

@@ -124,6 +124,16 @@ def paper_table(number: int) -> PaperTable:
     ------
     ValueError
         If the paper has no such table.
+
+    Examples
+    --------
+    >>> from analytic import paper_table
+    >>> for row in paper_table(1).rows[2:6]:
+    ...     print(f"{row.quantity:6} {row.printed:24} {row.derived:24} {row.difference}")
+    ω0     sqrt(140/11)             2·sqrt(385)/11           0
+    ω_n²   350·Ω^2/121 + 140/11     350·Ω^2/121 + 140/11     0
+    g1     144/11 - 9940·Ω^2/1331   144/11 - 9940·Ω^2/1331   0
+    g2     142/121                  142/121                  0
     """
     number = whole_number("table", number)
     if number in _RATIONAL:

@@ -59,6 +59,12 @@ def timoshenko_frequencies(
         If the beam is no uniform `Beam`; if `omega` is negative, not finite, or tears it; if
         `shear_share` is not positive or `count` too large; if 128 functions for each unknown do
         not settle the frequencies to 1e-9.
+
+    Examples
+    --------
+    >>> from analytic import Beam, timoshenko_frequencies
+    >>> print(timoshenko_frequencies(Beam.reference(), omega=6.0, shear_share=0.32).round(5))
+    [ 3.73022 23.00789 56.63317]
     """
     if not isinstance(beam, Beam):
         raise ValueError("timoshenko_frequencies takes the uniform Beam, not a Blade")

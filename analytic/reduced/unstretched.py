@@ -52,6 +52,15 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
     ValueError
         If `omega` is negative, not finite, or tears the beam; if `count` is too large, or 96
         functions do not settle the frequencies to 1e-5.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes, unstretched_frequencies
+    >>> beam = Beam.reference()
+    >>> print(unstretched_frequencies(beam, omega=6.0).round(5))
+    [ 3.73048 23.01044 56.64848]
+    >>> print(linear_modes(beam, omega=6.0).frequencies.round(5))
+    [ 3.7304  23.01006 56.64712]
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)

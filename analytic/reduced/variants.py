@@ -43,6 +43,13 @@ class Variant:
     order : int
         3, or 5 with the next term of the frequency, -κ a⁴; with consistent foreshortening and the
         other modes only, for without them it would be of no use.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Variant, reduced_model
+    >>> mine = Variant(name="mine", shape="cantilever", axial="consistent")
+    >>> print(f"{reduced_model(Beam.reference(), 6.0, mine).lambda_omega:.5f}")
+    -0.08363
     """
 
     name: str

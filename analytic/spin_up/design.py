@@ -140,6 +140,13 @@ def design_ramp(
         If an input is refused, or no such ramp stays within the limits.
     RuntimeError
         If the blade swings so far on the way that the exact transient does not follow.
+
+    Examples
+    --------
+    >>> from analytic import Beam, design_ramp, exact_residual
+    >>> ramp = design_ramp(Beam.reference(), omega=2.0, duration=3.0, modes=1)
+    >>> print(exact_residual(Beam.reference(), ramp) < 1e-4)
+    True
     """
     omega, start = rotation_speed(omega), rotation_speed(start, "start")
     duration, modes = positive("duration", duration, "s"), whole_number("modes", modes)

@@ -41,6 +41,13 @@ class QuietRamps:
         Amplitude of the first mode at the tip over L after the exact transient [-].
     linear : ndarray (count,)
         The same by the closed form.
+
+    Examples
+    --------
+    >>> from analytic import Beam, quiet_ramp_times
+    >>> found = quiet_ramp_times(Beam.reference(), omega=2.0, longest=5.0, tolerance=1e-4)
+    >>> print(found.left.round(4), "L, by the closed form", found.linear.round(4))
+    [0.0069] L, by the closed form [0.0067]
     """
 
     beam: AnyBlade
@@ -72,6 +79,13 @@ def quiet_ramp_times(
     ------
     ValueError
         If an input is refused, or no speed leaves anything.
+
+    Examples
+    --------
+    >>> from analytic import Beam, quiet_ramp_times
+    >>> found = quiet_ramp_times(Beam.reference(), omega=2.0, longest=5.0, tolerance=1e-4)
+    >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
+    [4.3] s leave [0.0069] L
     """
     omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
     if omega == 0.0:
@@ -166,6 +180,15 @@ def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6)
     spin_up : SpinUp, SmoothRamp or Table
     tolerance : float
         Error of the tip's position over its largest deflection, as in `spin_up_response`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, exact_residual, residual_amplitude
+    >>> beam, spin_up = Beam.reference(), SpinUp(omega=2.0, ramp_time=3.0)
+    >>> print(f"{exact_residual(beam, spin_up):.4f} L")
+    0.1655 L
+    >>> print(f"{residual_amplitude(beam, spin_up):.4f} L by the closed form")
+    0.1680 L by the closed form
     """
     require_ramp(spin_up)
     period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])

@@ -73,6 +73,16 @@ def residual_amplitude(
     -------
     float or ndarray
         In the shape of `ramp_times`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, residual_amplitude
+    >>> for ramp_time in (2.5, 3.0, 3.5):
+    ...     left = residual_amplitude(Beam.reference(), SpinUp(omega=2.0, ramp_time=ramp_time))
+    ...     print(f"{ramp_time} s leaves {left:.4f} L")
+    2.5 s leaves 0.2826 L
+    3.0 s leaves 0.1680 L
+    3.5 s leaves 0.0797 L
     """
     mode = whole_number("mode", mode)
     if corrected and mode != 1:

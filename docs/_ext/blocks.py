@@ -37,13 +37,19 @@ def table(header: Iterable[object], rows: Iterable[Iterable[object]]) -> None:
         print("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |")  # noqa: T201
 
 
-def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
-    """Save the figure of `axes` in `folder`, below the pages' _static, and print its Markdown."""
+def save(folder: Path, axes: Any, name: str) -> int:
+    """Save the figure of `axes` in `folder`, and return its width [px] on a page."""
     folder.mkdir(parents=True, exist_ok=True)
     root = axes.get_figure(root=True)
     root.savefig(folder / f"{name}.svg")
-    width = round(115 * root.get_figwidth())  # [px]: the drawings' letters as large as the text's
+    width = round(115 * root.get_figwidth())  # the drawings' letters as large as the text's
     root.clear()
+    return width
+
+
+def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
+    """Save the figure of `axes` in `folder`, below the pages' _static, and print its Markdown."""
+    width = save(folder, axes, name)
     text = " ".join(caption.split())
     source, brief = f"/_static/{folder.name}/{name}.svg", text.split(". ")[0]
     print(f"```{{figure}} {source}\n:alt: {brief}\n:width: {width}px\n\n{text}\n```")  # noqa: T201

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from cyclopts import Parameter
 from rich.progress import Progress
 
-from analytic import spin_up_response
+from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
@@ -34,6 +34,7 @@ def animate(
     duration: float | None = None,
     rate: Whole = 20,
     slow_motion: float | None = None,
+    beside: Literal["linear"] | None = None,
     config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Force = False,
@@ -57,6 +58,9 @@ def animate(
         Pictures a second of the film.
     slow_motion
         Seconds of the film per second of the motion.
+    beside
+        Show what a model that is linear in one floating frame makes of it beside the exact beam:
+        above the first natural frequency at rest it flies apart.
     config
         TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
     out
@@ -68,6 +72,7 @@ def animate(
     --------
     $ rotbeam animate
     $ rotbeam animate --omega 6 --ramp-time 3 --duration 4 --rate 10 -o film.gif
+    $ rotbeam animate --omega 4 --ramp-time 3 --duration 6 --beside linear
     """
     whole_number("rate", rate)
     file = configured(config)
@@ -90,7 +95,8 @@ def animate(
         seconds=_SECONDS_PER_PICTURE * pictures,
         remedy="take a shorter duration, a lower rate or less slow motion",
     )
-    target = out or Path(f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}.gif")
+    name = f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
+    target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
     writable_folder(target.parent)
 
     from ..figures import animation  # noqa: PLC0415  (matplotlib is the slowest import)
@@ -101,13 +107,17 @@ def animate(
     times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("integrating", total=None)
-        response = spin_up_response(
-            beam, spin_up, times, tolerance=1e-5, points=np.linspace(0.0, beam.length, 41)
-        )
+        points = np.linspace(0.0, beam.length, 41)
+        response = spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
+        linear = linear_response(beam, spin_up, times, points=points) if beside else None
         bar.update(task, description="drawing", total=times.size)
         with whole_file(target) as partial:
             animation.save_animation(
-                response, partial, rate=rate, progress=lambda n: bar.update(task, completed=n)
+                response,
+                partial,
+                beside=linear,
+                rate=rate,
+                progress=lambda n: bar.update(task, completed=n),
             )
     console.print(
         f"{target}, {target.stat().st_size / 1e6:.1f} MB, "

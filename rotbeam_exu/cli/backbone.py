@@ -24,7 +24,7 @@ from analytic.input_checks import RotbeamWarning, whole_number
 
 from .configuration import configured, omega_of
 from .cost import require_affordable
-from .options import Flag, VariantName, Whole
+from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, new_console, print_columns
 
 Refusal = tuple[str, str]
@@ -41,7 +41,7 @@ _FIFTH = "; FrM5 has Eq. 63 with -κ (a/L)⁴"
 def backbone(
     *,
     omega: float | None = None,
-    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
+    amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: VariantName | None = None,
     all_variants: Flag = False,
     exact: Flag = False,

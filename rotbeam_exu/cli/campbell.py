@@ -1,22 +1,30 @@
-"""`rotbeam campbell`: the Campbell table of the exact beam, in the plane of rotation."""
+"""`rotbeam campbell`: the Campbell diagram of the exact beam, in the plane and out of it."""
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from cyclopts import Parameter
 
-from analytic import Campbell
+from analytic import AnyBlade, Blade, Campbell
 from analytic import campbell as campbell_diagram
-from analytic.input_checks import rotation_speed, whole_number
+from analytic.exact.modes import Plane
+from analytic.input_checks import positive, rotation_speed, whole_number
 
+from ..files.results import writable_folder
 from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds
 from .options import Whole
-from .output import Format, print_columns
+from .output import Format, new_console, print_columns
+from .sections import SectionShape
+from .targets import Force, listed, refuse_to_replace_unread
 
+_GIVEN = SectionShape()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _SECONDS_PER_SPEED = 1e-3
 _SECONDS_PER_LINE = 5e-3
@@ -30,13 +38,18 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 10,
+    shape: SectionShape = _GIVEN,
     config: Path | None = None,
     format: Format = "table",  # noqa: A002  the name of the option
+    out: Annotated[Path | None, Parameter(alias="-o")] = None,
+    frequency_max: float | None = None,
+    force: Force = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 
     Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
-    half as many functions again change no frequency by 1e-9.
+    half as many functions again change no frequency by 1e-9. In the plane (lag), and where the
+    section out of it is known, out of it (flap) and in torsion.
 
     Parameters
     ----------
@@ -47,23 +60,32 @@ def campbell(
     points
         Number of speeds.
     count
-        Number of modes.
+        Number of modes, of each family.
     orders
-        Lines k omega up to this k.
+        Lines k ω up to this k.
     config
         TOML file with the beam; without it, the paper's beam.
     format
         A table to read, or CSV.
+    out
+        Folder for the figure; without it none is drawn.
+    frequency_max
+        Highest frequency in the figure [rad/s]; without it all are drawn.
+    force
+        Replace a figure that is there.
 
     Examples
     --------
     $ rotbeam campbell
+    $ rotbeam campbell --section rectangle --frequency-max 80 -o results
     $ rotbeam campbell --omega-max 8 --points 5 --count 2 --format csv
     """
     if points < 2:
         raise ValueError(f"points must be at least 2, got {points}")
     whole_number("count", count)
     whole_number("orders", orders)
+    if frequency_max is not None:
+        positive("frequency_max", frequency_max, "rad/s")
     if omega_max is not None:
         rotation_speed(omega_max, "omega_max")
     require_affordable(
@@ -72,10 +94,28 @@ def campbell(
         seconds=_SECONDS_PER_SPEED * points + _SECONDS_PER_LINE * orders * count**2,
         remedy="take fewer",
     )
-    beam = configured(config).beam
+    beam = shape.of(configured(config).beam)
     highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
     speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)
-    _print(campbell_diagram(beam, speeds, count, orders), format)
+    path = None if out is None else writable_folder(out) / f"campbell-{shape.name}"
+    if path is not None:
+        refuse_to_replace_unread(path.with_name(f"{path.name}.png"), force)
+    diagram = campbell_diagram(beam, speeds, count, orders, planes=_families(beam))
+    _print(diagram, format)
+    if path is not None:
+        from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+
+        written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
+        new_console(stderr=format == "csv").print("written " + listed([*written]))
+
+
+def _families(beam: AnyBlade) -> list[Plane]:
+    """Return the families of modes of which the beam's section tells."""
+    known = beam.section.out_of_plane if isinstance(beam, Blade) else None
+    if known is None:
+        return ["lag"]
+    twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
+    return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
 
 
 def _print(diagram: Campbell, form: Format) -> None:
@@ -83,22 +123,27 @@ def _print(diagram: Campbell, form: Format) -> None:
     csv = form == "csv"
     speed, number = ("{:.10g}", "{:.10g}") if csv else ("{:.4g}", "{:.6f}")
     unit = " [rad/s]" if csv else ""
+    in_space = len(set(diagram.planes)) > 1
+    names = diagram.names if in_space else [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)]
     print_columns(
         {
             "omega [rad/s]": [speed.format(omega) for omega in diagram.omegas],
             **{
-                f"mode {mode}{unit}": [number.format(frequency) for frequency in column]
-                for mode, column in enumerate(diagram.frequencies.T, start=1)
+                f"{name}{unit}": [number.format(frequency) for frequency in column]
+                for name, column in zip(names, diagram.frequencies.T, strict=True)
             },
         },
         form,
-        title="In-plane frequencies [rad/s]",
+        title=f"{'Frequencies' if in_space else 'In-plane frequencies'} [rad/s]",
     )
     if csv:
         sys.stdout.write("\n")
     print_columns(
         {
-            "mode": [str(crossing.mode) for crossing in diagram.crossings],
+            "mode": [
+                f"{crossing.plane} {crossing.mode}" if in_space else str(crossing.mode)
+                for crossing in diagram.crossings
+            ],
             "k": [str(crossing.order) for crossing in diagram.crossings],
             "omega [rad/s]": [number.format(crossing.omega) for crossing in diagram.crossings],
             "frequency [rad/s]": [

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from ..files.results import whole_file, writable_folder
 from ..report.document import SCHEMA, document
@@ -30,7 +33,7 @@ def judge(
     report: Path | None = None,
     json: Path | None = None,
     case: list[str] | None = None,
-    run: bool = False,
+    run: Annotated[bool, Parameter(show_default=False)] = False,
 ) -> None:
     """Judge the files that any code handed in, by what it tends to.
 

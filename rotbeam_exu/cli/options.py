@@ -40,6 +40,12 @@ Jobs = Annotated[int | None, Parameter(converter=whole)]
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
 
+Amplitudes = Annotated[
+    list[float],
+    Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
+]
+"""One or several, shown as they are typed."""
+
 NoFigure = Annotated[
     bool,
     Parameter(

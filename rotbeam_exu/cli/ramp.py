@@ -17,7 +17,7 @@ from ..files.results import save, save_tables, writable_folder
 from ..verdict import beam_attributes
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, refuse_rest
-from .options import Results, Whole
+from .options import Element, Results, Whole
 from .output import new_console, print_columns
 from .progress import counter
 from .targets import listed, refuse_to_replace
@@ -34,7 +34,7 @@ def ramp(
     longest: float | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
-    element: str = "cable",
+    element: Element = "cable",
     elements: Whole = 16,
     config: Path | None = None,
     results: Results = _RESULTS,
@@ -54,7 +54,7 @@ def ramp(
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
     element
-        Beam formulation.
+        Beam formulation: cable, exact or reissner, ancf3, linear, substructures.
     elements
         Number of elements.
     config

@@ -59,7 +59,9 @@ class Loads:
     ripple: float | None = None
     tip_force: float | None = None
     distributed_force: float | None = None
-    gravity: Annotated[bool | float, Parameter(negative=())] = False
+    gravity: Annotated[
+        bool | float, Parameter(negative=(), show_default=False, metavar="[FLOAT]")
+    ] = False
 
     def one(self) -> HarmonicLoad | Gravity:
         """Return the load."""

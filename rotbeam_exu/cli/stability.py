@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Literal
 
 import numpy as np
-from cyclopts import Parameter
 
-from analytic import AnyBlade, Beam, Blade, OutOfPlane, planar_stability, stability_limit
+from analytic import Beam, planar_stability, stability_limit
 from analytic.input_checks import whole_number
 
 from .. import comparison
@@ -17,25 +15,23 @@ from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .cost import require_affordable
-from .options import Results, Whole
+from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns
+from .sections import SectionShape
 from .targets import listed, refuse_to_replace
 
 _SECONDS_PER_ORBIT = 0.1
 """From below."""
 _RESULTS = Results()
+_GIVEN = SectionShape()
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
-
-Shape = Literal["rectangle", "tube", "given"]
 
 
 def stability(
     *,
     omega: float,
-    section: Shape = "given",
-    ratio: float | None = None,
-    poisson_ratio: float = 0.3,
-    amplitude: Annotated[list[float], Parameter(consume_multiple=True)] = _AMPLITUDES,
+    shape: SectionShape = _GIVEN,
+    amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     config: Path | None = None,
     results: Results = _RESULTS,
@@ -48,13 +44,6 @@ def stability(
     ----------
     omega
         Rotation speed [rad/s].
-    section
-        The section out of the plane: a rectangle, a thin tube, or that of the file given.
-    ratio
-        Height in the plane over width of the rectangle, whose material and size follow the beam's
-        EA, EI and mass; without it, the rectangle that has the beam's A and I.
-    poisson_ratio
-        Poisson's ratio, for the torsional stiffness.
     amplitude
         Amplitudes of the planar orbits over the length, one or several; the least unstable one is
         looked for up to the largest.
@@ -75,10 +64,9 @@ def stability(
         remedy="take fewer amplitudes",
     )
     beam = Beam.reference() if config is None else load_beam(config)
-    blade = _shaped(beam, section, ratio, poisson_ratio)
+    blade = shape.required_of(beam)
     amplitudes = sorted(set(amplitude))
-    shape = section if ratio is None else f"{section}-{ratio:g}"
-    path = writable_folder(results.out) / f"stability-{shape}-omega-{omega:g}-mode-{mode}"
+    path = writable_folder(results.out) / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}"
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
@@ -111,26 +99,3 @@ def stability(
         title="! not converged" if np.any(~found.converged) else "",
     )
     console.print("written " + listed(written))
-
-
-def _shaped(beam: AnyBlade, section: Shape, ratio: float | None, poisson_ratio: float) -> AnyBlade:
-    """Return the blade with the section out of the plane that was asked for."""
-    if ratio is not None and section != "rectangle":
-        raise ValueError(f"--ratio is of a rectangle, and --section is {section}: leave it out")
-    if section == "tube":
-        return beam.with_out_of_plane(OutOfPlane.circle(poisson_ratio))
-    if section == "rectangle" and ratio is not None:
-        return beam.with_out_of_plane(OutOfPlane.rectangle(ratio, poisson_ratio))
-    if section == "rectangle":
-        if not isinstance(beam, Beam):
-            raise ValueError(
-                "a blade has EA and EI, but no area that tells its width: give --ratio, height in "
-                "the plane over width"
-            )
-        return beam.rectangle(poisson_ratio=poisson_ratio)
-    if not isinstance(beam, Blade) or beam.section.out_of_plane is None:
-        raise ValueError(
-            "what the section is out of the plane is unknown: give --section rectangle or "
-            "--section tube, or [blade.section.out_of_plane] in --config"
-        )
-    return beam

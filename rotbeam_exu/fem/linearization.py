@@ -92,6 +92,16 @@ def natural_frequencies(
         If an input is refused, or the mesh has fewer than `count` modes.
     SimulationError
         If the static equilibrium is not found, or unstable: frequencies would not tell.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> for element in ("cable", "exact"):
+    ...     found = natural_frequencies(Beam.reference(), omega=6.0, element=element, elements=8)
+    ...     print(element, found.round(4))
+    cable [ 3.7311 23.0152 56.6964]
+    exact [ 3.7282 23.6436 62.3349]
     """
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return mesh_frequencies(beam, omega, element, elements, count)
@@ -128,6 +138,15 @@ def growth_rate(
 
     Zero for every element that describes large deformation; for the linear floating frame it is
     √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import growth_rate
+    >>> for element in ("linear", "cable"):
+    ...     print(f"{element}: {growth_rate(Beam.reference(), omega=6.0, element=element):.4f} 1/s")
+    linear: 5.2471 1/s
+    cable: 0.0000 1/s
     """
     system = linearized(beam, omega, element, elements)
     return _growth(system.inverse_eigenvalues()) / Units.of(beam).time
@@ -146,6 +165,13 @@ def steady_stretch(
 
     To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67; the whole of it is
     tan(kL)/k - L with k = ω √(ρ/E), larger by the factor 1 + (2/5)(kL)².
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import steady_stretch
+    >>> print(f"{steady_stretch(Beam.reference(), omega=6.0):.2e} m")
+    2.47e-04 m
     """
     return linearized(beam, omega, element, elements).stretch * beam.length
 

@@ -93,6 +93,18 @@ def add_rotating_beam(
     ------
     ValueError, TypeError
         If an input is refused, or the formulation does not model the blade.
+
+    Examples
+    --------
+    >>> import exudyn
+    >>> from analytic import Beam, SpinUp
+    >>> from rotbeam_exu.fem import add_rotating_beam
+    >>> mbs = exudyn.SystemContainer().AddSystem()
+    >>> blade = Beam.reference().with_hub_radius(0.5)
+    >>> numbers = add_rotating_beam(mbs, blade, SpinUp(omega=3.0, ramp_time=3.0), elements=8)
+    >>> mbs.Assemble()
+    >>> len(numbers.nodes), len(numbers.bodies), numbers.tip_marker
+    (9, 8, 3)
     """
     model, elements = formulation(element), whole_number("elements", elements)
     require_modeled(beam, model)

@@ -109,6 +109,15 @@ def simulate(
         If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
     KeyboardInterrupt
         On Ctrl-C, at the next step.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp
+    >>> from rotbeam_exu import simulate
+    >>> motion = SpinUp(omega=2.0, ramp_time=3.0)
+    >>> run = simulate(Beam.reference(), motion, elements=4, duration=8.0, step=4e-3)
+    >>> print(f"{run.q.min().item():.3f} m, {run.attrs['verdict']}")
+    -2.200 m, passed
     """
     case = Case(
         beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
@@ -144,8 +153,8 @@ def run_case(
         "wall_time": wall_time,
     }
     run = _checked(run, cause)
-    if "w" in run:
-        return run  # in space it shows by itself
+    if getattr(case.model, "leaves_plane", False):
+        return run  # shows by itself whether it does
     steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
     if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
         run.attrs["out_of_plane"] = note

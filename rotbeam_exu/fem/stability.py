@@ -37,6 +37,16 @@ def divergence_speed(
     ------
     ValueError
         If an input is refused.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import divergence_speed
+    >>> for substructures in (1, 2, 4):
+    ...     print(f"{substructures}: {divergence_speed(Beam.reference(), substructures):.4f} rad/s")
+    1: 2.9106 rad/s
+    2: 4.4510 rad/s
+    4: 8.3581 rad/s
     """
     model = Substructures(frame=frame, cells=cells)
     return model.divergence_speed(beam, whole_number("substructures", substructures))

@@ -1,14 +1,15 @@
 """The figures: each takes data and `ax=`, returns Axes and shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
-`rotbeam_exu.comparison`; `spin_up` takes a run, `divergence_speed` what
-`rotbeam_exu.fem.stability.divergence_speeds` returns.
+`rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` an `analytic.Campbell`,
+`divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
 """
 
 from __future__ import annotations
 
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
+from .campbell import campbell
 from .descriptions import caption
 from .divergence_speed import divergence_speed
 from .orbits import figure_15
@@ -26,6 +27,7 @@ __all__ = [
     "STYLES",
     "Style",
     "animate",
+    "campbell",
     "caption",
     "divergence_speed",
     "figure_3",

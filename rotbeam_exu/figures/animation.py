@@ -1,93 +1,114 @@
-"""The spinning beam as a moving picture: inertial and rotating view, and the tip's deflection."""
+"""The spinning beam as a moving picture: in two frames, or beside the linear model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from analytic import SpinUpResponse
-from analytic.arrays import FloatArray
+from analytic import LinearResponse, SpinUpResponse
 
-from ..paper import BLUE, ORANGE
+from ..paper import BLUE, ORANGE, RED
+from .moving_beam import CLAMP, REACH, MovingBeam, Response, between, scale_bar, turned, view
 from .style import STYLE, new_figure
 
 _DPI = 100
-_TRAIL = 0.6  # seconds of the tip's path that stay visible
-_FINER = 8  # points of that path from one picture to the next
-_CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}
 
 
-def animate(response: SpinUpResponse, *, rate: float | None = None) -> FuncAnimation:
+class _Scene(NamedTuple):
+    """What moves: beams, lines that turn with the clamp, points on histories, and what it says."""
+
+    beams: list[MovingBeam]
+    clamps: list[Line2D]
+    dots: list[tuple[Line2D, Response]]
+    history: Axes
+    notes: list[tuple[float, Any]]
+    """Times [s] from which on a text is seen."""
+
+
+def animate(
+    response: SpinUpResponse, *, beside: LinearResponse | None = None, rate: float | None = None
+) -> FuncAnimation:
     """Return the animation of a spin-up, one picture per time of the response.
+
+    Seen from outside and turning with the clamp, or from outside, twice, beside what a linear
+    model makes of it.
 
     Parameters
     ----------
     response : SpinUpResponse
         With `points` along the beam, at equally spaced times.
+    beside : LinearResponse, optional
+        Of the same spin-up at the same times, with points.
     rate : float, optional
         Pictures a second; by default real time.
 
     Raises
     ------
     ValueError
-        If the response has no points along the beam or fewer than two times.
+        If a response has no points along the beam or fewer than two times, or `beside` is of
+        other times or of another motion.
     """
-    if response.axis.shape[1] < 2 or response.time.size < 2:
-        raise ValueError(
-            "nothing to animate: ask spin_up_response for points along the beam, "
-            f"got {response.axis.shape[1]} of them at {response.time.size} times"
-        )
+    _require_drawable(response, beside)
     time = response.time
     interval = float(time[1] - time[0])
-    turning = response.axis[..., 0] + 1j * response.axis[..., 1]
-    turn = _turned(response, time)
-    # Between two pictures the tip goes on along its curve, not along a chord.
-    fine = _between(time)
-    tip = CubicSpline(time, turning[:, -1])(fine)
-    trail = _FINER * round(_TRAIL / interval)
+    turn = turned(response, time)
     with mpl.rc_context(STYLE):
-        inertial_view, rotating_view, history = _axes(response)
-        views = [
-            (_lines(inertial_view), turning * turn[:, None], tip * _turned(response, fine)),
-            (_lines(rotating_view), turning, tip),
-        ]
-        (clamp,) = inertial_view.plot([], [], **_CLAMP)
-        (dot,) = history.plot([], [], "o", color=ORANGE, ms=6, mec="white", mew=0.8)
-        words = history.set_title("", loc="left", family="monospace")
-        figure: Any = history.get_figure(root=True)
+        scene = _two_frames(response) if beside is None else _two_models(response, beside)
+        _ramp(scene.history, response)
+        words = scene.history.set_title("", loc="left", family="monospace")
+        figure: Any = scene.history.get_figure(root=True)
 
     def draw(n: int) -> list[Any]:
-        for (beam, path, end), shapes, curve in views:
-            beam.set_data(shapes[n].real, shapes[n].imag)
-            past = curve[max(0, _FINER * n - trail) : _FINER * n + 1]
-            path.set_data(past.real, past.imag)
-            end.set_data(past[-1:].real, past[-1:].imag)
+        for beam in scene.beams:
+            beam.show(n)
         ray = 1.1 * response.beam.length * turn[n]
-        clamp.set_data([0.0, ray.real], [0.0, ray.imag])
-        dot.set_data([time[n]], [response.q[n]])
-        words.set_text(
-            f"t = {time[n]:5.2f} s   dθ/dt = {float(response.spin_up.rate(time[n])):4.2f} rad/s   "
-            f"q = {response.q[n]:+5.2f} m".replace("-", "−")
-        )
+        for clamp in scene.clamps:
+            clamp.set_data([0.0, ray.real], [0.0, ray.imag])
+        for dot, of in scene.dots:
+            dot.set_data([time[n]], [of.q[n]])
+        for start, text in scene.notes:
+            text.set_visible(time[n] >= start)
+        rate_now = float(response.spin_up.rate(time[n]))
+        line = f"t = {time[n]:5.2f} s   dθ/dt = {rate_now:4.2f} rad/s   q = {response.q[n]:+5.2f} m"
+        if beside is not None:
+            form = "+5.2f" if abs(beside.q[n]) < 100.0 else "+.1e"
+            line += f"   linear {beside.q[n]:{form}} m"
+        words.set_text(line.replace("-", "−"))
         return []
 
     milliseconds = 1000.0 / (rate or 1.0 / interval)
     return FuncAnimation(figure, draw, frames=time.size, interval=milliseconds, blit=False)
 
 
+def _require_drawable(response: SpinUpResponse, beside: LinearResponse | None) -> None:
+    for one in (response, beside or response):
+        if one.axis.shape[1] < 2 or one.time.size < 2:
+            raise ValueError(
+                "nothing to animate: ask spin_up_response for points along the beam, "
+                f"got {one.axis.shape[1]} of them at {one.time.size} times"
+            )
+    if beside is not None and not (
+        np.array_equal(beside.time, response.time) and beside.spin_up == response.spin_up
+    ):
+        raise ValueError(
+            "what is shown beside a spin-up must be of the same motion at the same times: give "
+            "linear_response what spin_up_response was given"
+        )
+
+
 def save_animation(
     response: SpinUpResponse,
     path: Path,
     *,
+    beside: LinearResponse | None = None,
     rate: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> None:
@@ -95,7 +116,7 @@ def save_animation(
 
     Parameters
     ----------
-    response, rate
+    response, beside, rate
         As for `animate`.
     path : Path
         The file.
@@ -110,7 +131,7 @@ def save_animation(
     import matplotlib.pyplot as plt  # noqa: PLC0415  (pyplot opens a backend)
 
     check_format(path)
-    animation = animate(response, rate=rate)
+    animation = animate(response, beside=beside, rate=rate)
     interval = float(response.time[1] - response.time[0])
     writer_class = PillowWriter if path.suffix == ".gif" else FFMpegWriter
     writer = writer_class(fps=rate or 1.0 / interval)  # type: ignore[arg-type]
@@ -133,32 +154,95 @@ def check_format(path: Path) -> None:
         raise ValueError(f"cannot write {path.name!r}: MP4 needs ffmpeg; install it or take .gif")
 
 
-def _axes(response: SpinUpResponse) -> tuple[Axes, Axes, Axes]:
-    """Return the views, of one scale and with what does not move, and the history of q."""
-    length, reach, behind = response.beam.length, 1.08, 0.12
-    ratios = {"height_ratios": (3.0, 1.0), "width_ratios": (2.0 * reach, reach + behind)}
+def _two_frames(response: SpinUpResponse) -> _Scene:
+    """Return the inertial and the rotating view, of one scale, and the history of q."""
+    behind = 0.12
+    outside, inside, history = _axes(5.2, 2.0 * REACH, REACH + behind)
+    length = response.beam.length
+    view(outside, "inertial frame", length)
+    view(inside, "rotating frame", length, behind)
+    scale_bar(inside, length)
+    inside.plot([0.0, 1.1 * length], [0.0, 0.0], **CLAMP)
+    beams = [MovingBeam(outside, response), MovingBeam(inside, response, turning=True)]
+    (clamp,) = outside.plot([], [], **CLAMP)
+    dot = _history(history, response, BLUE, ORANGE)
+    return _Scene(beams, [clamp], [(dot, response)], history, [])
+
+
+def _two_models(response: SpinUpResponse, beside: LinearResponse) -> _Scene:
+    """Return the inertial views of the exact beam and of the linear one, and both histories."""
+    *views, history = _axes(4.6, 2.0 * REACH, 2.0 * REACH)
+    length = response.beam.length
+    beams, clamps, notes = [], [], []
+    for ax, of, title, color in (
+        (views[0], response, "exact beam", BLUE),
+        (views[1], beside, "linear floating frame", RED),
+    ):
+        view(ax, title, length)
+        clamps += ax.plot([], [], **CLAMP)
+        beams.append(MovingBeam(ax, of, color=color, path=color))
+    scale_bar(views[0], length, -REACH)
+    dots = [(_history(history, of, c, c), of) for of, c in ((beside, RED), (response, BLUE))]
+    history.set_ylim(-REACH * length, REACH * length)
+    _mark_instability(history, beside)
+    left = _time_of_leaving(beside, beams[1])
+    if left < response.time[-1]:
+        said = f"left the picture at {left:.2f} s"
+        # A fixed place: that of a title that is not seen yet would put the other one anywhere.
+        text = views[1].set_title(said, loc="right", color=RED, y=1.0)
+        notes.append((left, text))
+    return _Scene(beams, clamps, dots, history, notes)
+
+
+def _mark_instability(history: Axes, beside: LinearResponse) -> None:
+    """Mark the first time at which the linear model is faster than its divergence speed."""
+    fine = between(beside.time)
+    faster = beside.spin_up.rate(fine) * beside.beam.unit.setting > beside.beam.omega_0
+    if beside.foreshortening or not faster.any():
+        return
+    start, speed = fine[np.argmax(faster)], beside.beam.omega_0 / beside.beam.unit.setting
+    history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
+    history.annotate(
+        f"from {start:.2f} s on faster than {speed:.2f} rad/s: the linear model is unstable",
+        (start, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(4, -4),
+        textcoords="offset points",
+        va="top",
+        color=RED,
+    )
+
+
+def _time_of_leaving(response: Response, beam: MovingBeam) -> float:
+    """Return the last time [s] at which the tip is in the view."""
+    reach = REACH * response.beam.length
+    seen = np.maximum(np.abs(beam.path.real), np.abs(beam.path.imag)) <= reach
+    return float(between(response.time)[seen][-1])
+
+
+def _axes(height: float, *widths: float) -> tuple[Axes, Axes, Axes]:
+    """Return the axes of two views of these widths and, beneath, of the history."""
+    ratios = {"height_ratios": (3.0, 1.0), "width_ratios": widths}
     # Solving the layout for every picture would take most of the time, and let the axes tremble.
-    figure, axes = new_figure(6.4, 5.2, nrows=2, ncols=2, layout="none", **ratios)
-    figure.subplots_adjust(0.09, 0.085, 0.985, 0.955, wspace=0.04, hspace=0.16)
+    figure, axes = new_figure(6.4, height, nrows=2, ncols=2, layout="none", **ratios)
+    figure.subplots_adjust(0.09, 0.44 / height, 0.985, 1.0 - 0.23 / height, 0.04, 0.16)
     for ax in axes[1]:
         ax.remove()
-    history = figure.add_subplot(axes[1, 0].get_gridspec()[1, :])
-    for ax, left, title in zip(
-        axes[0], (reach, behind), ("inertial frame", "rotating frame"), strict=True
-    ):
-        ax.set(xlim=(-left * length, reach * length), ylim=(-reach * length, reach * length))
-        ax.set(aspect="equal", xticks=[], yticks=[])
-        ax.set_title(title, loc="left")
-        ax.spines[:].set_visible(False)
-        ax.plot([0.0], [0.0], "s", color="0.35", ms=6, zorder=3)
-    axes[0, 1].plot([0.0, 1.1 * length], [0.0, 0.0], **_CLAMP)
-    bar, low = 0.25 * length, -0.98 * reach * length
-    axes[0, 1].plot([0.0, bar], [low, low], color="0.35", lw=1.0)
-    axes[0, 1].text(1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
-    history.axvspan(0.0, response.spin_up.ramp_time, color="0.93", lw=0)
+    return axes[0, 0], axes[0, 1], figure.add_subplot(axes[1, 0].get_gridspec()[1, :])
+
+
+def _history(history: Axes, response: Response, color: str, dot: str) -> Line2D:
+    """Draw q over time, and return the point that moves on it."""
+    fine = between(response.time)
+    history.plot(fine, CubicSpline(response.time, response.q)(fine), color=color)
+    (point,) = history.plot([], [], "o", color=dot, ms=6, mec="white", mew=0.8)
+    return point
+
+
+def _ramp(history: Axes, response: Response) -> None:
+    """Shade the spin-up, and name the axes."""
+    history.axvspan(0.0, response.spin_up.ramp_time, color="0.93", lw=0, zorder=0)
     history.axhline(0.0, color="0.6", lw=0.5)
-    fine = _between(response.time)
-    history.plot(fine, CubicSpline(response.time, response.q)(fine), color=BLUE)
     history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q [m]")
     history.annotate(
         "spin-up",
@@ -169,21 +253,3 @@ def _axes(response: SpinUpResponse) -> tuple[Axes, Axes, Axes]:
         va="top",
         color="0.35",
     )
-    return axes[0, 0], axes[0, 1], history
-
-
-def _between(time: FloatArray) -> FloatArray:
-    return np.linspace(time[0], time[-1], _FINER * (time.size - 1) + 1)
-
-
-def _turned(response: SpinUpResponse, time: FloatArray) -> NDArray[np.complex128]:
-    turn: NDArray[np.complex128] = np.exp(1j * response.spin_up.angle(time))
-    return turn
-
-
-def _lines(ax: Axes) -> tuple[Line2D, Line2D, Line2D]:
-    """Return the beam, the tip's path and the tip, still empty."""
-    (path,) = ax.plot([], [], color=ORANGE, lw=1.0)
-    (line,) = ax.plot([], [], color=BLUE, lw=2.5, solid_capstyle="round")
-    (tip,) = ax.plot([], [], "o", color=ORANGE, ms=4)
-    return line, path, tip

@@ -36,6 +36,19 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
         sentence names the file and the key.
     FileNotFoundError
         If there is no such file.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.files.beam_file import load_beam
+    >>> numbers = "length = 8.0, area = 7.3e-5, second_moment = 8.218e-9, density = 2766.67"
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "beam.toml"
+    ...     _ = path.write_text(f"beam = {{ {numbers}, youngs_modulus = 6.8952e10 }}")
+    ...     beam = load_beam(path)
+    >>> print(f"{beam.omega_0:.4f} rad/s")
+    2.9100 rad/s
     """
     source = Path(path)
     document = read_toml(source)

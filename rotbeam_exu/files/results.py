@@ -37,6 +37,19 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
         names.
     OSError
         If the file cannot be written; what stood there before then still stands.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from analytic import Beam, SpinUp
+    >>> from rotbeam_exu import load, save, simulate
+    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
+    >>> run = simulate(Beam.reference(), motion, elements=4, duration=2.0, step=5e-3)
+    >>> with TemporaryDirectory() as folder:
+    ...     again = load(save(run, Path(folder) / "run.nc"))
+    >>> again.identical(run)
+    True
     """
     target = Path(path)
     if target.suffix not in (".nc", ".csv"):
@@ -84,6 +97,17 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     -----
     RotbeamWarning
         If a netCDF file was not written by `save`, so that nothing tells whether it is damaged.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> import xarray as xr
+    >>> from rotbeam_exu import load, save
+    >>> data = xr.Dataset({"q": ("time", [0.0, 0.1])}, {"time": [0.0, 1.0]}, {"omega": 6.0})
+    >>> with TemporaryDirectory() as folder:
+    ...     print(load(save(data, Path(folder) / "mine.csv")).q.values)
+    [0.  0.1]
     """
     run, sealed = read(path)
     if not sealed:

@@ -90,6 +90,15 @@ def sweep(
     SimulationError
         If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached, and
         the attribute `run` of the error holds what would have been returned, as far as it got.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import sweep
+    >>> settings = {"elements": 4, "duration": 10.0, "step": 4e-3}
+    >>> data = sweep(Beam.reference(), omegas=[2.0], ramp_times=[2.5, 3.0], jobs=1, **settings)
+    >>> print(data.amplitude.values.round(4), data.frequency.values.round(4))
+    [[0.2758 0.1654]] [[3.0377 3.0361]]
     """
     cases = _grid(
         _values("omegas", omegas, "rad/s"),
@@ -128,7 +137,19 @@ def sweep(
 
 
 def failures(result: xr.Dataset) -> dict[str, int]:
-    """Group the failed cases of a sweep by cause: the sentence up to its first number."""
+    """Group the failed cases of a sweep by cause: the sentence up to its first number.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import sweep
+    >>> from rotbeam_exu.sweeps.grid import failures
+    >>> coarse = {"elements": 2, "duration": 8.0, "step": 0.1, "jobs": 1}
+    >>> data = sweep(Beam.reference(), omegas=[2.0], ramp_times=[3.0], on_error="record", **coarse)
+    >>> for sentence, cases in failures(data).items():
+    ...     print(cases, sentence.split(" over ")[0])
+    1 the drift of the steady Jacobi energy E - ω L_z
+    """
     causes = Counter(
         "".join(c if not c.isdigit() else "#" for c in sentence).split("#")[0].strip()
         for sentence in result["failure"].to_numpy().ravel()

@@ -24,6 +24,14 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
 
     Of second order it has twice as many elements as of fourth, unless told; the paper's element
     goes on to 64.
+
+    Examples
+    --------
+    >>> from rotbeam_exu.fem.elements import Exact
+    >>> from rotbeam_exu.verification.entries import formulation_entry
+    >>> entry = formulation_entry(Exact(nodes=3))
+    >>> print(entry.name, entry.own_meshes, entry.step)
+    exact nodes=3 (8, 16, 32) 0.001
     """
     order, coupled = _declared_order(model), getattr(model, "law", "") == "coupled"
     meshes: tuple[int, ...] = ()

@@ -121,6 +121,18 @@ def judged(
     Judgement
         Where the reference, or what measures it, fails, there is no verdict, and the note of the
         finding says why; a code that fails has its own sentence there.
+
+    Examples
+    --------
+    >>> from rotbeam_exu.fem.elements import Cable
+    >>> from rotbeam_exu.verification.cases import CASES
+    >>> from rotbeam_exu.verification.entries import formulation_entry
+    >>> from rotbeam_exu.verification.judgement import judged
+    >>> from rotbeam_exu.verification.measures import handed_in
+    >>> linear = {"L": CASES["L"]}
+    >>> found = judged(handed_in(formulation_entry(Cable()), linear.values()), cases=linear)
+    >>> print(found.outcome, found.passed)
+    converges to the reference (L) True
     """
     known = CASES if cases is None else cases
     found: dict[str, _Judged] = {}

@@ -41,6 +41,16 @@ def verify(
         A single one to be judged instead; of a beam that is given ω = 6 rad/s in T = 3 s.
     duration : float
         End of that one [s].
+
+    Examples
+    --------
+    >>> from analytic import SpinUp
+    >>> from rotbeam_exu.fem.elements import Cable
+    >>> from rotbeam_exu.verification.entries import formulation_entry
+    >>> from rotbeam_exu.verification.measures import verify
+    >>> entry = formulation_entry(Cable(), elements=4, step=2e-3)
+    >>> print(verify(entry, spin_up=SpinUp(omega=2.0, ramp_time=3.0), duration=8.0).outcome)
+    no verdict (L); converges to the reference (S)
     """
     if beam is None and spin_up is None:
         cases = [CASES[name] for name in DEFAULT]

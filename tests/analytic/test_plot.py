@@ -52,6 +52,16 @@ def test_a_campbell_diagram_names_its_modes_apart(beam):
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
 
 
+def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
+    diagram = campbell(beam.rectangle(), [0.0, 4.0], 2, planes=("flap", "torsion"))
+    ax = diagram.plot(highest=100.0)
+    names = {text.get_text() for text in ax.texts}
+    assert {"flap 1", "flap 2", "torsion 1"} <= names
+    assert "torsion 2" not in names  # 193 rad/s
+    assert ax.get_ylim() == (0.0, 100.0)
+    assert ax.lines[-1].get_ydata().max() <= 100.0
+
+
 def test_labels_move_up_only_where_they_must():
     np.testing.assert_allclose(apart(np.array([3.0, 1.0, 1.1, 1.2]), 0.5), [3.0, 1.0, 1.5, 2.0])
 

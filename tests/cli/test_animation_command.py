@@ -10,8 +10,8 @@ from rotbeam_exu import figures
 def film(call, monkeypatch, tmp_path, *options):
     shown = {}
 
-    def drawn(response, path, *, rate, progress):
-        shown.update(response=response, rate=rate)
+    def drawn(response, path, *, beside, rate, progress):
+        shown.update(response=response, beside=beside, rate=rate)
         path.write_bytes(b"GIF")
 
     monkeypatch.setattr(figures.animation, "save_animation", drawn)
@@ -53,3 +53,17 @@ def test_a_single_picture_is_refused_and_the_remedy_works(call, monkeypatch, tmp
     assert code == 2
     assert "take a rate or a slow motion 5 times as large" in out
     assert film(call, monkeypatch, tmp_path, "--rate", "5", "--duration", "0.4")[0] == 0
+
+
+def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_path):
+    motion = ("--omega", "4", "--ramp-time", "3", "--duration", "3", "--rate", "5")
+    code, _, shown = film(call, monkeypatch, tmp_path, *motion, "--beside", "linear")
+    assert code == 0
+    response, beside = shown["response"], shown["beside"]
+    assert beside.spin_up == response.spin_up
+    assert beside.axis.shape == response.axis.shape
+    assert not beside.foreshortening
+    assert film(call, monkeypatch, tmp_path, *motion)[2]["beside"] is None
+    code, out, _ = film(call, monkeypatch, tmp_path, "--beside", "cable")
+    assert code == 2
+    assert "linear" in out

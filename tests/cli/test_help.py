@@ -45,6 +45,14 @@ def test_every_option_is_described_and_every_name_listed(call, monkeypatch):
         assert set(names) <= words
 
 
+def test_defaults_are_shown_as_they_are_typed(call):
+    for command in _COMMANDS:
+        out = call(command, "--help")[1]
+        for odd in ("default: False", "default: [", "BOOL"):
+            assert odd not in out, command
+    assert "--gravity [FLOAT]" in call("respond", "--help")[1]
+
+
 def test_names_are_known_in_upper_and_lower_case(call):
     arguments = ("backbone", "--omega", "6", "--amplitude", "0.1", "--format", "CSV", "--variant")
     assert call(*arguments, "frm")[1] == call(*arguments, "FrM")[1]

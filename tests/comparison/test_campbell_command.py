@@ -6,9 +6,12 @@ import io
 import numpy as np
 import pytest
 
-from analytic import campbell
+from analytic import OutOfPlane, campbell, linear_modes
 from rotbeam_exu.cli import app
 from rotbeam_exu.cli.campbell import campbell as command
+from rotbeam_exu.cli.sections import SectionShape
+
+PLANES = ("lag", "flap", "torsion")
 
 
 def test_csv_holds_the_diagram(beam, capsys):
@@ -48,3 +51,38 @@ def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):
     # Half as long, four times as fast.
     assert float(rows[2][0]) == pytest.approx(48.0, rel=0.01)
     assert float(rows[1][1]) == pytest.approx(4.0 * beam.omega_0, rel=1e-3)
+
+
+def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
+    options = {"omega_max": 8.0, "points": 3, "count": 1, "orders": 9}
+    shape = SectionShape(section="rectangle", ratio=18.5)
+    command(**options, shape=shape, format="csv", out=tmp_path, frequency_max=80.0)
+    printed = capsys.readouterr()
+    rows = list(csv.reader(io.StringIO(printed.out)))
+    assert rows[0] == ["omega [rad/s]", *(f"{p} 1 [rad/s]" for p in ("lag", "flap", "torsion"))]
+    blade = beam.with_out_of_plane(OutOfPlane.rectangle(18.5))
+    frequencies = [linear_modes(blade, 8.0, 1, plane=p).frequencies[0] for p in PLANES]
+    assert np.array(rows[3][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
+    # Torsion, which the rotation leaves alone, meets 9ω.
+    met = [row for row in rows[6:] if row[0] == "torsion 1"]
+    assert [float(row[2]) for row in met] == [pytest.approx(frequencies[2] / 9.0, rel=1e-9)]
+    written = sorted(path.name for path in tmp_path.iterdir())
+    assert written == ["campbell-rectangle-18.5.pdf", "campbell-rectangle-18.5.png"]
+    assert written[0] in printed.err
+    with pytest.raises(FileExistsError, match="--force"):
+        command(**options, shape=shape, out=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("torsion", "families"),
+    [("torsion_ratio = 0.01\n", PLANES), ("torsion_ratio = inf\n", PLANES[:2]), ("", PLANES[:2])],
+)
+def test_families_are_those_that_the_section_in_a_file_tells(torsion, families, tmp_path, capsys):
+    (tmp_path / "blade.toml").write_text(
+        "[blade]\nlength = 8.0\n[blade.section]\naxial_stiffness = 5.03e6\n"
+        "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
+        f"[blade.section.out_of_plane]\nbending_ratio = 0.5\n{torsion}"
+    )
+    command(config=tmp_path / "blade.toml", points=2, omega_max=4.0, count=1, format="csv")
+    head = capsys.readouterr().out.splitlines()[0].split(",")[1:]
+    assert head == [f"{plane} 1 [rad/s]" for plane in families]

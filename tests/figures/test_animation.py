@@ -4,9 +4,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.animation import FFMpegWriter
+from matplotlib.text import Text
 from PIL import Image
 
-from analytic import SpinUp, spin_up_response
+from analytic import SpinUp, linear_response, spin_up_response
 from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
 
@@ -61,6 +62,88 @@ def test_deflection_is_to_scale(response):
     plt.close(animation._fig)
 
 
+@pytest.fixture(scope="module")
+def two_models(beam):
+    """The exact and the linear response, 4 rad/s in 3 s, 20 pictures a second."""
+    times, points = np.linspace(0.0, 4.0, 81), np.linspace(0.0, beam.length, 41)
+    spin_up = SpinUp(omega=4.0, ramp_time=3.0)
+    exact = spin_up_response(beam, spin_up, times, tolerance=1e-4, points=points)
+    return exact, linear_response(beam, spin_up, times, points=points)
+
+
+@pytest.fixture
+def side_by_side(two_models):
+    """The two views, the history, and what draws a picture."""
+    exact, linear = two_models
+    animation = animate(exact, beside=linear)
+    animation._draw_was_started = True
+    yield *animation._fig.axes, animation._draw_frame
+    plt.close(animation._fig)
+
+
+def seen_in(ax):
+    """The beam in a view, (points,) complex [m]."""
+    return max(ax.lines, key=lambda line: line.get_linewidth()).get_xydata() @ [1.0, 1j]
+
+
+def from_outside(response):
+    """Positions (times, points) in the inertial frame, complex [m]."""
+    turn = np.exp(1j * response.spin_up.angle(response.time))
+    return response.axis @ [1.0, 1j] * turn[:, None]
+
+
+def test_two_models_are_seen_from_outside_on_one_scale(two_models, side_by_side):
+    *views, history, draw = side_by_side
+    draw(25)
+    for ax, of in zip(views, two_models, strict=True):
+        np.testing.assert_allclose(seen_in(ax), from_outside(of)[25], atol=1e-12)
+    history.figure.draw_without_rendering()  # only now the axes take their shape
+    sizes = [(*ax.get_window_extent().size, *ax.get_xlim(), *ax.get_ylim()) for ax in views]
+    np.testing.assert_allclose(*sizes)
+    for ax, name in zip(views, ("exact beam", "linear floating frame"), strict=True):
+        (title,) = (text for text in ax.findobj(Text) if text.get_text() == name)
+        box = title.get_window_extent()
+        assert ax.bbox.y1 < box.y0 < box.y1 < history.figure.bbox.y1
+
+
+def test_the_time_at_which_the_linear_one_leaves_is_said(two_models, side_by_side):
+    _, view, history, draw = side_by_side
+    linear = two_models[1]
+    (text,) = (t for t in view.findobj(Text) if t.get_text().startswith("left the picture"))
+    tip = from_outside(linear)[:, -1]
+    inside = np.maximum(np.abs(tip.real), np.abs(tip.imag)) <= view.get_xlim()[1]
+    last = int(np.flatnonzero(inside)[-1])
+    said = float(text.get_text().split()[-2])
+    assert linear.time[last] - 0.005 <= said <= linear.time[last + 1] + 0.005  # two decimals
+    for n, shown in ((last, False), (last + 1, True)):
+        draw(n)
+        assert text.get_visible() == shown
+    # The divergence speed is passed between the pictures before and after the mark.
+    (mark,) = (t.get_text() for t in history.texts if "unstable" in t.get_text())
+    passed = float(mark.split()[1])
+    speeds = linear.spin_up.rate(np.array([passed - 0.01, passed + 0.01]))
+    assert speeds[0] < linear.beam.omega_0 < speeds[1]
+
+
+def test_what_is_far_is_drawn_out_of_the_view_at_a_finite_place(two_models, side_by_side):
+    _, view, _, draw = side_by_side
+    draw(80)
+    far = 100.0 * two_models[1].beam.length
+    assert np.abs(two_models[1].q[80]) > far
+    assert np.abs(seen_in(view)[-1]) == pytest.approx(far)
+
+
+def test_another_motion_beside_is_refused(beam, response):
+    points = np.linspace(0.0, beam.length, 41)
+    other = SpinUp(omega=4.0, ramp_time=3.0)
+    for linear in (
+        linear_response(beam, other, response.time, points=points),
+        linear_response(beam, response.spin_up, response.time[:5], points=points),
+    ):
+        with pytest.raises(ValueError, match="must be of the same motion at the same times"):
+            animate(response, beside=linear)
+
+
 def test_a_gif_has_every_picture_in_real_time(response, tmp_path):
     counted = []
     save_animation(response, tmp_path / "beam.gif", progress=counted.append)
@@ -112,9 +195,16 @@ def test_bad_arguments_are_one_sentence(tmp_path, capsys, monkeypatch, arguments
 
 
 @pytest.mark.slow
-def test_the_default_is_small_and_short(tmp_path):
+@pytest.mark.parametrize(
+    ("arguments", "largest"),
+    [
+        (["--omega", "6"], 5e6),
+        (["--omega", "4", "--duration", "6", "--beside", "linear"], 2e6),
+    ],
+)
+def test_films_of_the_site_are_small_and_short(tmp_path, arguments, largest):
     out = tmp_path / "beam.gif"
-    main(["animate", "--omega", "6", "--ramp-time", "3", "--out", str(out)])
-    assert out.stat().st_size < 5e6
+    main(["animate", "--ramp-time", "3", *arguments, "--out", str(out)])
+    assert out.stat().st_size < largest
     with Image.open(out) as picture:
         assert picture.n_frames * picture.info["duration"] < 15e3

@@ -109,12 +109,15 @@ def leaves(value, name=""):
 
 @pytest.mark.parametrize("part", PARTS)
 def test_no_number_moves(beam, part):
-    # One part in 1e12 of the largest of a kind; an Exudyn run multiplies round-off in its steps.
-    share = 1e-9 if part == "simulation" else 1e-12
+    # One part in 1e12 of the largest of a kind; an Exudyn run multiplies round-off in its steps,
+    # λ_ω is what two frequencies differ by, over the squares of amplitudes of 0.02 and 0.04, and
+    # where a peak is flat its time takes no part in what is solved.
+    loose = {"simulation": 1e-9, "lambda_omega": 1e-10, "peak_time": 1e-10}
     kept = dict(leaves(json.loads(KEPT.read_text(encoding="utf-8"))[part]))
     found = dict(leaves(PARTS[part](beam)))
     assert found.keys() == kept.keys()
     for name, values in kept.items():
+        share = loose.get(part, loose.get(name.split("/")[-1], 1e-12))
         assert np.abs(found[name] - values).max() <= share * np.abs(values).max(), name
 
 

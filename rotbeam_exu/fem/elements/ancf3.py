@@ -62,6 +62,17 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         ν, in G = E/(2(1 + ν)) and in the coupled law; the paper gives none.
     shear_correction : float
         k_s in σ_xy = 2 k_s G ε_xy; one, the plain continuum, unless asked otherwise.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> from rotbeam_exu.fem.elements import Ancf3
+    >>> for ratio in (0.3, 0.0):
+    ...     element = Ancf3(poisson_ratio=ratio)
+    ...     print(natural_frequencies(Beam.reference(), 6.0, element=element, elements=8).round(4))
+    [ 3.7304 23.0123 56.7249]
+    [ 3.7305 23.0126 56.7268]
     """
 
     law: Law = "uncoupled"

@@ -28,7 +28,16 @@ _GAUSS = tuple(zip(*gauss_points(2), strict=True))
 
 @dataclass(frozen=True, kw_only=True)
 class Cable(SlopeNodes, NoDivergence):
-    """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|²."""
+    """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|².
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> from rotbeam_exu.fem.elements import Cable
+    >>> print(natural_frequencies(Beam.reference(), 6.0, element=Cable(), elements=8).round(4))
+    [ 3.7311 23.0152 56.6964]
+    """
 
     name: ClassVar[str] = "cable"
     takes_blades: ClassVar[bool] = True

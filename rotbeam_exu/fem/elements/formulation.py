@@ -53,7 +53,8 @@ class Formulation(Protocol):
     mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
     a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``, and by
     ``takes_viscosity = True`` if with its bending and axial damping; to others only the uniform
-    beam is given, and blades without.
+    beam is given, and blades without. One that moves in space, out of the plane of rotation too,
+    has ``leaves_plane = True``.
     """
 
     name: ClassVar[str]

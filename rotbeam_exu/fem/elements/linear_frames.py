@@ -77,6 +77,14 @@ class Linear(_LinearFrames):
     M q̈ + 2 θ' G q̇ + (K - θ'² M + θ'' M J) q = θ'² M X - θ'' M J X, with constant matrices, all
     modes of the mesh and axial motion. Nothing in K knows of the centrifugal tension, so the first
     bending mode diverges for ω > ω0, at the rate √(ω² - ω0²): Eq. 45 without its stiffening.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import growth_rate
+    >>> from rotbeam_exu.fem.elements import Linear
+    >>> print(f"{growth_rate(Beam.reference(), 6.0, element=Linear()):.4f} 1/s")
+    5.2471 1/s
     """
 
     name: ClassVar[str] = "linear"
@@ -100,6 +108,18 @@ class Substructures(_LinearFrames):
         What each frame follows: the tangent at its first node, or the chord of its end nodes.
     cells : int
         Cubic finite elements in each frame.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import growth_rate
+    >>> from rotbeam_exu.fem.elements import Substructures
+    >>> for n in (1, 2, 4):
+    ...     rate = growth_rate(Beam.reference(), 6.0, element=Substructures(), elements=n)
+    ...     print(f"{n}: {rate:.4f} 1/s")
+    1: 5.2464 1/s
+    2: 3.2133 1/s
+    4: 0.0000 1/s
     """
 
     frame: FloatingFrame = "tangent"

@@ -34,6 +34,15 @@ class Exact(AngleNodes, NoDivergence):
         Nodes of an element, 2 (linear) or 3 (quadratic).
     poisson_ratio, shear_correction : float
         ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)); the paper gives neither.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> from rotbeam_exu.fem.elements import Exact
+    >>> element = Exact(nodes=3)
+    >>> print(natural_frequencies(Beam.reference(), 6.0, element=element, elements=8).round(4))
+    [ 3.7302 23.0113 56.721 ]
     """
 
     nodes: int = 2

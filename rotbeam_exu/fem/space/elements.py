@@ -39,6 +39,7 @@ _GAUSS = tuple(zip(*gauss_points(2), strict=True))
 class SpaceFormulation(Formulation, Protocol):
     """A beam element in space: a `Formulation` whose plane is that of rotation, and z across it."""
 
+    leaves_plane: ClassVar[bool]
     frames: ClassVar[tuple[Frame, ...]]
     """The frames in which it can be solved."""
 
@@ -69,6 +70,7 @@ class SpaceCable(SpaceSlopeNodes, NoDivergence):
 
     name: ClassVar[str] = "cable"
     takes_blades: ClassVar[bool] = True
+    leaves_plane: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial", "rotating")
     new_jacobians: ClassVar[bool] = True  # half the time
     summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
@@ -159,6 +161,7 @@ class SpaceExact(FrameNodes, NoDivergence):
 
     name: ClassVar[str] = "exact"
     takes_blades: ClassVar[bool] = True
+    leaves_plane: ClassVar[bool] = True
     frames: ClassVar[tuple[Frame, ...]] = ("inertial",)
     new_jacobians: ClassVar[bool] = True  # half the time
     # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.

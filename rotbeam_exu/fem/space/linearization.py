@@ -43,6 +43,14 @@ def flap_frequencies(
         If an input is refused, or the mesh has fewer than `count` modes.
     SimulationError
         If the static equilibrium is not found.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import flap_frequencies
+    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+    >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
+    [ 7.0656 23.7847 57.0132]
     """
     model = SpaceCable()
     model.require_section(blade)

@@ -72,6 +72,16 @@ def simulate_3d(
         If an input is refused.
     SimulationError
         If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp
+    >>> from rotbeam_exu import simulate_3d
+    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
+    >>> tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
+    >>> run = simulate_3d(tube, motion, elements=4, duration=1.5, step=5e-3, kick=1e-3)
+    >>> print(f"q {run.q.min().item():.3f} m, w at most {abs(run.w).max().item():.4f} m")
+    q -4.652 m, w at most 0.0080 m
     """
     model = space_formulation(element)
     _require_modeled(blade, model, frame)

@@ -21,7 +21,7 @@ from .points import backbone_of, frequencies_of
 def read_submission(
     folder: str | os.PathLike[str], *, cases: Mapping[str, Case] = CASES
 ) -> Submission:
-    """Read what an author hands in.
+    r"""Read what an author hands in.
 
     Parameters
     ----------
@@ -41,6 +41,17 @@ def read_submission(
         With all faults of all files.
     FileNotFoundError
         If there is no such folder.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.verification.submission_files.reading import read_submission
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
+    ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
+    ...     print(read_submission(folder).frequencies)
+    (Frequency(elements=8, speed=6.0, frequency=3.731123456, failure=''),)
     """
     root = Path(folder)
     if not root.is_dir():

@@ -32,6 +32,19 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         If there is a submission.
     ValueError
         If two runs have the same case, mesh and step.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
+    >>> from rotbeam_exu.verification.submission_files.writing import write_submission
+    >>> mine = Frequency(elements=8, speed=6.0, frequency=3.731123456)
+    >>> submission = Submission(declaration=Declaration(code="mine"), frequencies=(mine,))
+    >>> with TemporaryDirectory() as folder:
+    ...     written = write_submission(submission, Path(folder, "mine"))
+    ...     print(sorted(path.name for path in written.iterdir()))
+    ['L.csv', 'entry.toml']
     """
     root = writable_folder(folder)
     if (root / entry.FILE).exists():

@@ -1,0 +1,168 @@
+"""The blade that is linear in the wrong place: small deflections in the frame of the clamp.
+
+Nothing in the stiffness K of a linear floating frame knows of the pull of the rotation, so that
+
+    M q̈ + (K - c²θ̇² M) q = -cΓ θ̈,      Γ = ∫(R + x) φ dm,
+
+is stable only up to the first natural frequency at rest: beyond, the inertia -θ̇² M wins. Bending
+brings a point nearer to the axis, by ½∫v'². That is of second order in the deflection, but the
+centrifugal force acts through it, N = θ̇² ∫(R + x) dm: with θ̇² G = ∫N φ_i'φ_j' dx added to K the
+same model has the blade's own frequencies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
+from scipy.linalg import eigh
+
+from ..arrays import FloatArray
+from ..beam import AnyBlade, require_undamped, warn_if_rpm
+from ..input_checks import finite_values, points_of_beam
+from ..quadrature import transverse_basis
+from ..ramps import AnyRamp, fastest, require_ramp
+from .blade_functions import blade_functions
+
+_FUNCTIONS, _MODES = 28, 5
+_TOLERANCE = 1e-8  # of a step
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearResponse:
+    """Response of the linear model to a spin-up; made by `linear_response`.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    spin_up : SpinUp, SmoothRamp or Table
+    foreshortening : bool
+        Whether the model has the term that stiffens.
+    time : ndarray (times,)
+        Times [s].
+    q : ndarray (times,)
+        Deflection of the tip across the turning line of the clamp, Eq. 16 [m].
+    axis : ndarray (times, points, 2)
+        Position of the points asked for in the frame that turns with the clamp [m]. A linear
+        model moves them across only: it grows longer as it bends.
+    """
+
+    beam: AnyBlade
+    spin_up: AnyRamp
+    foreshortening: bool
+    time: FloatArray
+    q: FloatArray = field(repr=False)
+    axis: FloatArray = field(repr=False)
+
+
+def linear_response(
+    beam: AnyBlade,
+    spin_up: AnyRamp,
+    times: float | ArrayLike,
+    *,
+    foreshortening: bool = False,
+    points: ArrayLike = (),
+) -> LinearResponse:
+    """Return the response of one linear floating frame, clamped to the root, at rest before t = 0.
+
+    Linear theory of the inextensible, undamped blade, in its first five modes. Without the
+    foreshortening it diverges above the first natural frequency at rest, ω0, at the rate
+    √(ω² - ω0²) in the plane of rotation; `spin_up_response` is what it should be.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    spin_up : SpinUp, SmoothRamp or Table
+    times : array_like
+        Times of the response [s], ascending, not before 0.
+    foreshortening : bool
+        Give the model the term that it lacks.
+    points : array_like
+        Material points [m], from 0 to L, whose positions are wanted as well, to draw the blade.
+
+    Raises
+    ------
+    ValueError
+        If the times are not ascending from 0 on, a point is beyond the blade, or it is damped.
+    RuntimeError
+        If the deflection grows beyond all numbers before the last time.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp
+    >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
+    >>> for term in (False, True):
+    ...     q = linear_response(Beam.reference(), spin_up, [5.0], foreshortening=term).q
+    ...     print(f"{q[0]:.4g} m")
+    -2.177e+04 m
+    1.673 m
+    """
+    require_ramp(spin_up)
+    require_undamped(beam, "the linear frame has no damping")
+    warn_if_rpm(beam, fastest(spin_up))
+    time = finite_values("times", times, "s")
+    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
+        raise ValueError("times must ascend from 0 s on, for the blade is at rest before")
+    along = points_of_beam("points", points, beam.length)
+    blade = beam.unit
+    of = blade_functions(blade, _FUNCTIONS)
+    rotation = -(blade.setting**2) * of.deflection.T @ (of.dm[:, None] * of.deflection)
+    if foreshortening:
+        rotation = of.stiffness(1.0) - of.bending
+    # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q. M is
+    # nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
+    pulled = (fastest(spin_up) / beam.frequency_scale) ** 2 * foreshortening
+    reciprocal, vectors = eigh(of.mass, of.bending + pulled * rotation)
+    modes = vectors[:, : -_MODES - 1 : -1] / np.sqrt(reciprocal[: -_MODES - 1 : -1])
+    lever = ((blade.hub + of.at) * of.dm) @ of.deflection + of.dj @ of.slope_turning
+    coordinates = _integrated(
+        beam, spin_up, time,
+        bending=modes.T @ of.bending @ modes,
+        rotation=modes.T @ rotation @ modes,
+        lever=blade.setting * lever @ modes,
+    )  # fmt: skip
+    count = of.tip.size // blade.panel_count
+    across = coordinates @ (transverse_basis(count, along, blade.panels).value @ modes).T
+    axis = np.stack(np.broadcast_arrays(along, across), axis=-1)
+    return LinearResponse(
+        beam=beam, spin_up=spin_up, foreshortening=foreshortening, time=time,
+        q=beam.length * coordinates @ (of.tip @ modes), axis=beam.length * axis,
+    )  # fmt: skip
+
+
+def _integrated(
+    beam: AnyBlade,
+    spin_up: AnyRamp,
+    time: FloatArray,
+    *,
+    bending: FloatArray,
+    rotation: FloatArray,
+    lever: FloatArray,
+) -> FloatArray:
+    """Return the modal coordinates (times, modes) of unit mass, over L.
+
+    They solve q̈ + (bending + θ̇² rotation) q = -θ̈ lever, with times in units of 1/√(EI/mL³).
+    """
+    scale = beam.frequency_scale
+
+    def derivative(t: float, state: FloatArray) -> FloatArray:
+        rate, acceleration = spin_up.rate(t / scale) / scale, spin_up.acceleration(t / scale)
+        q, q_dot = state.reshape(2, -1)
+        force = -(acceleration / scale**2) * lever - (bending + rate**2 * rotation) @ q
+        return np.concatenate((q_dot, force))
+
+    asked, back = np.unique(scale * time, return_inverse=True)
+    start = np.zeros(2 * lever.size)
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = solve_ivp(
+            derivative, (0.0, asked[-1] or 1.0), start, t_eval=asked, method="DOP853",
+            rtol=_TOLERANCE, atol=1e-3 * _TOLERANCE,
+        )  # fmt: skip
+    if not found.success or not np.isfinite(found.y).all():
+        raise RuntimeError(
+            f"the linear model's deflection grows beyond all numbers before t = {time[-1]:g} s: "
+            "ask for earlier times"
+        )
+    return np.asarray(found.y[: lever.size, back].T)

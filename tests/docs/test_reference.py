@@ -1,0 +1,76 @@
+"""The reference has a page for each public name, with an example, and for no other."""
+
+import inspect
+import pkgutil
+
+import pytest
+
+import analytic
+import rotbeam_exu
+
+PLAIN = {
+    "records that the example of what makes them shows": (
+        "analytic.Crossing analytic.LinearResponse analytic.Resonance analytic.ResponsePoint "
+        "analytic.StabilityLimit rotbeam_exu.GrowthRate rotbeam_exu.fem.RotatingBeam"
+    ),
+    "errors, which their message explains": (
+        "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
+        "rotbeam_exu.SimulationError"
+    ),
+    "former names, whose page leads to the new one": (
+        "analytic.critical_speed rotbeam_exu.critical_speed"
+    ),
+    "a type, a list of names, a protocol": (
+        "analytic.AnyBlade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
+    ),
+}
+"""Names without an example, by the reason."""
+PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
+BEYOND = {
+    "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.sweeps.grid",
+    "rotbeam_exu.files.beam_file", "rotbeam_exu.verification.measures",
+    "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
+    "rotbeam_exu.verification.submission_files.reading",
+    "rotbeam_exu.verification.submission_files.writing",
+}  # fmt: skip
+"""Modules from which users import as well."""
+
+
+@pytest.fixture(scope="module")
+def groups():
+    return pkgutil.resolve_name("docs._ext.reference_groups")
+
+
+def test_every_public_name_has_one_page_and_no_other_has_one(groups):
+    names = list(groups.public_names())
+    assert len(names) == len(set(names))
+    listed = {f"{p.__name__}.{name}" for p in (analytic, rotbeam_exu) for name in p.__all__}
+    assert listed <= set(names)
+    for name in set(names) - listed:
+        module, _, short = name.rpartition(".")
+        assert module in BEYOND
+        assert not short.startswith("_")
+    assert not any("warn_if_rpm" in name for name in names)
+
+
+def test_pages_differ_by_more_than_case(groups):
+    pages = [groups.page_of(name).casefold() for name in groups.public_names()]
+    assert len(pages) == len(set(pages))
+
+
+def test_every_name_has_an_example_or_a_reason(groups):
+    without = set()
+    for name in groups.public_names():
+        value, short = pkgutil.resolve_name(name), name.rpartition(".")[2]
+        shown = getattr(value, "__name__", short) == short  # its own page, not a former name's
+        if not shown or "Examples\n--------\n>>> " not in (inspect.getdoc(value) or ""):
+            without.add(name)
+    assert without == PLAIN_NAMES
+
+
+def test_what_can_draw_itself_does_so_in_its_example(groups):
+    drawn = [n for n in groups.public_names() if hasattr(pkgutil.resolve_name(n), "plot")]
+    assert len(drawn) >= 3
+    for name in drawn:
+        example = inspect.getdoc(pkgutil.resolve_name(name)).partition("Examples\n")[2]
+        assert ".plot()" in example

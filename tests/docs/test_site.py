@@ -1,0 +1,93 @@
+"""The built site: complete in its folder, formulas included, as `make check-site` asks."""
+
+import shutil
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+SITE = Path(__file__).parents[2] / "docs" / "_build" / "html"
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
+PAGES = (
+    "index", "class/index", "theory/continuum", "theory/errata", "explorer", "search",
+    "reference/api/analytic.Backbone",
+)  # fmt: skip
+pytestmark = [
+    pytest.mark.site,
+    pytest.mark.skipif(not (SITE / "index.html").exists(), reason="no site: make docs"),
+]
+
+
+class Asked(HTMLParser):
+    """Collects what a page loads by itself: not its links."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.urls = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        if tag == "link" and given.get("rel") in ("canonical", "index", "search", "next", "prev"):
+            return
+        self.urls += [given[k] for k in ("src", "srcset", "data") if given.get(k)]
+        self.urls += [given["href"]] if tag == "link" and given.get("href") else []
+
+
+def test_no_page_names_another_host_for_what_it_loads():
+    pages = sorted(SITE.rglob("*.html"))
+    assert len(pages) > 100
+    for page in pages:
+        outside = [
+            url
+            for url in Asked(page.read_text(encoding="utf-8")).urls
+            if "//" in url and not url.startswith("data:")
+        ]
+        assert outside == [], page
+
+
+def test_the_reference_has_its_pages_and_pictures():
+    api = SITE / "reference" / "api"
+    assert (api / "analytic.periodic_orbits.html").exists()
+    drawn = {path.stem for path in (SITE / "_images").glob("analytic.*.svg")}
+    assert {"analytic.Backbone", "analytic.Campbell", "analytic.ForcedResponse"} <= drawn
+    assert "warn_if_rpm" not in (SITE / "genindex.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def offline():
+    """A browser that reaches no network."""
+    if CHROMIUM is None:
+        pytest.skip("no chromium: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
+        )
+        yield browser.new_context(offline=True)
+        browser.close()
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_pages_are_whole_without_a_network(offline, name):
+    """Nothing outside the folder is asked for, nothing in it misses, and formulas are set."""
+    asked, missed, page = [], [], offline.new_page()
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("requestfailed", lambda request: missed.append(request.url))
+    page.on("pageerror", lambda error: missed.append(str(error)))
+    page.goto((SITE / f"{name}.html").as_uri())
+    if name.startswith("theory/"):
+        page.wait_for_selector("mjx-container")
+        page.evaluate("MathJax.startup.promise.then(() => document.fonts.ready)")
+        sizes = page.evaluate(
+            """[...document.querySelectorAll("mjx-container")].map(e => {
+                const box = e.getBoundingClientRect(); return box.width * box.height; })"""
+        )
+        assert len(sizes) > 10
+        assert min(sizes) > 0.0
+        assert page.locator("mjx-merror").count() == 0
+        fonts = "[...document.fonts].filter(f => f.status == 'loaded').map(f => f.family)"
+        assert "MJXTEX-I" in page.evaluate(fonts)  # set in its own letters, not in any
+    page.close()
+    assert [url for url in asked if not url.startswith((SITE.as_uri(), "data:"))] == []
+    assert missed == []
