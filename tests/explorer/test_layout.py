@@ -91,6 +91,13 @@ def test_on_a_phone_the_charts_begin_early(open_page, url):
     assert controls < 0.15 * 844  # what stays while the page is scrolled
 
 
+def test_a_page_that_is_hidden_draws_without_complaint(open_page, url):
+    page = open_page(url)  # the fixture listens
+    page.evaluate("document.querySelector('main').style.display = 'none'; drawAll()")
+    page.evaluate("document.querySelector('main').style.display = ''; drawAll()")
+    assert page.evaluate(OVERLAPS) == []
+
+
 COLORS = """() => {
     const found = [];
     for (const e of document.querySelectorAll("body *")) {

@@ -16,12 +16,13 @@ class Chart {
   }
   /** Measure, and redraw the axes if anything about them is new. */
   frame(xDomain, yDomain, decorate, yTicks = null) {
-    const {left, right, top, bottom} = this.margin, width = this.host.clientWidth, height = this.host.clientHeight;
+    const {left, right, top, bottom} = this.margin;
+    const width = Math.max(left + right + 1, this.host.clientWidth), height = Math.max(top + bottom + 1, this.host.clientHeight);  // hidden, it has none
     const key = JSON.stringify([width, height, xDomain, yDomain]);
     if (key === this.key) return false;
     this.key = key;
     Object.assign(this, {width, height, xDomain, yDomain, x0: left, x1: width - right, y0: height - bottom, y1: top});
-    for (const [n, v] of Object.entries({x: this.x0, y: this.y1, width: Math.max(0, this.x1 - this.x0), height: Math.max(0, this.y0 - this.y1)}))
+    for (const [n, v] of Object.entries({x: this.x0, y: this.y1, width: this.x1 - this.x0, height: this.y0 - this.y1}))
       this.clip.setAttribute(n, v);
     this.back.replaceChildren();
     if (decorate) decorate(this.back);
