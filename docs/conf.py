@@ -134,6 +134,13 @@ def plain(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[st
             lines[i] = re.sub(r"(?<!`)(`[^`]+`)(?=[\w²³⁴])", r"\1\\ ", literal)
 
 
+def without_other_hosts(app: Any, page: str, source: list[str]) -> None:
+    """Leave out the icons that matplotlib's player asks another host for: the theme has them."""
+    del app
+    if page.startswith("gallery/"):
+        source[0] = re.sub(r'<link rel="stylesheet"\s+href="https://[^"]*">', "", source[0])
+
+
 def write_interactive() -> None:
     """Write the explorer and the animations that the pages embed, by the command line itself."""
     for line in (
@@ -149,4 +156,5 @@ def write_interactive() -> None:
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("autodoc-process-docstring", plain, priority=400)
+    app.connect("source-read", without_other_hosts)
     app.connect("builder-inited", lambda _: write_interactive(), priority=100)
