@@ -12,16 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
+from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import Branch, branch_of
-from .internal_resonance import Resonance, resonances_along
+from .internal_resonance import Resonance, pinned, resonances_along
 from .modes import resolved_model
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue
 
 _GRID = 0.05  # of |q|/L between the orbits of the main path
+_CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
 
 
@@ -179,11 +181,16 @@ def backbone_branch(
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     branch = branch_of(
-        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions)
+        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions), _CARE
     )
     main = _main_path(branch, up_to)
     per_second = beam.frequency_scale
-    met = resonances_along(main, branch.modes, mode, per_second)
+    met = []
+    for one in resonances_along(main, branch.modes, mode, per_second):
+        near, place = pinned(branch.path.at, main, one)
+        main = sorted([*main, *near], key=lambda orbit: orbit.amplitude)
+        met.append(one._replace(amplitude=place, frequency=_frequency(main, place) * per_second))
+    met.sort(key=lambda one: one.amplitude)
     followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
     if main[-1].amplitude < up_to - 1e-9:
         followed.append(follow(main[-2], main[-1], lambda orbit: False))
@@ -208,6 +215,10 @@ def backbone_branch(
         _crossings=tuple(crossings),
         _orbits=tuple(orbits),
     )
+
+
+def _frequency(orbits: list[BeamOrbit], amplitude: float) -> float:
+    return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
 def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -17,12 +17,15 @@ import numpy as np
 from ..arrays import FloatArray
 from ..input_checks import RotbeamWarning
 from ..methods.floquet import floquet_multipliers
+from ..methods.harmonic_balance import NoOrbitError
 from .steady import BeamOrbit
 
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
 _PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
 _FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no round-off
 _LOOKS = 6
+_CLOSE = 5e-3  # amplitudes that pin a resonance down
+_INSIDE = 0.25  # of what is between two, from either
 _NOTICEABLE = 1e-3  # size of a harmonic, relative to the first, that can drive another mode
 
 
@@ -132,6 +135,42 @@ def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
             share = (1.0 / before) / (1.0 / before - 1.0 / after)
             return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
     return None
+
+
+def pinned(
+    at: Callable[[float], BeamOrbit], orbits: Sequence[BeamOrbit], resonance: Resonance
+) -> tuple[list[BeamOrbit], float]:
+    """Return more orbits next to a resonance, as near as they are found, and its amplitude.
+
+    What the harmonic is without the resonance shifts the pole that two far ones tell.
+
+    Parameters
+    ----------
+    at : callable
+        The orbit of an amplitude; raises NoOrbitError if there is none.
+    orbits : sequence
+        Ascending.
+    resonance : Resonance
+    """
+    k, place = resonance.harmonic, resonance.amplitude
+    i = sum(orbit.amplitude < place for orbit in orbits)
+    if not 0 < i < len(orbits):
+        return [], place
+    (below, above), found = orbits[i - 1 : i + 1], list[BeamOrbit]()
+    while (pole := _pole((below, above), k)) is not None:
+        place, gap = pole, above.amplitude - below.amplitude
+        if gap < _CLOSE:
+            break
+        inside = min(max(pole, below.amplitude + _INSIDE * gap), above.amplitude - _INSIDE * gap)
+        try:
+            found.append(at(inside))
+        except NoOrbitError:
+            break
+        if found[-1].gauge_harmonics[k - 1] * below.gauge_harmonics[k - 1] > 0.0:
+            below = found[-1]
+        else:
+            above = found[-1]
+    return found, place
 
 
 def _drives(orbit: BeamOrbit, k: int) -> bool:

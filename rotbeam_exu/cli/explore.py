@@ -30,7 +30,7 @@ def explore(
 ) -> None:
     """Write the Explorer: all models and the exact beam on a page.
 
-    The page needs no network. Sliders set speed and amplitude.
+    The page needs no network. Sliders set speed, amplitude and ramp time.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
 from .exact import exact_orbits
-from .spin_ups import closed_form, exact_spin_up
+from .spin_ups import exact_spin_up, together
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""
@@ -91,7 +91,6 @@ def explorer_data(
     exact_ramp_times = _ramp_times(exact_ramp_times, duration)
     ramps = list(itertools.product(finite_element_omegas, exact_ramp_times))
     total = len(omegas) + len(finite_element_omegas) * len(ramp_times) + len(ramps)
-
     done = itertools.count(1)  # its next() is atomic: orbits report from the pool's own thread
 
     def one_more(*_: object) -> None:
@@ -116,18 +115,16 @@ def explorer_data(
                 progress=one_more,
             )
             orbits = xr.concat([future.result() for future in exact], dim="omega")
-            spin_ups = xr.combine_by_coords(
-                [one.result().expand_dims(("fe_omega", "exact_ramp_time")) for one in spun]
-            ).sel(fe_omega=list(finite_element_omegas))
+            results = [future.result() for future in spun]
         finally:
             for future in (*exact, *spun):
                 future.cancel()
     points = points[["amplitude", "frequency", "omega_n"]].rename(
         {"omega": "fe_omega", **{n: f"fe_{n}" for n in ("amplitude", "frequency", "omega_n")}}
     )
-    left = closed_form(beam, finite_element_omegas, exact_ramp_times)
+    spin_ups = together(results, beam, finite_element_omegas, exact_ramp_times)
     models = _models(beam, omegas, amplitudes)
-    data = xr.merge([models, orbits, points, spin_ups, left], combine_attrs="drop", join="exact")
+    data = xr.merge([models, orbits, points, spin_ups], combine_attrs="drop", join="exact")
     data.attrs = {
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,

@@ -121,6 +121,9 @@ def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
     assert "does not stay in the plane: at 2 rad/s" in found.out_of_plane
     ramp = spin_up_response(blade, SpinUp(omega=2.0, ramp_time=6.5), times, tolerance=1e-3)
     assert ramp.out_of_plane == "", "these times end within the ramp"
+    # Between two amplitudes that are looked at, the motion's own tells; the limit is 0.3912.
+    assert planar_note(blade, 2.0, 0.39) == ""
+    assert "planar orbit of a = 0.393 is unstable" in planar_note(blade, 2.0, 0.393)
     unknown = beam.with_section_out_of_plane(0.5)
     assert "is not known: with a bending_ratio of 0.5" in planar_note(unknown, 2.0, 0.3)
     assert planar_note(blade.with_damping(Damping(bending=0.01)), 2.0, 0.5) == ""

@@ -23,7 +23,7 @@ from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --(omega|from).*|campbell|"
+    r"rotbeam (run|run --(omega|from).*|campbell|campbell --section.*|"
     r"(reference|respond|stability|ramp|compare|figure|animate).*)"
 )
 BEAM = """

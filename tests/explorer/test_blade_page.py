@@ -7,6 +7,7 @@ from analytic import periodic_orbits, reduced_model
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
 
+@pytest.mark.slow
 def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
     blade = beam.with_hub_radius(0.5 * beam.length).with_tip_mass(0.5 * beam.mass)
     data = explorer_data(

@@ -15,7 +15,8 @@ STATES = [
 OVERLAPS = """() => {
     const seen = e => e.checkVisibility({visibilityProperty: true, opacityProperty: true});
     const things = [...document.querySelectorAll(
-        ".plot svg text, button, input, summary, output, h1, h2, p.about, td, thead th, label")]
+        ".plot svg text, button, input, summary, output, h1, h2, p.about, td, thead th, label, " +
+        "li span, #refused, .notes p")]
         .filter(e => seen(e) && e.textContent + e.value)
         .map(e => [e, e.getBoundingClientRect()]).filter(([, b]) => b.width && b.height);
     const named = e => `${e.closest("figure")?.querySelector("h2").textContent ?? ""} ` +
@@ -52,6 +53,12 @@ def at_state(page, state):
     page.evaluate("new Promise(f => setTimeout(() => requestAnimationFrame(f), 30))")
 
 
+TICKS = """() => [...document.querySelectorAll(".plot > svg")].map(svg =>
+    ["middle", "end"].map(anchor => [...svg.querySelectorAll(`text[text-anchor=${anchor}]`)]
+        .filter(t => /^−?[\\d.]+$/.test(t.textContent)).length)).filter(([x]) => x)"""
+OWN = [("mine.csv", "a,omega_NL\n0.1,3\n"), ("a-longer-name-of-a-file.csv", "t,q\n0,0\n9,1\n")]
+
+
 @pytest.mark.parametrize("width", [1400, 1024, 800, 390])
 def test_nothing_overprints(open_page, url, width):
     page = open_page(url, phone=width == 390, width=width)
@@ -59,25 +66,18 @@ def test_nothing_overprints(open_page, url, width):
     for state in STATES:
         at_state(page, state)
         found[state] = page.evaluate(OVERLAPS)
+        counts = page.evaluate(TICKS)
+        assert len(counts) == 5
+        assert min(map(min, counts)) >= 3, (state, counts)
+    page.set_input_files(
+        "#file", [{"name": n, "mimeType": "text/csv", "buffer": t.encode()} for n, t in OWN]
+    )
+    page.wait_for_function("document.querySelectorAll('#own-list li').length === 2")
+    found["own"] = page.evaluate(OVERLAPS)
     assert not any(found.values()), found
     assert page.evaluate(WRAPPED) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert page.evaluate(BEYOND) == []
-
-
-@pytest.mark.parametrize("width", [1400, 1024, 800, 390])
-def test_every_axis_has_ticks_enough(open_page, url, width):
-    page = open_page(url, phone=width == 390, width=width)
-    for state in STATES:
-        at_state(page, state)
-        counts = page.evaluate(
-            """[...document.querySelectorAll(".plot > svg")].map(svg =>
-                ["middle", "end"].map(anchor => [...svg.querySelectorAll(
-                    `text[text-anchor=${anchor}]`)].filter(t => /^−?[\\d.]+$/.test(t.textContent))
-                    .length)).filter(([x]) => x)"""
-        )
-        assert len(counts) >= 3
-        assert min(map(min, counts)) >= 3, (state, counts)
 
 
 def test_on_a_phone_the_charts_begin_early(open_page, url):
@@ -89,6 +89,13 @@ def test_on_a_phone_the_charts_begin_early(open_page, url):
     page.evaluate("scrollTo(0, 1000)")
     assert page.locator(".controls").bounding_box()["y"] == pytest.approx(0.0, abs=1.0)
     assert controls < 0.15 * 844  # what stays while the page is scrolled
+
+
+def test_a_page_that_is_hidden_draws_without_complaint(open_page, url):
+    page = open_page(url)  # the fixture listens
+    page.evaluate("document.querySelector('main').style.display = 'none'; drawAll()")
+    page.evaluate("document.querySelector('main').style.display = ''; drawAll()")
+    assert page.evaluate(OVERLAPS) == []
 
 
 COLORS = """() => {

@@ -86,24 +86,28 @@ def test_points_of_many_speeds_go_each_to_its_own(open_page, url, at):
     np.testing.assert_allclose(page.evaluate("ownPoints()[1][1]"), 3.9 / linear)
 
 
-@pytest.mark.parametrize(
-    ("heading", "over"), [("q [m]", 8.0), ("q/L", 1.0), ("q [L]", 1.0), ("q [mm]", 8e3)]
-)
-def test_a_history_lies_on_the_exact_one(open_page, url, at, drawn, beam, heading, over):
+def test_histories_lie_on_the_exact_one_in_any_unit(open_page, url, at, drawn, beam):
     page = open_page(f"{url}#T=3")
     at(page, 6.0, 0.2)
     times = np.linspace(0.0, 12.0, 241)
     q = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), times, tolerance=1e-5).q / 8.0
-    rows = "".join(f"{t!r},{over * x!r}\n" for t, x in zip(times.tolist(), q.tolist(), strict=True))
-    choose(page, ("mine.csv", f"time [s],{heading}\n{rows}"))
-    assert page.locator("#refused").text_content() == ""
-    x, y = drawn(page, "spin-up", "path[data-model=own-0]")
-    np.testing.assert_allclose(x, times, atol=0.02)
-    np.testing.assert_allclose(y, q, atol=2e-3)
-    assert (
-        f'241 samples of q(t) beside the spin-up, from "time [s]", "{heading}"'
-        in page.locator("#own-list").inner_text()
-    )
+    for heading, over in (
+        ("q [m]", 8.0),
+        ("q", 8.0),
+        ("q/L", 1.0),
+        ("q [L]", 1.0),
+        ("q [mm]", 8e3),
+    ):
+        both = zip(times.tolist(), (over * q).tolist(), strict=True)
+        rows = "".join(f"{t!r},{x!r}\n" for t, x in both)
+        choose(page, ("mine.csv", f"time [s],{heading}\n{rows}"))
+        assert page.locator("#refused").text_content() == ""
+        x, y = drawn(page, "spin-up", "path[data-model=own-0]")
+        np.testing.assert_allclose(x, times, atol=0.02)
+        np.testing.assert_allclose(y, q, atol=2e-3)
+        listed = page.locator("#own-list").inner_text()
+        assert f'241 samples of q(t) beside the spin-up, from "time [s]", "{heading}"' in listed
+        page.get_by_role("button", name="Remove mine.csv").click()
 
 
 def test_what_the_page_saves_it_reads(open_page, url, at):

@@ -77,24 +77,26 @@ def test_tables_are_the_data(open_page, url, at, beam, data):
 
 
 @pytest.mark.parametrize("dark", [False, True])
-@pytest.mark.parametrize("chart", ["backbone", "orbit", "beam"])
-def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, chart, dark):
+def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, dark):
     page = open_page(url, dark=dark)
-    name, content = saved(page, chart, "SVG")
-    assert name.endswith(".svg")
-    root = ET.fromstring(content)
-    assert root.tag == SVG + "svg"
-    assert b"var(" not in content
-    assert b"class=" not in content
-    ground, *_ = root.iter(SVG + "rect")
-    assert "fill:rgb(255, 255, 255)" in ground.get("style")  # on white in the dark as well
-    for text in root.iter(SVG + "text"):
-        assert "fill:rgb(" in text.get("style")
-    words = ["".join(text.itertext()).replace("\u200b", "") for text in root.iter(SVG + "text")]
-    assert words[0].endswith("ω = 6 rad/s, a = 0.3")
-    if chart != "beam":
-        assert {"exact", "FrM", "CE"} <= set(words)  # each curve is named
-    assert page.evaluate("document.documentElement.className") == ""
+    for chart in ("backbone", "orbit", "beam", "spin-up", "left"):
+        name, content = saved(page, chart, "SVG")
+        assert name.endswith(".svg")
+        root = ET.fromstring(content)
+        assert root.tag == SVG + "svg"
+        assert b"var(" not in content
+        assert b"class=" not in content
+        ground, *_ = root.iter(SVG + "rect")
+        assert "fill:rgb(255, 255, 255)" in ground.get("style")  # on white in the dark as well
+        for text in root.iter(SVG + "text"):
+            assert "fill:rgb(" in text.get("style")
+        words = ["".join(text.itertext()).replace("\u200b", "") for text in root.iter(SVG + "text")]
+        spun = chart in ("spin-up", "left")
+        assert words[0].endswith("ω = 6 rad/s, T = 3 s" if spun else "ω = 6 rad/s, a = 0.3")
+        # Each curve is named.
+        named = {"beam": set(), "spin-up": {"exact"}, "left": {"closed form"}}
+        assert named.get(chart, {"exact", "FrM", "CE"}) <= set(words)
+        assert page.evaluate("document.documentElement.className") == ""
 
 
 def test_a_picture_is_three_times_as_sharp(open_page, url):

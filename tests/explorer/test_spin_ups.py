@@ -100,6 +100,9 @@ def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monk
     failed = room.exact_spin_up(beam, 6.0, 3.0, 15.0)
     assert np.isnan(failed["spin_up"]).all()
     assert np.isnan(failed["exact_left"])
+    monkeypatch.undo()
+    # Thrown about: minutes, were it computed.
+    assert np.isnan(room.exact_spin_up(beam, 8.0, 1.0, 15.0)["exact_left"])
     broken = data.copy(deep=True)
     for name in ("spin_up", "exact_left"):
         broken[name].loc[{"exact_ramp_time": 3.0}] = np.nan

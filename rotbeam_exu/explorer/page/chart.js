@@ -16,12 +16,13 @@ class Chart {
   }
   /** Measure, and redraw the axes if anything about them is new. */
   frame(xDomain, yDomain, decorate, yTicks = null) {
-    const {left, right, top, bottom} = this.margin, width = this.host.clientWidth, height = this.host.clientHeight;
+    const {left, right, top, bottom} = this.margin;
+    const width = Math.max(left + right + 1, this.host.clientWidth), height = Math.max(top + bottom + 1, this.host.clientHeight);  // hidden, it has none
     const key = JSON.stringify([width, height, xDomain, yDomain]);
     if (key === this.key) return false;
     this.key = key;
     Object.assign(this, {width, height, xDomain, yDomain, x0: left, x1: width - right, y0: height - bottom, y1: top});
-    for (const [n, v] of Object.entries({x: this.x0, y: this.y1, width: Math.max(0, this.x1 - this.x0), height: Math.max(0, this.y0 - this.y1)}))
+    for (const [n, v] of Object.entries({x: this.x0, y: this.y1, width: this.x1 - this.x0, height: this.y0 - this.y1}))
       this.clip.setAttribute(n, v);
     this.back.replaceChildren();
     if (decorate) decorate(this.back);
@@ -49,7 +50,7 @@ class Chart {
   draw(curves) {
     for (const m of Object.keys(this.paths)) if (!(m in curves)) { this.paths[m].remove(); delete this.paths[m]; }
     const order = [...Object.keys(curves).filter(m => !ORDER.includes(m)), ...ORDER];
-    for (const m of order.toReversed()) {
+    for (const m of [...order].reverse()) {
       if (!(m in curves)) continue;
       let path = this.paths[m];
       if (!path) {
@@ -89,7 +90,7 @@ class Chart {
     const taken = [];
     for (const {m, up, x} of edge.sort((p, q) => p.x - q.x)) {
       const text = node("text", {class: "name halo", style: colors(m)}, this.labels, m + (up ? " ↑" : " ↓"));
-      const width = text.getComputedTextLength(), left = Math.max(this.x0 + 3, Math.min(x + 5, this.x1 - 3 - width));
+      const width = widthOf(text), left = Math.max(this.x0 + 3, Math.min(x + 5, this.x1 - 3 - width));
       let row = 0;
       while (taken.some(t => t.up === up && t.row === row && left < t.end)) row++;
       taken.push({up, row, end: left + width + 4});
@@ -111,11 +112,11 @@ class Chart {
     if (this.said) this.said();
     const x = this.x(value);
     node("line", {class: "now", x1: x, x2: x, y1: this.y0 + 4, y2: this.y1}, this.marks);
-    const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = text.getComputedTextLength() / 2;
+    const text = node("text", {class: "here", y: this.y0 + 16, "text-anchor": "middle"}, this.marks, label), half = widthOf(text) / 2;
     const at = Math.max(this.x0 + half - 20, Math.min(this.width - half, x));
     text.setAttribute("x", at);
     for (const tick of this.back.querySelectorAll(".along")) {
-      const covered = Math.abs(tick.getAttribute("x") - at) < half + tick.getComputedTextLength() / 2 + 6;
+      const covered = Math.abs(tick.getAttribute("x") - at) < half + widthOf(tick) / 2 + 6;
       tick.setAttribute("visibility", covered ? "hidden" : "visible");
     }
   }

@@ -16,6 +16,13 @@ function write(text, label) {
   for (const [, sub, part] of label.matchAll(/(_?)([A-Za-z]+|[^_A-Za-z]+)/g))
     node("tspan", sub ? {"font-size": "80%", dy: 3} : {}, text, part).after(...(sub ? [node("tspan", {dy: -3}, null, "\u200b")] : []));
 }
+const WIDTHS = new Map();
+/** How wide a text is; remembered, for to measure makes the browser lay out the page. */
+function widthOf(text) {
+  const key = text.getAttribute("class") + text.textContent;
+  if (!WIDTHS.has(key)) WIDTHS.set(key, text.getComputedTextLength());
+  return WIDTHS.get(key);
+}
 const minus = text => text.replace("-", "−");
 const fixed = (x, digits) => Number.isFinite(x) ? minus((Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)) : "–";
 const plain = x => String(+x.toFixed(6));
@@ -31,14 +38,11 @@ const DASHES = {
 const dashes = m => DASHES[m] ?? (m.startsWith("own-") ? OWN_DASHES[m.slice(4) % OWN_DASHES.length] : "1 2");
 const nameOf = m => m === "closed" ? "closed form" : m.startsWith("own-") ? OWN[m.slice(4)].name : m;
 
-/** Values and texts on an axis of so many pixels: about `apart` from each other, but three at least. */
+/** Values and texts on an axis of so many pixels, at least `apart` from each other. */
 function ticks(low, high, pixels, apart) {
-  const ends = value => Math.floor(high / value + 1e-6) - Math.ceil(low / value - 1e-6) + 1;
   const rough = (high - low) * apart / Math.max(1, pixels), power = 10 ** Math.floor(Math.log10(rough));
-  const steps = [0.5, 1, 2, 5, 10].map(s => s * power);
-  let k = steps.findIndex(s => s >= 0.999 * rough);
-  if (k > 0 && ends(steps[k]) < 3) k--;
-  const step = steps[k], digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), values = [];
+  const step = power * [1, 2, 5, 10].find(s => s * power >= 0.999 * rough);
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), values = [];
   for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) values.push(i * step);
   return values.map(v => [v, fixed(v, digits)]);
 }

@@ -16,7 +16,7 @@ for (const key of ["scale", "norm"])
     button.addEventListener("click", () => set({[key]: button.dataset[key]}));
 document.getElementById("blade").textContent = DATA.blade;
 document.getElementById("mesh").textContent = `Finite elements: ${DATA.elements} cables in Exudyn, spun up in ` +
-  `${Math.min(...D.ramp_time)} to ${Math.max(...D.ramp_time)} s, over the mesh's own ω_n.`;
+  `${Math.min(...D.ramp_time)} to ${Math.max(...D.ramp_time)} s, over the mesh's own natural frequency.`;
 
 function showControls() {
   const omega = fixed(D.omega[state.w], 2) + " rad/s", amplitude = fixed(D.a[state.a], 2);
@@ -32,13 +32,13 @@ function showControls() {
 }
 // Beside the charts where there is room, below them where there is none; Tab follows what is seen.
 const wide = matchMedia("(min-width: 1181px)");
-function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .own-data, .notes")); }
+function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .words")); }
 wide.addEventListener("change", arrange);
 arrange();
 function drawAll() {
-  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft();
+  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft(); tellSpeed();
 }
-let waiting = false, changed = new Set();
+let waiting = false, changed = new Set(), spun = -1;
 /** Change the state; what depends on it is drawn once, in the next frame. */
 function set(change) {
   for (const [key, value] of Object.entries(change)) if (state[key] !== value) { state[key] = value; changed.add(key); }
@@ -53,7 +53,9 @@ function set(change) {
     if (any("scale", "hide")) drawSoftening();
     if (any("w", "hide", "scale")) markSpeed();
     if (any("w", "a")) drawBeam();
-    if (any("w", "t", "hide")) { drawSpinUp(); drawLeft(); }
+    if (any("t", "hide") || spun !== speed()) { drawSpinUp(); drawLeft(); }
+    if (any("w", "t", "hide")) tellSpeed();
+    spun = speed();
     changed.clear();
     waiting = false;
   });

@@ -32,9 +32,13 @@ function drawSpinUp() {
   spinUp.draw({...state.hide.has("exact") ? {} : {exact: spinUpCurve()}, ...ownHistories()});
   spinUp.mark(T(), `T = ${plain(T())}`);
   spinUp.front.replaceChildren();
-  const a = exactLeft(j, state.t), mesh = meshLeft(j, T());
+  const a = exactLeft(j, state.t);
   if (Number.isFinite(a)) for (const side of [-a, a])
     node("line", {class: "cross", x1: spinUp.x(T()), x2: spinUp.x1, y1: spinUp.y(side), y2: spinUp.y(side)}, spinUp.front);
+}
+/** What is seen of it, in words; at any speed of the slider. */
+function tellSpeed() {
+  const j = speed(), a = exactLeft(j, state.t), mesh = meshLeft(j, T());
   document.getElementById("spin-up-speed").textContent = `to ${plain(D.fe_omega[j])} rad/s`;
   document.getElementById("about-spin-up").textContent = (Number.isFinite(a) ? `After the ramp (shaded) the tip swings by a = ${fixed(a, 4)}` +
     (Number.isFinite(mesh) ? `, ${DATA.elements} finite elements by ${fixed(mesh, 4)}.` : ".") : "Too violent to be computed.") +

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import exudyn
 import numpy as np
@@ -32,6 +32,29 @@ _COLORS: tuple[_Color, ...] = (
 )
 
 
+class _View(NamedTuple):
+    """What is seen of the plane of rotation, over L.
+
+    Attributes
+    ----------
+    x, y : tuple of float
+        Ends of the floor.
+    center : tuple of float
+        The picture's middle, right and above of the clamp as it is seen.
+    zoom : float
+        Half of the picture's height.
+    """
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    center: tuple[float, float]
+    zoom: float
+
+
+_AHEAD = _View(x=(-0.1, 1.1), y=(-0.65, 0.2), center=(0.5, -0.22), zoom=0.37)
+_AROUND = _View(x=(-1.1, 1.1), y=(-1.05, 1.05), center=(0.0, -0.13), zoom=0.66)
+
+
 def ray_traced(
     run: xr.Dataset,
     times: Sequence[float],
@@ -39,6 +62,7 @@ def ray_traced(
     size: tuple[int, int] = (1200, 700),
     width: float = _WIDTH,
     stretched: float = 1.0,
+    whole: bool = False,
 ) -> NDArray[np.uint8]:
     """Return a picture of the blade at some times, an RGB array (height, width, 3).
 
@@ -58,6 +82,9 @@ def ray_traced(
         Of the strips, over L.
     stretched : float
         By what deflections out of the plane are drawn larger.
+    whole : bool
+        Show all that the blade can reach, not only what it does while it is bent less than a right
+        angle.
 
     Raises
     ------
@@ -92,7 +119,8 @@ def ray_traced(
             strict=True,
         )
     ]
-    return _rendered([_floor(length), *shown], length, size)
+    view = _AROUND if whole else _AHEAD
+    return _rendered([_floor(length, view), *shown], length, size, view)
 
 
 def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) -> dict[str, Any]:
@@ -105,9 +133,9 @@ def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) ->
     return _surface(edges(np.linspace(0, nodes[-1], 8 * nodes[-1] + 1)), color)
 
 
-def _floor(length: float) -> dict[str, Any]:
+def _floor(length: float, view: _View) -> dict[str, Any]:
     """Return a strip parallel to the plane of rotation, below the blade."""
-    x, y = np.array([-0.1, 1.1]) * length, np.array([-0.65, 0.2]) * length
+    x, y = np.array(view.x) * length, np.array(view.y) * length
     corners = np.array([[[a, b, -0.15 * length] for b in y] for a in x])
     return _surface(corners, _FLOOR)
 
@@ -123,7 +151,7 @@ def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
 
 
 def _rendered(
-    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int]
+    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int], view: _View
 ) -> NDArray[np.uint8]:
     """Return the picture of the surfaces of a blade of `length`."""
     container = exudyn.SystemContainer()
@@ -142,9 +170,9 @@ def _rendered(
         settings.raytracer.advanced.showText = False
         container.renderer.ZoomAll()
         container.renderer.SetModelView(
-            zoom=0.37 * length,
+            zoom=view.zoom * length,
             rotationVector=[-0.95, 0.0, 0.0],
-            centerPoint=[0.5 * length, -0.22 * length, 0.0],
+            centerPoint=[*(length * c for c in view.center), 0.0],
         )
         return np.asarray(container.renderer.RedrawAndGetImage(useRaytracer=True))
     finally:
