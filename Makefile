@@ -77,4 +77,4 @@ $(VENV)/.peers: $(VENV)/.dev
 	touch $@
 
 clean:
-	rm -rf $(VENV) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/sg_execution_times.rst docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache

@@ -83,6 +83,7 @@ sphinx_gallery_conf = {
     "show_signature": False,
     "abort_on_example_error": True,
     "min_reported_time": 1000,
+    "write_computation_times": False,  # a page whose table another host sorts
     "image_scrapers": ("matplotlib",),
     "image_srcset": ["2x"],
 }
