@@ -24,6 +24,7 @@ _SLOW = 0.2  # a contraction worse than this pays for a new factorization
 _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
+_LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
@@ -161,7 +162,7 @@ def located(
     found[0.0], found[1.0] = start, end
     if at(0.0) * at(1.0) > 0.0 or reach == 0.0:
         return None
-    share = optimize.brentq(at, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
+    share = optimize.brentq(at, 0.0, 1.0, xtol=_LOCATED)
     at(share)
     return found[share]
 
