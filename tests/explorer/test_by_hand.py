@@ -57,6 +57,10 @@ def test_touch(open_page, url):
     x = page.evaluate("backbone.x(0.5)")
     page.touchscreen.tap(box["x"] + x, box["y"] + 60)
     assert page.locator("#amplitude-value").inner_text() == "0.50"
+    readout = page.locator("#backbone .readout")
+    assert "a = 0.50" in readout.inner_text()  # and stays, once the finger is lifted
+    page.touchscreen.tap(20, 20)
+    assert not readout.is_visible()
     page.locator("#jumps button").tap()
     assert page.locator("#omega-value").inner_text() == "6.00 rad/s"
 

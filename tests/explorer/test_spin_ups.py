@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import rotbeam_exu.explorer.spin_ups as room
 from analytic import SpinUp, exact_residual, residual_amplitude, spin_up_response
@@ -111,6 +112,22 @@ def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monk
     page = open_page(f"{path.as_uri()}#omega=6&T=3")
     assert "Too violent" in page.locator("#about-spin-up").inner_text()
     assert not page.locator("#spin-up path[data-model=exact]").get_attribute("d")
+
+
+def test_speeds_keep_their_order(beam):
+    spun = [
+        xr.Dataset({"exact_left": omega * T}, coords={"fe_omega": omega, "exact_ramp_time": T})
+        for omega in (6.0, 4.0)
+        for T in (3.0, 5.0)
+    ]
+    grid = room.together(spun, beam, (6.0, 4.0), (3.0, 5.0))
+    np.testing.assert_array_equal(grid["fe_omega"], [6.0, 4.0])
+    np.testing.assert_array_equal(grid["exact_left"], [[18.0, 30.0], [12.0, 20.0]])
+    fast, slow = (
+        residual_amplitude(beam, SpinUp(omega=omega, ramp_time=5.0), corrected=True)
+        for omega in (6.0, 4.0)
+    )
+    np.testing.assert_allclose(grid["closed_left"][:, -1], [fast, slow], rtol=1e-9)
 
 
 def test_ramps_that_do_not_ascend_or_outlast_the_page_are_refused():

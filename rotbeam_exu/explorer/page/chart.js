@@ -126,7 +126,7 @@ class Chart {
     this.svg.addEventListener("pointermove", e => { move(at(e)); if (pick && e.buttons & 1) pick(at(e)); });
     this.svg.addEventListener("pointerdown", e => { move(at(e)); if (pick && e.pointerType !== "touch") pick(at(e)); });
     if (pick) this.svg.addEventListener("click", e => pick(at(e)));
-    this.svg.addEventListener("pointerleave", () => move(null));
+    this.svg.addEventListener("pointerleave", e => { if (e.pointerType !== "touch") move(null); });  // a finger lifted leaves the numbers
     document.addEventListener("pointerdown", e => { if (!this.host.contains(e.target)) move(null); });
   }
   /** Let Tab reach the chart, and arrows move `key` of the state over a grid; `move` shows the numbers, `tells` says them. */

@@ -27,8 +27,12 @@ const minus = text => text.replace("-", "−");
 const fixed = (x, digits) => Number.isFinite(x) ? minus((Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)) : "–";
 const plain = x => String(+x.toFixed(6));
 
-const COLORED = {exact: "ink", FrM5: "FrM", closed: "FrM", P3: "other", P4: "other", P5: "other"};  // style.css has the rest
-const colorOf = m => m.startsWith("own-") ? "own" : COLORED[m] ?? (getComputedStyle(document.documentElement).getPropertyValue(`--${m}`) ? m : "other");
+const COLORED = {exact: "ink", FrM5: "FrM", closed: "FrM"};  // others by their own names, if style.css knows them
+/** The name of a curve's color. */
+function colorOf(m) {
+  if (!(m in COLORED)) COLORED[m] = m.startsWith("own-") ? "own" : getComputedStyle(document.documentElement).getPropertyValue(`--${m}`) ? m : "other";
+  return COLORED[m];
+}
 const stroke = m => `var(--${colorOf(m)})`;
 const ink = m => m === "exact" ? "var(--ink)" : `var(--${colorOf(m)}-word)`;
 const colors = m => `--s:${stroke(m)};--c:${ink(m)}`;
