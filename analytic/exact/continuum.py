@@ -257,10 +257,11 @@ class Continuum(Kinematics):
             right[..., start + nb : start + n] = (turn * strain)[..., None] * self._psi
         return right
 
-    def jacobi_integral(self, q: FloatArray, q_dot: FloatArray, rate: float) -> FloatArray:
-        """Return the integral that is constant at a constant rate w of the frame, (samples,).
+    def amended_potential(self, q: FloatArray, rate: float) -> FloatArray:
+        """Return what with the kinetic energy is the Jacobi integral, (samples,).
 
-        ½∫|ż|² dm - ½w²∫[(R + x)² + c²y²] dm + V, less what the hub adds at rest.
+        V - ½w²∫[(R + x)² + c²y²] dm, less what the hub adds at rest; at a constant rate w of the
+        frame the integral is constant.
         """
         elastic: FloatArray = 0.5 * np.sum(q**2, axis=-1)
         z, blade = self.slope(q), self.blade
@@ -270,7 +271,7 @@ class Continuum(Kinematics):
         if blade.setting != 1.0:
             beyond = 1.0 - blade.setting**2
             squared = squared - beyond * np.sum(z.imag * (z.imag @ self._green), axis=-1)
-        return self.kinetic_energy(q, q_dot) + elastic - 0.5 * rate**2 * squared
+        return elastic - 0.5 * rate**2 * squared
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""

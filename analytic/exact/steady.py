@@ -94,9 +94,9 @@ class SteadyBeam(BeamCoordinates):
         """Return the residual and its derivatives to q, q̇ and q̈."""
         return self.model.tangent(q, q_dot, q_ddot, self.rate)
 
-    def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the Jacobi integral, (samples,)."""
-        return self.model.jacobi_integral(q, q_dot, self.rate)
+    def potential(self, q: FloatArray) -> FloatArray:
+        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
+        return self.model.amended_potential(q, self.rate)
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""

@@ -125,7 +125,8 @@ def solve(
         If Newton's method does not converge.
     """
     tangent = tangent or LastTangent()
-    orbit, last, crest = guess, np.inf, Crest(guess)
+    orbit, last = highest(guess), np.inf
+    crest = Crest(orbit)
     own, fresh = False, not tangent.fits(orbit)
     half, odd = half_period(orbit.harmonics), orbit.system.odd
     tangents, steps = 0, list[FloatArray]()

@@ -102,8 +102,8 @@ class PeriodicOrbit(Generic[S]):
     @cached_property
     def _energies(self) -> tuple[FloatArray, float]:
         q, q_dot, _ = self._finely
-        kinetic = float(self.system.kinetic_energy(q, q_dot).max())
-        return self.system.invariant(q, q_dot), kinetic
+        kinetic = self.system.kinetic_energy(q, q_dot)
+        return kinetic + self.system.potential(q), float(kinetic.max())
 
     @property
     def invariant_drift(self) -> float:
@@ -127,7 +127,8 @@ class PeriodicOrbit(Generic[S]):
         n, h = self.system.size, 1e-5
         steps = h * np.eye(2 * n)
         ahead, behind = (
-            self.system.invariant(q + sign * steps[:, :n], q_dot + sign * steps[:, n:])
+            self.system.kinetic_energy(q + sign * steps[:, :n], q_dot + sign * steps[:, n:])
+            + self.system.potential(q + sign * steps[:, :n])
             for sign in (1.0, -1.0)
         )
         return np.concatenate((q_dot[0], q_ddot[0])), (ahead - behind) / (2.0 * h)

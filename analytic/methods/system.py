@@ -119,10 +119,10 @@ class System(Coordinates, Protocol):
         """Return r and its derivatives."""
         ...
 
-    def invariant(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return what stays constant along a motion, an energy, (samples,)."""
+    def potential(self, q: FloatArray) -> FloatArray:
+        """Return what with the kinetic energy stays constant along a motion, (samples,)."""
         ...
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the energy by which changes of the invariant are judged, (samples,)."""
+        """Return the kinetic energy, (samples,); by it changes of their sum are judged."""
         ...

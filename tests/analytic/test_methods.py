@@ -45,12 +45,9 @@ class Duffing:
     def kinetic_energy(self, q, q_dot):
         return 0.5 * np.sum(q_dot**2, axis=-1)
 
-    def invariant(self, q, q_dot):
+    def potential(self, q):
         x, y = q.T
-        return (
-            self.kinetic_energy(q, q_dot)
-            + 0.5 * x**2 + 0.25 * x**4 + 4.65 * y**2 + x**2 * y
-        )  # fmt: skip
+        return 0.5 * x**2 + 0.25 * x**4 + 4.65 * y**2 + x**2 * y
 
     def refined(self):
         return self
@@ -73,8 +70,8 @@ class Alone(Duffing):
         stiffness[:, 0, 1] = stiffness[:, 1, 0] = 0.0
         return at._replace(residual=self.residual(q, q_dot, q_ddot), stiffness=stiffness)
 
-    def invariant(self, q, q_dot):
-        return super().invariant(q, q_dot) - q[:, 0] ** 2 * q[:, 1]
+    def potential(self, q):
+        return super().potential(q) - q[:, 0] ** 2 * q[:, 1]
 
 
 def orbits(system, amplitudes):
