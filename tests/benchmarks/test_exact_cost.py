@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from analytic import (
+    Beam,
     Damping,
     SpeedRipple,
     SpinUp,
@@ -31,21 +32,28 @@ def seconds(function, repeats=3):
     return median(taken)
 
 
+def share(function, omega):
+    """What a function takes of a 16-element run of 15 s: five pairs, one after the other.
+
+    Of the short one the fastest of five, or what the machine does besides would be measured.
+    """
+    beam, spin_up = Beam.reference(), SpinUp(omega=omega, ramp_time=3.0)
+    shares = []
+    for _ in range(5):
+        run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0), repeats=1)
+        shares.append(min(seconds(function, repeats=1) for _ in range(5)) / run)
+    return median(shares)
+
+
 @pytest.mark.parametrize("omega", [2.0, 4.0, 6.0, 8.0])
 def test_ten_orbits_take_a_thirtieth_of_a_simulation(beam, omega):
     amplitudes = np.linspace(0.03, 0.3, 10)
-    spin_up = SpinUp(omega=omega, ramp_time=3.0)
-    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
-    orbits = seconds(lambda: periodic_orbits(beam, omega, amplitudes), repeats=9)
-    assert orbits < 0.03 * run, f"{orbits:.3f} s against {run:.3f} s"
+    assert share(lambda: periodic_orbits(beam, omega, amplitudes), omega) < 0.03
 
 
 @pytest.mark.parametrize("omega", [4.0, 6.0, 8.0])
 def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
-    spin_up = SpinUp(omega=omega, ramp_time=3.0)
-    run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
-    curve = seconds(lambda: backbone_curve(beam, omega), repeats=9)
-    assert curve < 0.05 * run, f"{curve:.3f} s against {run:.3f} s"
+    assert share(lambda: backbone_curve(beam, omega), omega) < 0.05
 
 
 def test_a_million_points_of_a_curve_take_five_multiplications(beam):
