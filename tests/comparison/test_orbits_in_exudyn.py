@@ -7,8 +7,15 @@ from analytic import SteadyRotation, periodic_orbits
 from rotbeam_exu import simulate, steady_oscillation
 
 
-@pytest.mark.parametrize("omega", [2.0, 8.0])
-@pytest.mark.parametrize("amplitude", [0.1, 0.3])
+@pytest.mark.parametrize(
+    ("omega", "amplitude"),
+    [
+        (2.0, 0.3),
+        (8.0, 0.1),
+        pytest.param(2.0, 0.1, marks=pytest.mark.slow),
+        pytest.param(8.0, 0.3, marks=pytest.mark.slow),
+    ],
+)
 def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
     backbone = periodic_orbits(beam, omega, [amplitude])
     period = 2.0 * np.pi / backbone.frequency[0]
