@@ -24,6 +24,7 @@ from .tongues import Crossing, follow, leave, tongue
 
 _GRID = 0.05  # of |q|/L between the orbits of the main path
 _CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
+_END_POINTS = 60  # by arclength, where steps in amplitude find no orbit
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
 
 
@@ -184,6 +185,11 @@ def backbone_branch(
         beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions), _CARE
     )
     main = _main_path(branch, up_to)
+    end = None
+    if main[-1].amplitude < up_to - 1e-9:
+        end = follow(main[-2], main[-1], lambda orbit: False, up_to=up_to, points=_END_POINTS)
+    if end is not None and end.fold is None:
+        main, end = [*main, *end.orbits[1:]], None
     per_second = beam.frequency_scale
     met = []
     for one in resonances_along(main, branch.modes, mode, per_second):
@@ -192,9 +198,7 @@ def backbone_branch(
         met.append(one._replace(amplitude=place, frequency=_frequency(main, place) * per_second))
     met.sort(key=lambda one: one.amplitude)
     followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
-    if main[-1].amplitude < up_to - 1e-9:
-        followed.append(follow(main[-2], main[-1], lambda orbit: False))
-    off = [piece for piece in followed if piece is not None]
+    off = [piece for piece in [*followed, end] if piece is not None]
     pieces = [main, *(piece.orbits for piece in off)]
     orbits = [orbit for piece in pieces for orbit in piece]
     crossings = [crossing for piece in off for crossing in piece.crossings]

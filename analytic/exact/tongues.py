@@ -74,16 +74,24 @@ def _share(orbit: BeamOrbit, k: int) -> float:
 
 
 def follow(
-    before: BeamOrbit, last: BeamOrbit, goes_on: Callable[[BeamOrbit], bool]
+    before: BeamOrbit,
+    last: BeamOrbit,
+    goes_on: Callable[[BeamOrbit], bool],
+    *,
+    up_to: float = 1.0,
+    points: int = _TONGUE_POINTS,
 ) -> Piece | None:
-    """Return the orbits that follow two by arclength; None if the path just goes on."""
+    """Return the orbits that follow two by arclength; None if the path just goes on.
+
+    So many points at most, and not beyond the amplitude `up_to`.
+    """
     curve = FreeCurve(last, last.frequency)
     start = curve.unknowns(last)
     piece, step = Piece([last], None, []), _STEP
     # As far as it is resolved.
     with suppress(NoWayOnError):
         at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
-        while len(piece.orbits) < _TONGUE_POINTS:
+        while len(piece.orbits) < points and piece.orbits[-1].amplitude < up_to:
             at, there, step = at.advanced(step, _LONGEST)
             if goes_on(there.orbit):
                 return None
