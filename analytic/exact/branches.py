@@ -22,7 +22,8 @@ from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 from .tongues import Crossing, follow, leave, tongue
 
-_GRID = 0.05  # of |q|/L between the orbits of the main path
+_GRID, _FINE_GRID = 0.05, 0.02  # of |q|/L between the orbits of the main path, below and above
+_FINE_FROM = 0.8  # where frequency ratios change fast
 _CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
 _END_POINTS = 60  # by arclength, where steps in amplitude find no orbit
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
@@ -228,7 +229,9 @@ def _frequency(orbits: list[BeamOrbit], amplitude: float) -> float:
 def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:
     """Return the orbits on a grid of amplitudes, and the last that there is."""
     path, found = branch.path, []
-    for a in np.append(np.arange(_GRID, up_to - 1e-9, _GRID), up_to).tolist():
+    coarse, fine = np.arange(_GRID, _FINE_FROM, _GRID), np.arange(_FINE_FROM, 1.0, _FINE_GRID)
+    grid = np.concatenate((coarse, fine))
+    for a in [*grid[grid < up_to - 1e-9].tolist(), up_to]:
         try:
             found.append(path.at(a))
         except NoOrbitError:
