@@ -16,7 +16,7 @@ from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import Branch, branch_of
-from .internal_resonance import Resonance, pinned, resonances_along
+from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
 from .modes import resolved_model
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
@@ -196,7 +196,7 @@ def backbone_branch(
     for one in resonances_along(main, branch.modes, mode, per_second):
         near, place = pinned(branch.path.at, main, one)
         main = sorted([*main, *near], key=lambda orbit: orbit.amplitude)
-        met.append(one._replace(amplitude=place, frequency=_frequency(main, place) * per_second))
+        met.append(one._replace(amplitude=place, frequency=frequency_at(main, place) * per_second))
     met.sort(key=lambda one: one.amplitude)
     followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
     off = [piece for piece in [*followed, end] if piece is not None]
@@ -220,10 +220,6 @@ def backbone_branch(
         _crossings=tuple(crossings),
         _orbits=tuple(orbits),
     )
-
-
-def _frequency(orbits: list[BeamOrbit], amplitude: float) -> float:
-    return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
 def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:

@@ -105,8 +105,6 @@ def resonances_along(
     [rad/s].
     """
     others, ratios = frequency_ratios(orbits, modes, mode)
-    amplitudes = np.array([orbit.amplitude for orbit in orbits])
-    frequencies = np.array([orbit.frequency for orbit in orbits])
     met: list[Resonance] = []
     for i, pair in enumerate(pairwise(ratios)):
         for j, before, after in zip(others, *pair, strict=True):
@@ -115,11 +113,16 @@ def resonances_along(
                 if not _drives(orbits[i], k):
                     continue
                 share = (k - before) / (after - before)
-                a = amplitudes[i] + share * (amplitudes[i + 1] - amplitudes[i])
-                a = _pole(orbits[max(i - 1, 0) : i + 3], k) or float(a)
-                frequency = float(np.interp(a, amplitudes, frequencies)) * per_second
-                met.append(Resonance(k, j, a, frequency))
+                here, there = (orbit.amplitude for orbit in orbits[i : i + 2])
+                a = float(here + share * (there - here))
+                a = _pole(orbits[max(i - 1, 0) : i + 3], k) or a
+                met.append(Resonance(k, j, a, frequency_at(orbits, a) * per_second))
     return sorted(met, key=lambda one: one.amplitude)
+
+
+def frequency_at(orbits: Sequence[BeamOrbit], amplitude: float) -> float:
+    """Return the frequency at an amplitude between those of ascending orbits, by straight lines."""
+    return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
 def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
