@@ -24,7 +24,6 @@ TAGS = ("shear", "rotary-inertia", "inextensible")
 _TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
 _ORDERS = ("order", "order_in_step")
 _KEYS = (*_TEXTS, "authors", *_ORDERS, "tags", "shear")
-_SHEAR = ("k_s", "nu", "share")
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
 
 
