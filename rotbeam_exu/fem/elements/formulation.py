@@ -54,7 +54,8 @@ class Formulation(Protocol):
     a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``, and by
     ``takes_viscosity = True`` if with its bending and axial damping; to others only the uniform
     beam is given, and blades without. One that moves in space, out of the plane of rotation too,
-    has ``leaves_plane = True``.
+    has ``leaves_plane = True``. Of the solver one may ask for ``new_jacobians = True``, in each
+    step, and for another ``spectral_radius`` than 0.9 in the inertial frame.
     """
 
     name: ClassVar[str]
