@@ -147,9 +147,9 @@ def backbone_branch(
 ) -> BackboneBranch:
     """Return the backbone of a mode up to an amplitude, with its internal resonances.
 
-    The main path is that of `periodic_orbits`, on up to 120 harmonics. Where a harmonic that is felt meets another mode,
-    the orbits are followed by arclength from either side, through the folds that the resonance
-    makes and a way into its tongue, on which the other mode takes over.
+    The main path is that of `periodic_orbits`, on up to 120 harmonics. Where a harmonic that is
+    felt meets another mode, the orbits are followed by arclength from either side, through the
+    folds that the resonance makes and a way into its tongue, on which the other mode takes over.
 
     Parameters
     ----------
