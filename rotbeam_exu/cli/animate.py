@@ -83,18 +83,7 @@ def animate(
     duration = positive("duration", duration, "s")
     slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
     slower = slower if slow_motion is None else positive("slow_motion", slow_motion)
-    pictures = duration * slower * rate
-    if pictures < 1.0:
-        raise ValueError(
-            f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
-            f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
-        )
-    require_affordable(
-        f"{pictures:.3g} pictures",
-        memory=_PICTURE * pictures,
-        seconds=_SECONDS_PER_PICTURE * pictures,
-        remedy="take a shorter duration, a lower rate or less slow motion",
-    )
+    _require_film(duration, rate, slower)
     name = f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
     writable_folder(target.parent)
@@ -123,4 +112,20 @@ def animate(
         f"{target}, {target.stat().st_size / 1e6:.1f} MB, "
         f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
         + ("" if slower == 1.0 else f", {slower:g} times slower")
+    )
+
+
+def _require_film(duration: float, rate: float, slower: float) -> None:
+    """Refuse a film of one picture, and one of more than can be kept."""
+    pictures = duration * slower * rate
+    if pictures < 1.0:
+        raise ValueError(
+            f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
+            f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
+        )
+    require_affordable(
+        f"{pictures:.3g} pictures",
+        memory=_PICTURE * pictures,
+        seconds=_SECONDS_PER_PICTURE * pictures,
+        remedy="take a shorter duration, a lower rate or less slow motion",
     )

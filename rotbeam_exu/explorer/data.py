@@ -119,12 +119,11 @@ def explorer_data(
         finally:
             for future in (*exact, *spun):
                 future.cancel()
-    points = points[["amplitude", "frequency", "omega_n"]].rename(
-        {"omega": "fe_omega", **{n: f"fe_{n}" for n in ("amplitude", "frequency", "omega_n")}}
-    )
+    shown = ["amplitude", "frequency", "omega_n"]
+    points = points[shown].rename({name: f"fe_{name}" for name in ("omega", *shown)})
     spin_ups = together(results, beam, finite_element_omegas, exact_ramp_times)
-    models = _models(beam, omegas, amplitudes)
-    data = xr.merge([models, orbits, points, spin_ups], combine_attrs="drop", join="exact")
+    parts = [_models(beam, omegas, amplitudes), orbits, points, spin_ups]
+    data = xr.merge(parts, combine_attrs="drop", join="exact")
     data.attrs = {
         "frequency_scale": beam.frequency_scale,
         "length": beam.length,
