@@ -14,7 +14,6 @@ from rich.progress import Progress
 from analytic.input_checks import RotbeamWarning
 
 from ..fem.case import Case
-from ..fem.linearization import natural_frequencies
 from ..fem.simulation import run_case
 from ..files.results import save, writable_folder
 from ..oscillation import SteadyOscillation, steady_oscillation
@@ -94,10 +93,7 @@ def run(
             from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
 
             written += figures.save_figure(figures.spin_up(data)[0], path)
-        omega_n = natural_frequencies(
-            case.beam, case.omega, element=case.element, elements=case.elements, count=1
-        )[0]
-        assessment = assess(case.beam, case.omega, float(omega_n), steady)
+        assessment = assess(case, steady)
     print_inputs(console, case, title)
     print_results(console, data, steady, assessment)
     if before is not None:

@@ -78,13 +78,13 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         elements=elements,
         meshes=meshes,
         step=step,
-        theory=_theory(model),
+        theory=theory_of(model),
         order=order,
     )
 
 
-def _theory(model: Formulation) -> Theory:
-    """Shear and rotary inertia, of the elements that have them."""
+def theory_of(model: Formulation) -> Theory:
+    """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
     if not isinstance(model, Exact | Ancf3):
         return BERNOULLI_EULER
     share = shear_share(model.poisson_ratio, model.shear_correction)
