@@ -48,7 +48,7 @@ lint: $(VENV)/.dev  ## linters and type checks
 	$(BIN)/mypy
 
 docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
-	$(BIN)/python -m sphinx -E -W --keep-going -q docs docs/_build/html
+	$(BIN)/python -m sphinx -j auto -E -W --keep-going -q docs docs/_build/html
 
 check-site: docs $(VENV)/.dev  ## the built site in a browser without a network
 	$(BIN)/python -m pytest -m site tests/docs/test_site.py

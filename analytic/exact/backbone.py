@@ -198,7 +198,7 @@ class Backbone:
         note = f"; {self.out_of_plane}" if self.out_of_plane else ""
         return (
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
-            f"omega_n = {self.omega_n:.8f} rad/s, lambda_omega = {self.lambda_omega:.6f}, "
+            f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
             f"residual at most {self.residual.max():.1e}{note}"
         )

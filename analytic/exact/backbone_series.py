@@ -105,8 +105,8 @@ class BackboneCurve:
     def __str__(self) -> str:
         return (
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s up to a = "
-            f"{self.holds_up_to:.4g}: omega_n = {self.omega_n:.8f} rad/s, lambda_omega = "
-            f"{self.lambda_omega:.6f}, kappa = {self.kappa:.5f}, error {self.error:.0e}"
+            f"{self.holds_up_to:.4g}: ω_n = {self.omega_n:.8f} rad/s, λ_ω = "
+            f"{self.lambda_omega:.6f}, κ = {self.kappa:.5f}, error {self.error:.0e}"
         )
 
 

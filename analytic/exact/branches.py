@@ -132,7 +132,8 @@ class BackboneBranch:
         main = self.amplitude[self.piece == 0]
         return (
             f"Backbone of mode {self.mode} at {self.omega:g} rad/s up to a = {main.max():.4g}; "
-            f"harmonic:mode in resonance: {met or 'none'}; folds at a = {turns or 'none'}"
+            f"harmonic:mode in resonance: {met or 'none'}; "
+            + (f"folds at a = {turns}" if turns else "no folds")
         )
 
 

@@ -226,5 +226,6 @@ class ForcedResponse:
             f"Response to {self.load}: {self.frequency.size} points from "
             f"{self.frequency[0]:.6g} to {self.frequency[-1]:.6g} rad/s, largest |q|/L "
             f"{self.amplitude.max():.6g} at {self.frequency[np.argmax(self.amplitude)]:.6g} rad/s, "
-            f"folds at {folds or 'none'}; residual at most {self.residual.max():.1e}"
+            f"{'folds at ' + folds if folds else 'no folds'}; "
+            f"residual at most {self.residual.max():.1e}"
         )

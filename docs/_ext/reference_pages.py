@@ -159,4 +159,4 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-docstring", link_names, priority=300)  # before all else
     app.connect("autodoc-process-signature", brief_signature)
     app.connect("missing-reference", to_source)
-    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": False}
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

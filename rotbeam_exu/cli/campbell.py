@@ -20,9 +20,9 @@ from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds
 from .options import Whole
-from .output import Format, new_console, print_columns
+from .output import Format, new_console, print_columns, print_written
 from .sections import SectionShape
-from .targets import Force, listed, refuse_to_replace_unread
+from .targets import Force, refuse_to_replace_unread
 
 _GIVEN = SectionShape()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
@@ -106,7 +106,7 @@ def campbell(
         from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
 
         written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
-        new_console(stderr=format == "csv").print("written " + listed([*written]))
+        print_written(new_console(stderr=format == "csv"), written)
 
 
 def _families(beam: AnyBlade) -> list[Plane]:
@@ -122,12 +122,12 @@ def _print(diagram: Campbell, form: Format) -> None:
     """Print frequencies over speed, and the crossings; ten digits in CSV."""
     csv = form == "csv"
     speed, number = ("{:.10g}", "{:.10g}") if csv else ("{:.4g}", "{:.6f}")
-    unit = " [rad/s]" if csv else ""
+    unit, omega = (" [rad/s]", "omega [rad/s]") if csv else ("", "ω [rad/s]")
     in_space = len(set(diagram.planes)) > 1
     names = diagram.names if in_space else [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)]
     print_columns(
         {
-            "omega [rad/s]": [speed.format(omega) for omega in diagram.omegas],
+            omega: [speed.format(one) for one in diagram.omegas],
             **{
                 f"{name}{unit}": [number.format(frequency) for frequency in column]
                 for name, column in zip(names, diagram.frequencies.T, strict=True)
@@ -145,11 +145,11 @@ def _print(diagram: Campbell, form: Format) -> None:
                 for crossing in diagram.crossings
             ],
             "k": [str(crossing.order) for crossing in diagram.crossings],
-            "omega [rad/s]": [number.format(crossing.omega) for crossing in diagram.crossings],
+            omega: [number.format(crossing.omega) for crossing in diagram.crossings],
             "frequency [rad/s]": [
                 number.format(crossing.frequency) for crossing in diagram.crossings
             ],
         },
         form,
-        title="Crossings with the lines k omega",
+        title="Crossings with the lines k ω",
     )

@@ -38,6 +38,9 @@ _TITLE = 22
 _MOST_LINES = 40
 """Of a cell: one that needs more is given its longest word's width."""
 
+_DIGITS = 7
+"""Of a float in a table."""
+
 _FRAME = 3
 """Columns of the terminal that a column of a table takes beside its text."""
 
@@ -100,7 +103,7 @@ def print_columns(
     console = new_console()
     # Spelled before the widths are known, for what is spelled is longer.
     readable = {
-        _encodable(name, console): [_encodable(_cell(cell), console) for cell in cells]
+        _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
         for name, cells in columns.items()
     }
     numeric = [all(map(_is_number, cells)) for cells in readable.values()]
@@ -146,10 +149,26 @@ def print_written(console: Console, paths: Iterable[Path]) -> None:
         console.print(f"written {path}")
 
 
+def _cells(column: Sequence[str | float]) -> list[str]:
+    """Return the cells of a column as text; of floats to 7 digits, zeros at the end where needed.
+
+    Where one has six decimals, 3.73033 is written 3.730330: its zero is known, not missing.
+    """
+    texts = [_cell(cell) for cell in column]
+    decimals = [len(text.partition(".")[2]) for text in texts if "e" not in text]
+    most = max(decimals, default=0)
+    return [
+        text
+        if isinstance(cell, str) or cell == 0.0 or not math.isfinite(cell) or "e" in text
+        else f"{cell:.{min(most, max(0, _DIGITS - 1 - math.floor(math.log10(abs(cell)))))}f}"
+        for cell, text in zip(column, texts, strict=True)
+    ]
+
+
 def _cell(cell: str | float) -> str:
     if isinstance(cell, float) and math.isnan(cell):
         return "-"
-    return f"{cell:.7g}" if isinstance(cell, float) else str(cell)
+    return f"{cell:.{_DIGITS}g}" if isinstance(cell, float) else str(cell)
 
 
 def _is_number(text: str) -> bool:

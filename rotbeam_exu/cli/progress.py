@@ -1,4 +1,4 @@
-"""How far a long command is: a bar on a terminal, one plain line per finished piece elsewhere."""
+"""How far a long command is: a bar on a terminal, a plain line per finished piece elsewhere."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedC
 from .output import new_console
 
 T = TypeVar("T")
+
+_LINES = 50
+"""About so many are printed at most; a sweep of the paper's 24 cases prints each."""
 
 
 @contextmanager
@@ -52,6 +55,8 @@ def _plain(title: str) -> Callable[[int, int], None]:
     errors, started = new_console(stderr=True), time.monotonic()
 
     def progress(done: int, number: int) -> None:
+        if done % -(-number // _LINES) and done != number:
+            return
         errors.print(f"{title}: {done} of {number} done after {time.monotonic() - started:.0f} s")
 
     return progress

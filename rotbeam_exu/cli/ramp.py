@@ -18,9 +18,9 @@ from ..verdict import beam_attributes
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, refuse_rest
 from .options import Element, Results, Whole
-from .output import new_console, print_columns
+from .output import new_console, print_columns, print_written
 from .progress import counter
-from .targets import listed, refuse_to_replace
+from .targets import refuse_to_replace
 
 _OMEGA, _LONGEST = 6.0, 10.0  # of the paper's beam [rad/s, s]
 _SECONDS_PER_RUN = 0.3
@@ -98,7 +98,7 @@ def ramp(
 
     written += figures.save_figure(figures.residual(data), path)
     _print(beam, data)
-    console.print("written " + listed(written))
+    print_written(console, written)
 
 
 def _print(beam: AnyBlade, data: xr.Dataset) -> None:
@@ -128,13 +128,13 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     print_columns(
         {
             "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:.4g}" for a in residual_amplitude(beam, one, times)],
+            "closed form": [f"{a:#.4g}" for a in residual_amplitude(beam, one, times)],
             "with the backbone": [
-                f"{a:.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
+                f"{a:#.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
             ],
-            "exact": [f"{exact[T]:.4g}" if T in exact else "-" for T in times],
-            "finite elements": [f"{elements[T]:.4g}" if T in elements else "-" for T in times],
+            "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
+            "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],
         },
         "table",
-        title=f"Amplitude left over L, omega = {data.attrs['omega']:g} rad/s",
+        title=f"Amplitude left over L, ω = {data.attrs['omega']:g} rad/s",
     )

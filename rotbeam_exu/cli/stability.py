@@ -16,9 +16,9 @@ from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .cost import require_affordable
 from .options import Amplitudes, Results, Whole
-from .output import new_console, print_columns
+from .output import new_console, print_columns, print_text, print_written
 from .sections import SectionShape
-from .targets import listed, refuse_to_replace
+from .targets import refuse_to_replace
 
 _SECONDS_PER_ORBIT = 0.1
 """From below."""
@@ -80,12 +80,12 @@ def stability(
 
     written += figures.save_figure(figures.planar_stability(data), path)
     console = new_console()
-    console.print(f"{limit}.")
+    print_text(console, f"{limit}.")
     print_columns(
         {
             "|q|/L": [f"{a:g}" for a in found.amplitude],
             "growth [1/s]": [
-                "-" if rate == 0.0 else f"{rate:.4g}{'' if sure else ' !'}"
+                "-" if rate == 0.0 else f"{rate:.4g}{'' if sure else '!'}"
                 for rate, sure in zip(found.growth_rate, found.converged, strict=True)
             ],
             "e-fold [periods]": [
@@ -96,6 +96,7 @@ def stability(
             "what": [" and ".join(modes) for modes in found.modes],
         },
         "table",
-        title="! not converged" if np.any(~found.converged) else "",
     )
-    console.print("written " + listed(written))
+    if not np.all(found.converged):
+        print_text(console, "! not confirmed within 1 % by more functions and steps")
+    print_written(console, written)

@@ -26,7 +26,7 @@ from .configuration import configured
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_text, print_written
+from .output import choice, new_console, print_columns, print_line, print_text, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
 
@@ -103,10 +103,12 @@ def sweep(
     refuse_to_replace({**one.describe(), **grid}, path, force=results.force)
     console = new_console()
     if config is not None:
-        console.print(
+        print_line(
+            console,
+            "motion",
             f"omega {_values(omegas)} rad/s, ramp-time {_values(ramp_times)} s, "
             f"duration {motion.duration:g} s, step {motion.step:g} s "
-            "(where not given, the paper's, scaled by ω_0)"
+            "(where not given, the paper's, scaled by ω_0)",
         )
     with (
         _executor(scheduler if executor == "dask" else None) as pool,
@@ -222,11 +224,11 @@ def _print_result(measured: xr.Dataset) -> None:
         "T [s]": rows["ramp_time"],
         "amplitude a/L": rows["amplitude"],
         "ω_NL [rad/s]": rows["frequency"],
-        "±": rows["frequency_error"],
+        "±": [f"{error:.1e}".replace("nan", "-") for error in rows["frequency_error"]],
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "verdict": rows["verdict"],
     }
-    print_columns({title: values.tolist() for title, values in columns.items()}, "table")
+    print_columns({title: list(values) for title, values in columns.items()}, "table")
 
 
 def _shard(text: str) -> tuple[int, int]:

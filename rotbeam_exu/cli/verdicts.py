@@ -10,7 +10,7 @@ from rich import box
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .output import new_console, print_columns
+from .output import new_console, print_columns, print_text
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -61,7 +61,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
 
 def print_note(text: str) -> None:
     """Print a sentence below a table."""
-    new_console().print(text)
+    print_text(new_console(), text)
 
 
 def _print(columns: dict[str, list[str]], title: str) -> None:
