@@ -18,7 +18,7 @@ from .configuration import configured, motion_of
 from .cost import require_affordable
 from .motion import chosen_times, slower_than_paper
 from .options import Whole
-from .output import new_console
+from .output import new_console, print_text
 from .targets import Force, refuse_to_replace_unread
 
 _PICTURE = 640 * 520 * 4
@@ -108,10 +108,11 @@ def animate(
                 rate=rate,
                 progress=lambda n: bar.update(task, completed=n),
             )
-    console.print(
-        f"{target}, {target.stat().st_size / 1e6:.1f} MB, "
+    print_text(
+        console,
+        f"written {target}, {target.stat().st_size / 1e6:.1f} MB, "
         f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
-        + ("" if slower == 1.0 else f", {slower:g} times slower")
+        + ("" if slower == 1.0 else f", {slower:g} times slower"),
     )
 
 

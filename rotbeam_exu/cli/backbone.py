@@ -25,7 +25,7 @@ from analytic.input_checks import RotbeamWarning, whole_number
 from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Amplitudes, Flag, VariantName, Whole
-from .output import Format, new_console, print_columns
+from .output import Format, print_columns, print_note
 
 Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
@@ -103,7 +103,7 @@ def backbone(
     print_columns(columns, form, title="" if models else str(truth))
     if form == "table" and models:
         fifth = any(model.kappa for model in models)
-        new_console().print(_NOTE + (_FIFTH if fifth else ""), soft_wrap=False)
+        print_note(_NOTE + (_FIFTH if fifth else ""))
     # All variants were asked for, one of them was not: only what was asked for by name must be had.
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))

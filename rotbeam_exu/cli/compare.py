@@ -16,7 +16,7 @@ from ..verdict import beam_attributes
 from .configuration import configured
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
 from .options import Results, Workers
-from .output import new_console, print_columns, print_written
+from .output import new_console, print_columns, print_note, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
 
@@ -134,7 +134,7 @@ def _print_elements(elements: xr.Dataset, step: float) -> None:
         ),
     )
     if np.isnan(elements["error"]).any():
-        new_console().print("-: the amplitude is above 0.6, where the budget ends", soft_wrap=False)
+        print_note("-: the amplitude is above 0.6, where the budget ends")
 
 
 def _signed(error: float) -> str:

@@ -15,7 +15,7 @@ from ..files.results import whole_file, writable_folder
 from .configuration import configured
 from .motion import chosen_speeds, chosen_times, grid_motion
 from .options import Jobs
-from .output import new_console
+from .output import new_console, print_text
 from .progress import counter
 from .targets import Force, refuse_to_replace_unread, telling_what_is_kept
 
@@ -69,7 +69,7 @@ def explore(
         page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
         partial.write_text(page, encoding="utf-8")
-    console.print(f"{out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
+    print_text(console, f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:

@@ -22,8 +22,8 @@ from ..verification.mistakes.search import mistakes_in
 from ..verification.submission_files.commands import run_what_is_missing
 from ..verification.submission_files.faults import MalformedSubmissionError
 from ..verification.submission_files.reading import digests, read_submission
-from .output import new_console
-from .verdicts import print_judgements, print_note
+from .output import new_console, print_note, print_text, print_written
+from .verdicts import print_judgements
 
 
 def judge(
@@ -107,7 +107,7 @@ def _may_write(target: Path, ending: str) -> None:
 def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
-    print_note(f"{target}, {target.stat().st_size / 1e6:.1f} MB")
+    print_written(new_console(), [target])
 
 
 def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
@@ -124,7 +124,7 @@ def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
 def _print_faults(error: MalformedSubmissionError) -> None:
     console = new_console(stderr=True)
     for fault in error.faults:
-        console.print(str(fault))
+        print_text(console, str(fault))
     count = len(error.faults)
     console.print(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged")
 

@@ -131,6 +131,11 @@ def print_text(console: Console, text: str | Text) -> None:
     console.print(text, soft_wrap=not console.is_terminal)
 
 
+def print_note(text: str) -> None:
+    """Print a sentence below a table, in lines as wide as a table may be."""
+    new_console().print(text, soft_wrap=False)
+
+
 def print_line(console: Console, title: str, text: str) -> None:
     """Print a title and its text beside it, on a terminal in as many lines as it takes."""
     if not console.is_terminal:

@@ -18,7 +18,7 @@ from ..verdict import beam_attributes
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, refuse_rest
 from .options import Element, Results, Whole
-from .output import new_console, print_columns, print_written
+from .output import new_console, print_columns, print_note, print_written
 from .progress import counter
 from .targets import refuse_to_replace
 
@@ -137,4 +137,8 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
         },
         "table",
         title=f"Amplitude left over L, ω = {data.attrs['omega']:g} rad/s",
+    )
+    print_note(
+        "closed form: of the linear beam; with the backbone: its action for that of FrM's orbit; "
+        "-: not run there",
     )

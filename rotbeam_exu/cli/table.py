@@ -11,7 +11,7 @@ from analytic import paper_table
 from analytic.reduced.tables import PaperTable
 
 from .options import whole
-from .output import Format, new_console, print_columns
+from .output import Format, print_columns, print_note
 
 _ALL = 0
 _TABLES = range(1, 6)
@@ -65,4 +65,4 @@ def _print(result: PaperTable, form: Format, *, several: bool) -> None:
     columns["note"] = [marks.get(note, "") for note in columns["note"]]
     print_columns(columns, form, title=f"Table {result.number}: {result.title}")
     for note, mark in marks.items():
-        new_console().print(f"{mark}: {note}", soft_wrap=False)
+        print_note(f"{mark}: {note}")

@@ -10,7 +10,7 @@ from rich import box
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .output import new_console, print_columns, print_text
+from .output import print_columns, print_note
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -57,11 +57,6 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
     for one in found:
         for sentence in _sentences(one):
             print_note(f"{one.declaration.code}: {sentence}")
-
-
-def print_note(text: str) -> None:
-    """Print a sentence below a table."""
-    print_text(new_console(), text)
 
 
 def _print(columns: dict[str, list[str]], title: str) -> None:

@@ -23,7 +23,7 @@ from ..verification.peers import PEERS, Entry, peer
 from .configuration import configured, motion_of
 from .motion import Motion, slower_than_paper
 from .options import Flag, spelled_as
-from .output import new_console, print_columns
+from .output import new_console, print_columns, print_text
 from .progress import counted
 from .verdicts import print_judgements
 
@@ -113,9 +113,10 @@ def _print_costs(
         f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
-    console.print(
+    print_text(
+        console,
         "Each cell: error and wall time of one run, one after the other in this process; the last "
-        "column interpolates time over error logarithmically."
+        "column interpolates time over error logarithmically.",
     )
 
 
