@@ -33,6 +33,7 @@ from .exact.stability_limit import stability_limit as stability_limit
 from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
+from .input_checks import RotbeamWarning as RotbeamWarning
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity

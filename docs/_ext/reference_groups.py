@@ -94,6 +94,9 @@ GROUPS = (
         rotbeam_exu__verification__submission_files__reading="read_submission",
         rotbeam_exu__verification__submission_files__writing="write_submission",
     ),
+    _group(
+        "Warnings", "What is legal, and probably not what was meant.", analytic="RotbeamWarning"
+    ),
 )
 
 DATA = {
