@@ -111,13 +111,15 @@ def warn_beyond_range(
 def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None:
     """Warn where the extension, which FrM leaves out, changes λ_ω or ω_n noticeably."""
     mu = beam.slenderness
-    # A hub adds to the tension, and so to the stretch.
-    shift, stretch = 4.0 * mu, mu * w_bar**2 * (1.0 + 2.0 * beam.unit.hub)
+    # A hub adds to the tension, and so to the stretch, and less to what ω_n loses by it.
+    hub = beam.unit.hub
+    shift, stretch = 4.0 * mu, mu * w_bar**2 * (1.0 + 2.0 * hub)
+    size = f"up to μ w_bar² (1 + {2.0 * hub:.3g})" if hub else "about μ w_bar²"
     if shift > _NOTICEABLE_SHIFT or stretch > _NOTICEABLE_STRETCH:
         warnings.warn(
             f"FrM is inextensible, but this beam has the slenderness μ = I/(AL²) = {mu:.2g}: its "
             f"λ_ω is higher than FrM's {lambda_omega:.4f} by about 4μ = {shift:.1e}, and its ω_n "
-            f"lower by about μ w_bar² = {stretch:.1e} of it; take periodic_orbits",
+            f"lower by {size} = {stretch:.1e} of it; take periodic_orbits",
             RotbeamWarning,
             stacklevel=4,
         )
