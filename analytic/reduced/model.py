@@ -252,7 +252,7 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
 
     Examples
     --------
-    >>> from analytic import Beam
+    >>> from analytic import Beam, reduced_model
     >>> model = reduced_model(Beam.reference(), omega=6.0, variant="FrE")
     >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
     (3.730549, 0.02355)
