@@ -46,6 +46,7 @@ class Beam:
 
     Examples
     --------
+    >>> from analytic import Beam
     >>> beam = Beam.reference()
     >>> round(beam.omega_0, 6)
     2.909236

@@ -100,6 +100,7 @@ class SpinUp:
 
     Examples
     --------
+    >>> from analytic import SpinUp
     >>> spin_up = SpinUp(omega=6.0, ramp_time=3.0)
     >>> spin_up.angle(3.0), spin_up.rate(3.0)
     (9.0, 6.0)

@@ -108,6 +108,7 @@ class SmoothRamp(SpeedChange):
 
     Examples
     --------
+    >>> from analytic import SmoothRamp
     >>> SmoothRamp(start=6.0, omega=0.0, ramp_time=4.0).rate(2.0)
     3.0
     """
@@ -186,6 +187,7 @@ class Table(SpeedChange):
 
     Examples
     --------
+    >>> from analytic import Table
     >>> table = Table([0.0, 1.0, 2.0, 3.0], [0.0, 2.0, 5.0, 6.0])
     >>> round(table.rate(1.0), 12), table.ramp_time
     (2.0, 3.0)

@@ -64,6 +64,7 @@ autodoc_type_aliases = {
 }
 autodoc_default_options = {"members": True, "ignore-module-all": True}
 default_role = "literal"
+smartquotes_action = "De"  # dashes and ellipses, not quotes: the primes of θ'' are none
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True

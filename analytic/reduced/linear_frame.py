@@ -91,7 +91,7 @@ def linear_response(
 
     Examples
     --------
-    >>> from analytic import Beam, SpinUp
+    >>> from analytic import Beam, SpinUp, linear_response
     >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
     >>> for term in (False, True):
     ...     q = linear_response(Beam.reference(), spin_up, [5.0], foreshortening=term).q

@@ -231,7 +231,7 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     Parameters
     ----------
     beam : Beam or Blade
-        omega : float
+    omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
         "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC", "FrM" or "FrM5" of ours, or
@@ -252,7 +252,7 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
 
     Examples
     --------
-    >>> from analytic import Beam
+    >>> from analytic import Beam, reduced_model
     >>> model = reduced_model(Beam.reference(), omega=6.0, variant="FrE")
     >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
     (3.730549, 0.02355)

@@ -113,9 +113,10 @@ def design_ramp(
 ) -> SmoothRamp:
     """Return a smooth change of the speed that leaves the first modes at rest.
 
-    Of all ramps of so many waves whose integrals vanish in the closed form it is, within the
-    limits, the closest to Eq. 1; what the exact transient then leaves is made the next target of
-    the closed form, with its sign changed, until 1e-6 of the length is left.
+    Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Of those that
+    leave nothing by the closed form, `residual_amplitude`, it is, within the limits, the closest to
+    Eq. 1; what the exact transient then leaves is made the next target of the closed form, with its
+    sign changed, until each mode is left with less than 1e-6 of the length.
 
     Parameters
     ----------
