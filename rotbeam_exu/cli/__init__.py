@@ -69,6 +69,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
             sys.exit(1)
         except cyclopts.UnknownOptionError as error:
             stop(_unknown_option(error, arguments), 2)
+        except cyclopts.MissingArgumentError as error:
+            stop(_missing(error), 2)
         except OverflowError as error:
             stop(f"a number is too large to compute with ({error})", 2)
         except (cyclopts.CycloptsError, ValueError, TypeError, OSError, ImportError) as error:
@@ -80,6 +82,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except KeyboardInterrupt as interrupt:
             stop(f"interrupted; {interrupt}" if interrupt.args and str(interrupt) else
                  "interrupted; nothing was written", 130)  # fmt: skip
+
+
+def _missing(error: cyclopts.MissingArgumentError) -> str:
+    """Say what has to be given, and where it is explained."""
+    assert error.argument is not None
+    command = " ".join(["rotbeam", *(error.command_chain or ())])
+    name = error.argument.name
+    if error.keyword is not None:
+        what = f"{error.keyword} needs a value"
+    elif error.argument.field_info.is_positional:
+        what = f"give {name.lstrip('-').upper()}"
+    else:
+        what = f"give {name}"
+    return f"{what}; {command} --help tells of it"
 
 
 def _unknown_option(error: cyclopts.UnknownOptionError, arguments: Sequence[str]) -> str:

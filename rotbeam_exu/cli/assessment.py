@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from ..fem.case import Case
@@ -19,6 +20,9 @@ _STAYS = 0.5
 Elements of second order leave a quarter, of fourth a sixteenth.
 """
 
+_SMALL = 0.05
+"""Amplitude over L whose nonlinear effect, 5e-5 or less of the frequency, few meshes show."""
+
 _NOISE = 1e-7
 """Relative error of ω_n below which a finer mesh need not improve it: of the eigenvalues."""
 
@@ -33,8 +37,8 @@ class Assessment:
         Bernoulli-Euler, or Timoshenko for elements with shear and rotary inertia.
     omega_n, refined_omega_n, exact_omega_n : float
         Natural frequency of the mesh, of one twice as fine and of the exact beam [rad/s].
-    frequency : float
-        Nonlinear frequency ω_NL of the run [rad/s].
+    amplitude, frequency : float
+        Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
     exact_frequency : float or None
         That of the exact beam's periodic orbit at the run's own amplitude [rad/s].
     why_not : str
@@ -45,6 +49,7 @@ class Assessment:
     omega_n: float
     refined_omega_n: float
     exact_omega_n: float
+    amplitude: float
     frequency: float
     exact_frequency: float | None
     why_not: str = ""
@@ -84,6 +89,11 @@ class Assessment:
             return None
         return self.exact_frequency / self.exact_omega_n - 1.0
 
+    def _share(self, error: float) -> str:
+        """Return how large an error is beside the nonlinear effect."""
+        share = abs(error / self.effect) if self.effect else math.inf
+        return f"{share:.1%} of" if share < 1.0 else f"{share:.3g} times"
+
     def lines(self) -> list[tuple[str, str]]:
         """Return what to print, as titles and texts."""
         lines = [
@@ -111,6 +121,9 @@ class Assessment:
         """Return a sentence for the mesh and the step, where its error hides the effect."""
         if self.effect is None or self.step_error is None:
             return []
+        small = f", or a ramp that leaves more than {self.amplitude:.2g} L" * (
+            self.amplitude < _SMALL
+        )
         mesh = ("the mesh", self.mesh_error, f"take more elements than {elements}")
         if self.elsewhere:
             mesh = (
@@ -120,9 +133,8 @@ class Assessment:
                 f"it; what this element tends to is not the {self.theory} beam",
             )
         return [
-            f"the error of {what} is {error:+.1e} of the frequency, "
-            f"{abs(error / self.effect) if self.effect else float('inf'):.1%} of the nonlinear "
-            f"effect, {self.effect:+.1e}: {remedy}"
+            f"the error of {what} is {error:+.1e} of the frequency, {self._share(error)} the "
+            f"nonlinear effect, {self.effect:+.1e}: {remedy}{small}"
             for what, error, remedy in (
                 mesh,
                 (
@@ -170,6 +182,7 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
         omega_n=omega_n,
         refined_omega_n=refined,
         exact_omega_n=theory.first_frequency(case.beam, case.omega),
+        amplitude=steady.amplitude,
         frequency=steady.frequency,
         exact_frequency=exact_frequency,
         why_not=why_not,

@@ -37,7 +37,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
     _print(asked | of_each(_limit), f"What codes tend to, less the reference; {about}")
     print_note(
         "! decides against the code, ? decides nothing; floor: of what measures it, ref ±: of the "
-        "reference"
+        "reference, in the shift also of the limit of the code's own ω_n"
     )
     bars = {"quantity": asked["quantity"]} | of_each(_discretization)
     _print(bars, "Discretization of the finest run: less its own limit ± the bar of that")

@@ -27,7 +27,7 @@ def dask_executor(scheduler: str) -> tuple[Executor, Any]:
         from distributed import Client  # noqa: PLC0415  (an extra)
     except ImportError as error:
         raise ImportError(
-            "Dask is not installed; install the extra: pip install 'rotbeam-exu[cluster]'"
+            "Dask is not installed; install the extra: pip install '.[cluster]' in a clone"
         ) from error
     try:
         client: Any = Client(scheduler, timeout=_PATIENCE)

@@ -72,6 +72,13 @@ def test_each_error_above_a_hundredth_of_the_effect_is_named_with_its_own_remedy
             assert all(remedy in sentence and "1.1%" in sentence for sentence in sentences)
 
 
+def test_where_the_swing_is_small_a_ramp_that_leaves_more_is_a_remedy_too():
+    small, large = assessed(8, amplitude=0.008), assessed(8)
+    assert all("ramp that leaves more than 0.008 L" in one for one in small.warnings(8, 1e-3))
+    assert "times the nonlinear effect" in small.warnings(8, 1e-3)[0]
+    assert not any("ramp" in one for one in large.warnings(8, 1e-3))
+
+
 def test_an_orbit_that_cannot_be_had_is_a_line_and_no_failure():
     found = assessed(4, amplitude=1.2)
     assert found.exact_frequency is found.step_error is None

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from analytic import VARIANTS
 from rotbeam_exu.cli import _COMMANDS
 from rotbeam_exu.fem.elements import ALIASES, FORMULATIONS
@@ -51,6 +53,19 @@ def test_defaults_are_shown_as_they_are_typed(call):
         for odd in ("default: False", "default: [", "BOOL"):
             assert odd not in out, command
     assert "--gravity [FLOAT]" in call("respond", "--help")[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("stability",), "give --omega; rotbeam stability --help tells of it"),
+        (("figure",), "give NUMBER; rotbeam figure --help tells of it"),
+        (("run", "--omega"), "--omega needs a value; rotbeam run --help tells of it"),
+    ],
+)
+def test_what_is_missing_is_named_and_where_it_is_explained(call, arguments, sentence):
+    code, _, error = call(*arguments)
+    assert (code, error.strip()) == (2, f"rotbeam: {sentence}")
 
 
 def test_names_are_known_in_upper_and_lower_case(call):

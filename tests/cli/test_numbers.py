@@ -1,6 +1,10 @@
 """Numbers on the command line: what is none is refused, and what would never end."""
 
+import math
+
 import pytest
+
+from rotbeam_exu.cli.output import print_columns
 
 
 @pytest.mark.parametrize("text", ["2.5", "0.6", "0x10", "1e1", "1_0", "٣", "nan", "", "9" * 400])
@@ -57,3 +61,11 @@ def test_what_would_never_end_is_refused_before_it_starts(call, tmp_path, argume
     assert error.startswith("rotbeam: ")
     assert sentence in error
     assert not list(tmp_path.iterdir())
+
+
+def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):
+    print_columns({"ω_NL": [3.73033, 3.730329], "a": [0.1, 0.05], "±": [1e-9, math.nan]}, "table")
+    rows = [line.split() for line in capsys.readouterr().out.splitlines() if line[0] == "│"]
+    assert [row[1::2] for row in rows] == [
+        ["3.730330", "0.10", "1e-09"], ["3.730329", "0.05", "-"],
+    ]  # fmt: skip

@@ -28,6 +28,9 @@ def test_tables_and_files(call, tmp_path):
     kinds = {f"{name}{end}" for end in (".nc", ".png", ".pdf")}
     kinds |= {f"{name}-{what}.csv" for what in ("linear", "exact", "finite_element", "quiet")}
     assert {path.name for path in tmp_path.iterdir()} == kinds
+    # One path a line, whole.
+    told = [line for line in out.splitlines() if line.startswith("written ")]
+    assert sorted(told) == sorted(f"written {path}" for path in tmp_path.iterdir())
     data = load(tmp_path / f"{name}.nc")
     assert data["exact"].size == 3
     assert data["quiet_ramp_time"].to_numpy() == pytest.approx([quiet], abs=1e-4)

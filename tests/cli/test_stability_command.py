@@ -38,6 +38,8 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam):
     row = next(line for line in out.splitlines() if line.startswith("│   0.3"))
     assert f"{exact.growth_rate[1]:.4g}" in row
     assert "sum resonance" in row
+    told = [line for line in out.splitlines() if line.startswith("written ")]
+    assert sorted(told) == sorted(f"written {path}" for path in tmp_path.iterdir())
     name = "stability-rectangle-3-omega-2-mode-1"
     kinds = ("nc", "csv", "png", "pdf")
     assert {path.name for path in tmp_path.iterdir()} == {f"{name}.{kind}" for kind in kinds}

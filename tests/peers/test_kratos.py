@@ -25,7 +25,7 @@ def test_the_command_line_says_so_too(capsys, monkeypatch):
     with pytest.raises(SystemExit) as stop:
         main(["verify", "--element", "kratos"])
     assert stop.value.code == 2
-    assert "pip install 'rotbeam-exu[peers]'" in capsys.readouterr().err
+    assert "pip install '.[peers]'" in capsys.readouterr().err
 
 
 @needs_kratos

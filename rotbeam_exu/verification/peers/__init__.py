@@ -132,7 +132,7 @@ def peer(name: str) -> Entry:
     if not installed(name):
         raise NotInstalledError(
             "KratosMultiphysics with its StructuralMechanicsApplication is not installed; "
-            "pip install 'rotbeam-exu[peers]'"
+            "pip install '.[peers]' in a clone"
         )
     from . import kratos  # noqa: PLC0415  (not installed everywhere)
 

@@ -2,7 +2,7 @@ function starter(case_id, elements, step)
 % A chain of point masses, axial springs and rotational springs takes part in case S1.
 %
 %   starter S1 16 1e-4                       in MATLAB and Octave
-%   octave starter.m S1 16 1e-4              from a shell
+%   octave --path starters/matlab --eval "starter S1 16 1e-4"        from a shell
 %
 % writes S1/m016_h1e-4.csv and a row of runs.csv in the folder where it is run. Nodes 0 to n stand
 % L/n apart, as complex numbers z = x + iy in the frame that turns with the clamp; steps are
