@@ -13,7 +13,7 @@ function drawOrbit() {
     const points = orbits[m] = [];
     for (let k = 0; k <= TURN; k++) {
       const phase = 2 * Math.PI * k / TURN;
-      points.push(m === "exact" ? exactState(w, i, phase) : modelState(m, w, i, phase));
+      points.push(m === "exact" ? exactState(w, i, phase) : modelState(m, w, i, phase - Math.PI / 2));  // all straight at phase 0
       if (points[k][1] > fastest) fastest = points[k][1];
     }
   }
