@@ -197,6 +197,17 @@ def test_sliders_move_the_curves(open_page, url, at):
     assert page.locator("#beam path.beam").get_attribute("d") != moved
 
 
+def test_it_begins_in_the_middle_of_what_there_is(open_page, url, data, tmp_path):
+    page = open_page(url)
+    start = "[D.omega[state.w], T(), finiteElements().length]"
+    assert page.evaluate(start) == [6.0, 3.0, 2]
+    scaled = data.assign_coords({name: 20.0 * data[name] for name in ("omega", "fe_omega")})
+    times = {name: data[name] / 20.0 for name in ("ramp_time", "exact_ramp_time", "time")}
+    path = tmp_path / "shorter.html"
+    path.write_text(explorer_page(scaled.assign_coords(times)), encoding="utf-8")
+    assert open_page(path.as_uri()).evaluate(start) == [120.0, 0.15, 2]
+
+
 def test_the_link_keeps_the_state(open_page, url, at):
     page = open_page(url)
     at(page, 8.0, 0.45)
