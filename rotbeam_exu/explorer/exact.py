@@ -7,6 +7,7 @@ them, unless a resonance keeps them from converging.
 
 from __future__ import annotations
 
+import contextlib
 import warnings
 from typing import Any
 
@@ -15,7 +16,7 @@ import xarray as xr
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from analytic import AnyBlade, Backbone, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 
 TIP_HARMONICS = 20
@@ -39,8 +40,9 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
         tables = None
         if wanted.size > 1.5 * _ORBITS:
             at = wanted.max() * np.sqrt(0.5 + 0.5 * chebyshev.chebpts1(_ORBITS))
-            backbone = periodic_orbits(beam, omega, at)
-            tables = in_between(backbone, wanted)
+            with contextlib.suppress(AmplitudeNotReachedError):  # in a resonance
+                backbone = periodic_orbits(beam, omega, at)
+                tables = in_between(backbone, wanted)
         if tables is None:
             backbone = periodic_orbits(beam, omega, wanted)
             tables = _tables(backbone)
