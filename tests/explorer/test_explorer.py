@@ -197,15 +197,20 @@ def test_sliders_move_the_curves(open_page, url, at):
     assert page.locator("#beam path.beam").get_attribute("d") != moved
 
 
-def test_it_begins_in_the_middle_of_what_there_is(open_page, url, data, tmp_path):
-    page = open_page(url)
-    start = "[D.omega[state.w], T(), finiteElements().length]"
-    assert page.evaluate(start) == [6.0, 3.0, 2]
-    scaled = data.assign_coords({name: 20.0 * data[name] for name in ("omega", "fe_omega")})
-    times = {name: data[name] / 20.0 for name in ("ramp_time", "exact_ramp_time", "time")}
-    path = tmp_path / "shorter.html"
-    path.write_text(explorer_page(scaled.assign_coords(times)), encoding="utf-8")
-    assert open_page(path.as_uri()).evaluate(start) == [120.0, 0.15, 2]
+def test_an_orbit_that_is_not_found_is_a_gap(open_page, data, tmp_path):
+    gap = data.copy(deep=True)
+    for name in ("exact_frequency", "harmonics", "axis_x", "axis_y"):
+        gap[name].loc[{"omega": 6.0, "a": 0.6}] = np.nan
+    path = tmp_path / "gap.html"
+    path.write_text(explorer_page(gap), encoding="utf-8")
+    page = open_page(f"{path.as_uri()}#a=0.6", motion=True)  # the fixture listens
+    assert "No exact orbit was found" in page.locator("#warning").inner_text()
+    assert cells(page, "exact")[2] == "–"
+    assert not page.locator("#beam circle").is_visible()
+    page.locator("#amplitude").press("ArrowLeft")
+    page.wait_for_function("document.querySelector('#beam .beam').getAttribute('d')")
+    assert page.evaluate("Number.isFinite(state.phase)")
+    assert page.locator("#beam circle").is_visible()
 
 
 def test_the_link_keeps_the_state(open_page, url, at):

@@ -59,6 +59,14 @@ def test_a_resonance_at_an_orbit_of_the_series_is_not_the_sliders_end(beam, monk
     wanted = periodic_orbits(beam, 4.0, a).frequency
     np.testing.assert_allclose(found["exact_frequency"], wanted, rtol=1e-12)
 
+    def not_the_last(beam, omega, amplitudes):
+        raise AmplitudeNotReachedError("drifts", periodic_orbits(beam, omega, amplitudes[:-1]))
+
+    monkeypatch.setattr(exact, "periodic_orbits", not_the_last)
+    found = exact.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
+    assert np.isnan(found["exact_frequency"]).to_numpy().tolist() == [False, False, True]
+    assert np.isnan(found["axis_x"].to_numpy()[2]).all()
+
 
 def test_nothing_in_the_data_ends_the_script(data):
     nasty = data.copy()

@@ -28,7 +28,7 @@ let dot = null;
 function drawDot() {
   if (!dot) dot = node("circle", {class: "dot", r: 5}, orbit.front);
   const [x, v] = exactState(state.w, state.a, state.phase);
-  dot.setAttribute("cx", orbit.x(x)); dot.setAttribute("cy", orbit.y(v));
+  place(dot, orbit.x(x), orbit.y(v));
   document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam.`;
 }
 orbit.listen(place => {
@@ -36,6 +36,7 @@ orbit.listen(place => {
   if (!place) return orbit.tell(null);
   let best = null;
   for (const m of shown()) for (const p of orbits[m]) {
+    if (!Number.isFinite(p[0])) continue;
     const distance = Math.hypot(orbit.x(p[0]) - place[0], orbit.y(p[1]) - place[1]);
     if (!best || distance < best.distance - 1e-9) best = {m, p, distance};
   }
