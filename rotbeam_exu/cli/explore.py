@@ -75,7 +75,8 @@ def explore(
 def _scaled(beam: AnyBlade) -> dict[str, Any]:
     """Return the page's speeds, the points' grid, their end and step, scaled by ω_0."""
     (interval,) = chosen_speeds(beam, OMEGAS[1])
-    omegas = chosen_speeds(beam, *paper.SPEEDS)
+    # Points are seen where the slider stops: on its grid, not beside it.
+    omegas = [interval * round(omega / OMEGAS[1]) for omega in paper.SPEEDS]
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
     motion = grid_motion(beam, omegas, ramp_times)
     return {

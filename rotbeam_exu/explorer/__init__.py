@@ -50,7 +50,7 @@ def explorer_page(data: xr.Dataset | None = None, **options: Any) -> str:
         raise TypeError(f"options are for new data, but data were given with {', '.join(options)}")
     scripts = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
     page = _part("page.html").replace("/*STYLE*/", _part("style.css"))
-    page = page.replace("/*SCRIPTS*/", scripts)
+    page = page.replace("/*THEME*/", _part("theme.js")).replace("/*SCRIPTS*/", scripts)
     # "<" escaped: no text in the data can end the script.
     return page.replace("/*DATA*/null", json.dumps(_document(data)).replace("<", "\\u003c"))
 

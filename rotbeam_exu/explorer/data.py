@@ -73,12 +73,12 @@ def explorer_data(
         Reduced models over (model, omega): omega_n [rad/s], lambda_omega, kappa, h2, lambda_x [-],
         and over a as well the first_harmonic that has the peak a, NaN where a model has no
         oscillation. Exact orbits: exact_omega_n and exact_lambda_omega over omega,
-        exact_frequency [rad/s] over (omega, a), the sine coefficients `harmonics` of q/L, and the
-        beam's axis over L in the rotating frame, along Σ axis_x cos kφ, across Σ axis_y sin kφ,
-        k = 0, 1 ...; `note`, what `periodic_orbits` warned of. Points over (fe_omega, ramp_time):
-        fe_amplitude [-], fe_frequency and fe_omega_n [rad/s]. Exact `spin_up`, q/L over (fe_omega,
-        exact_ramp_time, time), and the amplitude over L that it leaves, exact_left; by the closed
-        form closed_left over (fe_omega, ramp_curve).
+        exact_frequency [rad/s] over (omega, a), NaN where no orbit is found, as the sine
+        coefficients `harmonics` of q/L, and the beam's axis over L in the rotating frame, along
+        Σ axis_x cos kφ, across Σ axis_y sin kφ, k = 0, 1 ...; `note`, what `periodic_orbits`
+        warned of. Points over (fe_omega, ramp_time): fe_amplitude [-], fe_frequency and fe_omega_n
+        [rad/s]. Exact `spin_up`, q/L over (fe_omega, exact_ramp_time, time), and the amplitude over
+        L that it leaves, exact_left; by the closed form closed_left over (fe_omega, ramp_curve).
 
     Raises
     ------

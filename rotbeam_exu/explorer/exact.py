@@ -7,6 +7,7 @@ them, unless a resonance keeps them from converging.
 
 from __future__ import annotations
 
+import contextlib
 import warnings
 from typing import Any
 
@@ -15,7 +16,7 @@ import xarray as xr
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from analytic import AnyBlade, Backbone, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 
 TIP_HARMONICS = 20
@@ -39,11 +40,11 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
         tables = None
         if wanted.size > 1.5 * _ORBITS:
             at = wanted.max() * np.sqrt(0.5 + 0.5 * chebyshev.chebpts1(_ORBITS))
-            backbone = periodic_orbits(beam, omega, at)
-            tables = in_between(backbone, wanted)
+            with contextlib.suppress(AmplitudeNotReachedError):  # in a resonance
+                backbone = periodic_orbits(beam, omega, at)
+                tables = in_between(backbone, wanted)
         if tables is None:
-            backbone = periodic_orbits(beam, omega, wanted)
-            tables = _tables(backbone)
+            backbone, tables = _those_found(beam, omega, wanted)
     along: Any = ("a", "k", "point")
     return xr.Dataset(
         {
@@ -57,6 +58,24 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
         },
         coords={"omega": omega, "a": ("a", list(amplitudes), _NONE)},
     )
+
+
+def _those_found(
+    beam: AnyBlade, omega: float, wanted: Floats
+) -> tuple[Backbone, dict[str, Floats]]:
+    """Return the orbits themselves, NaN for those that are not found."""
+    try:
+        backbone = periodic_orbits(beam, omega, wanted)
+    except AmplitudeNotReachedError as error:
+        if error.backbone is None:
+            raise
+        backbone = error.backbone
+    found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
+    tables = {}
+    for name, values in _tables(backbone).items():
+        tables[name] = np.full((wanted.size, *values.shape[1:]), np.nan)
+        tables[name][found] = values
+    return backbone, tables
 
 
 def _tables(backbone: Backbone) -> dict[str, Floats]:

@@ -155,7 +155,8 @@ def _orders(record: Record) -> str:
         for case, orders in record.judgement.orders.items()
         for name, order in orders.items()
     ]
-    return _table(["case", "refined in", "order of q(t)"], rows) if rows else ""
+    header = ["case", "refined in", "order of q(t), observed of declared"]
+    return _table(header, rows) if rows else ""
 
 
 def _order(order: Order) -> str:
@@ -180,8 +181,10 @@ def _case(name: str, record: Record) -> str:
     axes = judged_errors(name, found)
     if axes is not None:
         machine = found.declaration.machine or "the author's machine"
-        cost = f"; error and time on {machine}" if histories is not None else ""
-        caption = f"{name}: distance from the limit in mesh and in step{cost}."
+        stepped = histories is not None and bool(histories.rows.steps)
+        timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
+        caption = f"{name}: distance from the limit in the mesh{' and in the step' * stepped}"
+        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
         parts.append(_figure(svg(axes), caption))
     parts.append(f"<p><small>Reference: {escape(found.sources.get(name, 'none'))}.</small></p>")
     return f"<section>{''.join(parts)}</section>"
@@ -203,7 +206,11 @@ def _runs(record: Record) -> str:
     if not runs:
         return ""
     header = ["file", "elements", "step [s]", "unknowns", "wall [s]", "CPU [s]", "what happened"]
-    return f"<h2>Runs</h2>{_table(header, map(_run_row, runs))}"
+    rows = [_run_row(run) for run in runs]
+    # What the author told of no run is no column.
+    told = [k for k in range(len(header)) if any(row[k] not in {"", "–"} for row in rows)]
+    rows = [[row[k] for k in told] for row in rows]
+    return f"<h2>Runs</h2>{_table([header[k] for k in told], rows)}"
 
 
 def _run_row(run: Run) -> list[str]:

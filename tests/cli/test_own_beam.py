@@ -43,6 +43,8 @@ def test_the_explorer_of_a_reed_has_its_own_speeds(call, tmp_path, monkeypatch, 
     # Speeds are rounded to two digits.
     assert seen["omegas"] == pytest.approx(0.25 * scale * np.arange(49), rel=0.05)
     assert np.ptp(np.diff(seen["omegas"])) < 1e-9 * seen["omegas"][1]
+    # The slider stops where finite elements are: between its stops none would be seen.
+    assert seen["finite_element_omegas"] == [seen["omegas"][i] for i in (8, 16, 24, 32)]
     assert seen["step"] * scale <= 1e-3 * (1.0 + 1e-9)
     assert seen["duration"] * scale == pytest.approx(15.0, rel=0.05)
     monkeypatch.setattr(explore_job, "_is_explorer", lambda _: True)

@@ -53,9 +53,9 @@ def open_page(browser):
     """Return a function that opens a URL and refuses noise: messages, errors, the network."""
     noise, contexts = [], []
 
-    def opened(url, *, phone=False, dark=False, motion=False, width=1280):
+    def opened(url, *, phone=False, dark=False, motion=False, width=None):
         context = browser.new_context(
-            viewport={"width": 390, "height": 844} if phone else {"width": width, "height": 800},
+            viewport={"width": width or (390 if phone else 1280), "height": 844 if phone else 800},
             color_scheme="dark" if dark else "light",
             reduced_motion="no-preference" if motion else "reduce",
             is_mobile=phone,

@@ -37,3 +37,14 @@ def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
     assert y[np.argmin(np.abs(x - 6.0))] == pytest.approx(exact.lambda_omega, abs=1e-3)
     assert exact.lambda_omega > 0.06
     assert page.evaluate("softening.y(D.exact_lambda_omega[1]) > softening.y1")
+
+
+def test_it_begins_in_the_middle_of_what_there_is(open_page, url, data, tmp_path):
+    page = open_page(url)
+    start = "[D.omega[state.w], T(), finiteElements().length]"
+    assert page.evaluate(start) == [6.0, 3.0, 2]
+    scaled = data.assign_coords({name: 20.0 * data[name] for name in ("omega", "fe_omega")})
+    times = {name: data[name] / 20.0 for name in ("ramp_time", "exact_ramp_time", "time")}
+    path = tmp_path / "shorter.html"
+    path.write_text(explorer_page(scaled.assign_coords(times)), encoding="utf-8")
+    assert open_page(path.as_uri()).evaluate(start) == [120.0, 0.15, 2]

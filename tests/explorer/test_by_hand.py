@@ -89,6 +89,22 @@ def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(open_page, url, at,
     assert f"{exact.frequency[0]:.4f} rad/s" in page.locator("#said").text_content()
 
 
+def test_the_spin_up_is_read_without_a_mouse(open_page, url, at, data):
+    page = open_page(f"{url}#T=3")
+    at(page, 6.0, 0.3)
+    page.locator("#spin-up > svg").focus()
+    for key in ("Home", "PageUp", "PageUp", "ArrowRight"):
+        page.keyboard.press(key)
+    curve = data["spin_up"].sel(fe_omega=6.0, exact_ramp_time=3.0)
+    time, q = data["time"].to_numpy()[21], curve.to_numpy()[21]
+    value = f"{q:.4f}".replace("-", "−")
+    assert f"t = {time:.2f} s" in page.locator("#spin-up .readout").inner_text()
+    assert value in page.locator("#spin-up .readout").inner_text()
+    said = page.locator("#spin-up > svg").get_attribute("aria-valuetext")
+    assert said == f"t = {time:.2f} s, q/L {value}"
+    assert page.locator("#ramp-value").inner_text() == "3 s"
+
+
 def test_the_speed_is_ruled_on_its_axis(open_page, url, at):
     page = open_page(url)
     for omega in (0.0, 6.0, 12.0):

@@ -107,6 +107,7 @@ def test_orbits_are_those_of_the_api(open_page, url, at, drawn, beam):
         first = float(model.first_harmonic(a))
         time = np.linspace(0.0, 2.0 * np.pi / model.frequency(first), 121)
         x, rate = drawn(page, "orbit", "path[data-model=FrI]")
+        time -= 0.25 * time[-1]  # straight at first, as the exact one
         np.testing.assert_allclose(x, model.response(time, first), atol=1e-3 * first)
         # dx/dτ against central differences of Eq. 65 in time.
         h = 1e-5
@@ -194,6 +195,22 @@ def test_sliders_move_the_curves(open_page, url, at):
     assert curve(page, "backbone") == after[0]
     assert curve(page, "orbit") != after[1]
     assert page.locator("#beam path.beam").get_attribute("d") != moved
+
+
+def test_an_orbit_that_is_not_found_is_a_gap(open_page, data, tmp_path):
+    gap = data.copy(deep=True)
+    for name in ("exact_frequency", "harmonics", "axis_x", "axis_y"):
+        gap[name].loc[{"omega": 6.0, "a": 0.6}] = np.nan
+    path = tmp_path / "gap.html"
+    path.write_text(explorer_page(gap), encoding="utf-8")
+    page = open_page(f"{path.as_uri()}#a=0.6", motion=True)  # the fixture listens
+    assert "No exact orbit was found" in page.locator("#warning").inner_text()
+    assert cells(page, "exact")[2] == "–"
+    assert not page.locator("#beam circle").is_visible()
+    page.locator("#amplitude").press("ArrowLeft")
+    page.wait_for_function("document.querySelector('#beam .beam').getAttribute('d')")
+    assert page.evaluate("Number.isFinite(state.phase)")
+    assert page.locator("#beam circle").is_visible()
 
 
 def test_the_link_keeps_the_state(open_page, url, at):

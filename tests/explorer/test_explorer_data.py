@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.polynomial.chebyshev import chebpts1
 
-from analytic import periodic_orbits
-from rotbeam_exu.explorer import explorer_data, explorer_page
+from analytic import AmplitudeNotReachedError, periodic_orbits
+from rotbeam_exu.explorer import exact, explorer_data, explorer_page
 from rotbeam_exu.explorer.exact import in_between
 
 
@@ -43,11 +43,36 @@ def test_where_no_series_converges_orbits_are_shown_themselves(beam):
     assert in_between(bent, a) is None
 
 
+def test_a_resonance_at_an_orbit_of_the_series_is_not_the_sliders_end(beam, monkeypatch):
+    asked = []
+
+    def meets_one(beam, omega, amplitudes):
+        asked.append(len(amplitudes))
+        if len(asked) == 1:
+            raise AmplitudeNotReachedError("Newton's method does not converge")
+        return periodic_orbits(beam, omega, amplitudes)
+
+    monkeypatch.setattr(exact, "periodic_orbits", meets_one)
+    a = tuple((np.arange(1, 26) / 100.0).tolist())
+    found = exact.exact_orbits(beam, 4.0, a)
+    assert asked == [16, 25]
+    wanted = periodic_orbits(beam, 4.0, a).frequency
+    np.testing.assert_allclose(found["exact_frequency"], wanted, rtol=1e-12)
+
+    def not_the_last(beam, omega, amplitudes):
+        raise AmplitudeNotReachedError("drifts", periodic_orbits(beam, omega, amplitudes[:-1]))
+
+    monkeypatch.setattr(exact, "periodic_orbits", not_the_last)
+    found = exact.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
+    assert np.isnan(found["exact_frequency"]).to_numpy().tolist() == [False, False, True]
+    assert np.isnan(found["axis_x"].to_numpy()[2]).all()
+
+
 def test_nothing_in_the_data_ends_the_script(data):
     nasty = data.copy()
     nasty["note"] = nasty["note"].astype(object)
     nasty["note"][:] = "</script><b>"
     page = explorer_page(nasty)
-    assert page.count("</script>") == 1
+    assert page.count("</script>") == 2  # the theme's, before anything is drawn, and the page's
     document = page.split("const DATA = ", 1)[1].split(";\n", 1)[0]
     assert json.loads(document)["notes"][0] == "</script><b>"

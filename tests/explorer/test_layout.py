@@ -4,6 +4,8 @@ import re
 
 import pytest
 
+from rotbeam_exu.explorer import explorer_page
+
 STATES = [
     "",
     "omega=0&a=0.05&hide=",
@@ -16,7 +18,7 @@ OVERLAPS = """() => {
     const seen = e => e.checkVisibility({visibilityProperty: true, opacityProperty: true});
     const things = [...document.querySelectorAll(
         ".plot svg text, button, input, summary, output, h1, h2, p.about, td, thead th, label, " +
-        "li span, #refused, .notes p")]
+        "li span, #refused, .notes p, .hint span:not(.group)")]
         .filter(e => seen(e) && e.textContent + e.value)
         .map(e => [e, e.getBoundingClientRect()]).filter(([, b]) => b.width && b.height);
     const named = e => `${e.closest("figure")?.querySelector("h2").textContent ?? ""} ` +
@@ -89,6 +91,38 @@ def test_on_a_phone_the_charts_begin_early(open_page, url):
     page.evaluate("scrollTo(0, 1000)")
     assert page.locator(".controls").bounding_box()["y"] == pytest.approx(0.0, abs=1.0)
     assert controls < 0.15 * 844  # what stays while the page is scrolled
+
+
+def test_it_fits_a_phone_within_the_frame_of_the_site(open_page, url):
+    page = open_page(url, phone=True, width=356)
+    page.evaluate("""for (const v of [2, 4, 8]) {
+        const more = document.querySelector("#jumps button").cloneNode();
+        more.textContent = v;
+        document.getElementById("jumps").append(more);
+    }""")  # the page of the site has four
+    assert page.evaluate(OVERLAPS) == []
+    assert page.evaluate(WRAPPED) == []
+    assert page.evaluate(BEYOND) == []
+
+
+FRAME = """html => new Promise(done => {
+    document.documentElement.dataset.theme = "dark";
+    const frame = document.createElement("iframe");
+    frame.addEventListener("load", () => done());
+    frame.srcdoc = html;
+    document.body.append(frame);
+})"""
+
+
+def test_in_a_frame_it_follows_the_switch_of_the_site(open_page, url, data):
+    page = open_page(url)
+    frames = len(page.frames)
+    page.evaluate(FRAME, explorer_page(data))
+    assert len(page.frames) == frames + 1
+    ground = "getComputedStyle(document.body).backgroundColor"
+    assert page.frames[-1].evaluate(ground) == "rgb(16, 20, 24)"
+    page.evaluate("document.documentElement.dataset.theme = 'light'")
+    page.frames[-1].wait_for_function(f"{ground} === 'rgb(255, 255, 255)'")
 
 
 def test_a_page_that_is_hidden_draws_without_complaint(open_page, url):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import SpinUp, periodic_orbits, spin_up_response
+from rotbeam_exu.cli import main
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 DROP = """([name, text]) => {
@@ -124,6 +125,42 @@ def test_what_the_page_saves_it_reads(open_page, url, at):
     assert heads == "t [s],q/L [-],t history.csv [s],q/L history.csv [-]"
 
 
+BACKBONE = """variant,amplitude a/L,Eq. 63 [rad/s],Eq. 41 exactly [rad/s],Eq. 63 / ω_n,exact beam [rad/s]
+FrM,0.1,3.7,3.71,0.999,3.73
+FrM,0.2,nan,nan,nan,3.72
+"""  # noqa: E501
+
+
+def test_what_rotbeam_backbone_prints_is_read(open_page, url, at):
+    page = open_page(url)
+    at(page, 6.0, 0.2)
+    choose(page, ("printed.csv", BACKBONE))
+    listed = page.locator("#own-list").inner_text()
+    # Of the model, at the peak that the page's a is; the row without an answer is no error.
+    assert 'from "Eq. 41 exactly [rad/s]"; 1 row without a number left out' in listed
+    assert page.evaluate("ownPoints().map(([a, , f]) => [a, f])") == [[0.1, 3.71]]
+    mode = "amplitude a/L,exact beam [rad/s],exact/ω_n\n0.02,22.9,0.99\n"
+    choose(page, ("mode2.csv", mode))  # far outside the axes
+    assert page.evaluate("ownPoints().length") == 2
+    said = page.locator("#about-backbone").inner_text()
+    assert said.endswith("Outside these axes: 1 point of your own.")
+
+
+def test_the_command_names_its_columns_as_the_page_knows_them(capsys):
+    main(["backbone", "--omega", "6", "--variant", "FrM", "--exact", "--format", "csv"])
+    heading = BACKBONE.splitlines()[0]
+    assert capsys.readouterr().out.splitlines()[0] == heading
+
+
+def test_a_history_is_drawn_whole_and_only_once_thinned(open_page, url):
+    page = open_page(url)
+    rows = "".join(f"{t / 10:.1f},{2.5 if t == 50 else 0}\n" for t in range(-10, 100001))
+    choose(page, ("long.csv", f"t,q/L\n{rows}"))
+    assert "; 99860 not within 0 to 15 s" in page.locator("#own-list").inner_text()
+    assert page.evaluate("OWN[0].line.length") == 153  # and one on either side
+    assert page.evaluate("spinUp.inside(2.5)")
+
+
 BAD = {
     "": "is empty",
     "x,y\n1,2\n": 'its columns are "x", "y": name them a and omega_NL, or t and q',
@@ -136,6 +173,12 @@ BAD = {
     "a,omega_NL\n-0.1,3.7\n": "a = -0.1 is negative",
     "a,omega_NL\n0.1,0\n": "omega_NL = 0 rad/s is not positive",
     "a,omega_NL,omega_n\n0.1,3,-1\n": "omega_n = -1 rad/s is not positive",
+    "a,omega_NL,omega_NL\n1,1,1\n": "more than one column is omega_NL",
+    "a omega_NL\n0.1 3.7\n": 'or t and q (or q/L), with commas between',
+    ",".join("abcdefghij") + "\n": '"h" and 2 more: name them',
+    f"a,omega_NL\n0.1,{'x' * 99}\n": 'xxxx…" under "omega_NL"',
+    "a,omega_NL [constructor]\n0.1,3.7\n": 'is in "constructor": give it in rad/s or Hz',
+    "t,q\n0,0\n": "one row of numbers: a line needs two",
     "a,a,omega_NL\n1,1,1\n": "more than one column is a",
     "a,omega_NL\n30,3.7\n": '"a" reaches 30 times the length of the beam',
     "a,omega_NL,omega\n0.1,3.7,60\n": "omega = 60 rad/s is beyond the slider",

@@ -68,6 +68,9 @@ def test_tables_are_the_data(open_page, url, at, beam, data):
     x, rate = periodic_orbits(beam, 6.0, [0.2]).orbit(0, 121)
     np.testing.assert_allclose(columns["x exact [-]"], x, atol=5e-6)
     np.testing.assert_allclose(columns["dx/dtau exact [-]"], rate, atol=5e-6)
+    # Of the models as well phase 0 is where the beam is straight and q rises.
+    np.testing.assert_allclose(columns["x FrM [-]"][0], 0.0, atol=1e-12)
+    assert columns["dx/dtau FrM [-]"][0] == pytest.approx(rate[0], rel=0.01)
 
     columns = table(saved(page, "beam", "CSV")[1])
     assert columns["x/L [-]"][0] == columns["y/L [-]"][0] == 0.0
@@ -106,7 +109,9 @@ def test_a_picture_is_three_times_as_sharp(open_page, url):
     assert content[:8] == b"\x89PNG\r\n\x1a\n"
     size = struct.unpack(">II", content[16:24])
     box = page.locator("#backbone > svg").bounding_box()
-    assert size == pytest.approx((3.0 * box["width"], 3.0 * (box["height"] + 26.0)), abs=1.0)
+    # Over the drawing its title, below it what is said of it.
+    assert size[0] == pytest.approx(3.0 * box["width"], abs=1.0)
+    assert 26.0 + 15.0 < size[1] / 3.0 - box["height"] < 26.0 + 60.0
     body, at = b"", 8
     while at < len(content):
         (count,) = struct.unpack(">I", content[at : at + 4])
@@ -114,6 +119,38 @@ def test_a_picture_is_three_times_as_sharp(open_page, url):
             body += content[at + 8 : at + 8 + count]
         at += 12 + count
     assert len(set(zlib.decompress(body))) > 50  # not an empty sheet
+
+
+def test_a_saved_chart_says_what_its_marks_are(open_page, url):
+    page = open_page(url)
+    long = "a-run-with-a-name-that-is-longer-than-a-column.csv"
+    for name, text in ((long, "t,q\n0,0\n9,1\n"), ("points.csv", "a,omega_NL\n0.1,3.72\n")):
+        file = {"name": name, "mimeType": "text/csv", "buffer": text.encode()}
+        page.set_input_files("#file", [file])
+    page.wait_for_function("OWN.length === 2")
+    for chart, wanted in (
+        ("left", "● exact transient, – closed form, ○ finite elements."),
+        ("backbone", "points.csv"),
+        ("spin-up", "After the ramp (shaded) the tip swings by"),
+    ):
+        _, content = saved(page, chart, "SVG")
+        root = ET.fromstring(content)
+        words = ["".join(text.itertext()) for text in root.iter(SVG + "text")]
+        assert wanted in " ".join(words)
+        alone = open_page("data:text/html,<html data-ready>")
+        alone.set_content(content.decode())
+        # Letters of neighbors keep apart, and within the sheet.
+        boxes = alone.evaluate(
+            """[...document.querySelectorAll("svg > text")].map(t => t.getBBox())
+                .map(b => [b.x, b.x + b.width, b.y, b.y + b.height])"""
+        )
+        width, height = float(root.get("width")), float(root.get("height"))
+        for i, (x, end, y, low) in enumerate(boxes):
+            assert x >= 0.0
+            assert end <= width
+            assert low <= height + 1.0
+            for x2, end2, y2, low2 in boxes[i + 1 :]:
+                assert min(end, end2) <= max(x, x2) or min(low, low2) - max(y, y2) <= 2.0
 
 
 def test_the_menu_opens_by_keyboard_and_closes_again(open_page, url):

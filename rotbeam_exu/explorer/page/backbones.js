@@ -1,6 +1,6 @@
 // Frequency against amplitude.
 
-const backbone = new Chart("backbone", {x: "a = q/L", y: "ω_NL/ω_n", label: "Frequency against amplitude, one curve per model"});
+const backbone = new Chart("backbone", {x: "a = peak of q/L", y: "ω_NL/ω_n", label: "Frequency against amplitude, one curve per model"});
 const RATIO = {close: {own: [0.98, 1.02], exact: [0.97, 1.07]}, all: {own: [0.5, 1.06], exact: [0.5, 1.35]}};
 const base = (m, w) => state.norm === "own" ? linear(m, w) : D.exact_omega_n[w];
 function drawBackbone() {
@@ -10,7 +10,7 @@ function drawBackbone() {
     const x = backbone.x(PAPER_BOUND);
     node("rect", {class: "wash", x, width: backbone.x1 - x, y: backbone.y1, height: backbone.y0 - backbone.y1}, back);
   });
-  write(backbone.yTitle, state.norm === "own" ? "ω_NL/ω_n, each model by its own" : "ω_NL/ω_n of the exact beam");
+  write(backbone.yTitle, state.norm === "own" ? "ω_NL/ω_n, each model by its own" : "ω_NL over the exact beam's ω_n");
   for (const m of shown()) {
     const points = curves[m] = [];
     for (let i = -1; i < A; i++) points.push([i < 0 ? 0 : D.a[i], frequency(m, w, i) / base(m, w)]);
@@ -26,7 +26,7 @@ function drawBackbone() {
   document.getElementById("about-backbone").textContent =
     (state.hide.has("FE") ? "" : `○ ${DATA.elements} finite elements` + (!here.length ? `: at ${[...D.fe_omega].map(plain).join(", ")} rad/s only. `
       : beyond.length ? `, more at a = ${beyond.join(", ")}. ` : ". ")) +
-    (LARGEST > PAPER_BOUND ? "Shaded: amplitudes beyond the paper's own bound." : "");
+    (LARGEST > PAPER_BOUND ? "Shaded: amplitudes beyond the paper's own bound. " : "") + (ownUnseen() ? `Outside these axes: ${places(ownUnseen(), "point")} of your own.` : "");
 }
 /** Points at the present speed, [a, ratio, frequency]; none between the speeds of the runs. */
 function finiteElements() {

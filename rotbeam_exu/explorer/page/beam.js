@@ -10,6 +10,7 @@ beam.tip = node("circle", {class: "dot", r: 5}, beam.svg);
 beam.q = node("text", {class: "title", id: "deflection"}, beam.svg);
 /** A smooth path through points, Catmull and Rom's. */
 function smooth(points) {
+  if (!points.every(([x]) => Number.isFinite(x))) return "";
   let d = `M${points[0][0].toFixed(1)},${points[0][1].toFixed(1)}`;
   for (let i = 0; i + 1 < points.length; i++) {
     const [p, q, r, s] = [points[Math.max(0, i - 1)], points[i], points[i + 1], points[Math.min(points.length - 1, i + 2)]];
@@ -32,7 +33,7 @@ function drawBeam() {
     trace += (k ? "L" : "") + x.toFixed(1) + "," + y.toFixed(1);
   }
   beam.ghosts.setAttribute("d", ghosts);
-  beam.trace.setAttribute("d", trace);
+  beam.trace.setAttribute("d", trace.includes("NaN") ? "" : trace);
   const period = 2 * Math.PI / exactFrequency(w, i);
   document.getElementById("period").textContent = `Rotating frame, to scale; period ${fixed(period, 3)} s.`;
   moveBeam();
@@ -54,7 +55,7 @@ function drawBeam() {
 function moveBeam() {
   const points = placed(beamAxis(state.w, state.a, state.phase)), tip = points.at(-1);
   beam.path.setAttribute("d", smooth(points));
-  beam.tip.setAttribute("cx", tip[0]); beam.tip.setAttribute("cy", tip[1]);
+  place(beam.tip, ...tip);
   beam.q.setAttribute("x", beam.x0 + beam.scale * 0.42); beam.q.setAttribute("y", 14);
   beam.q.textContent = `q = ${fixed(exactState(state.w, state.a, state.phase)[0], 3)} L`;
 }
@@ -69,7 +70,7 @@ function showPlaying() { play.textContent = state.playing ? "Pause" : "Play"; }
 let last = 0;
 function tick(now) {
   if (state.playing) {
-    state.phase = (state.phase + Math.min(now - last, 100) / 1000 * exactFrequency(state.w, state.a)) % (2 * Math.PI);
+    state.phase = (state.phase + Math.min(now - last, 100) / 1000 * (exactFrequency(state.w, state.a) || 0)) % (2 * Math.PI);
     showPhase();
     last = now;
     requestAnimationFrame(tick);

@@ -141,7 +141,7 @@ class Chart {
       if (!(e.key in steps) || e.ctrlKey || e.altKey || e.metaKey) return;
       e.preventDefault();
       set({[key]: Math.max(0, Math.min(grid.length - 1, state[key] + steps[e.key]))});
-      show();
+      show(); this.said();
     });
     this.said = () => {
       this.svg.setAttribute("aria-valuenow", state[key]);

@@ -55,7 +55,7 @@ function beamAxis(w, i, phase, from = 0) {
   const cos = [], sin = [];
   for (let k = 0; k < K; k++) { cos.push(DATA.step * Math.cos(k * phase)); sin.push(DATA.step * Math.sin(k * phase)); }
   for (let p = from; p < P; p++) {
-    let x = 0, y = 0;
+    let x = D.axis_x[start + p] === DATA.unknown ? NaN : 0, y = x;  // no orbit was found
     for (let k = 0; k < K; k++) { x += cos[k] * D.axis_x[start + k * P + p]; y += sin[k] * D.axis_y[start + k * P + p]; }
     points.push([x, y]);
   }

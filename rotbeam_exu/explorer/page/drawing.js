@@ -8,6 +8,11 @@ function node(tag, attributes = {}, parent = null, text = null) {
   if (parent) parent.append(made);
   return made;
 }
+/** Put a circle at a place, and away where there is none. */
+function place(circle, x, y) {
+  circle.setAttribute("visibility", Number.isFinite(x) ? "visible" : "hidden");
+  if (Number.isFinite(x)) { circle.setAttribute("cx", x); circle.setAttribute("cy", y); }
+}
 /** Write a label, its subscripts after an underscore each. */
 function write(text, label) {
   if (text.dataset.label === label) return;

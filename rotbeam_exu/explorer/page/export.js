@@ -36,26 +36,53 @@ function toCSV(columns, about) {
 
 const KEPT = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "stroke-linecap", "opacity", "paint-order",
   "font-family", "font-size", "font-weight", "text-anchor"];
-/** The drawing with its styles written into it, under its title; curves that bear no name get a key. */
+/** What a key says: curves that bear no name, and a person's own points, [name, its mark drawn at a place]. */
+function keysOf(figure, drawn) {
+  const curves = figure.querySelector("text.name") ? [] : [...new Set([...drawn.querySelectorAll("[data-model]")].map(e => e.dataset.model))];
+  curves.sort((m, n) => (ORDER.indexOf(m) + 1 || Infinity) - (ORDER.indexOf(n) + 1 || Infinity));
+  const points = [...new Set([...drawn.querySelectorAll("[data-own]")].map(e => +e.dataset.own))];
+  return [...curves.map(m => [nameOf(m), m, (x, y, into) =>
+    node("line", {class: m === "exact" ? "curve exact" : "curve", style: colors(m), "stroke-dasharray": dashes(m), x1: x, x2: x + 24, y1: y, y2: y}, into)]),
+    ...points.map(k => [OWN[k].name, `own-${k}`, (x, y, into) => node("path", {class: "own", d: markOf(k, x + 12, y)}, into)])];
+}
+/** Write keys in rows that end at a width, and below them the words under the chart; return where they end. */
+function writeBelow(figure, keys, made, width, from) {
+  let x = 8, y = from + 6;
+  for (const [name, m, mark] of keys) {
+    const text = node("text", {class: "name", style: colors(m)}, made, name), wide = 29 + text.getComputedTextLength();
+    if (x > 8 && x + wide > width) { x = 8; y += 18; }
+    text.setAttribute("x", x + 29); text.setAttribute("y", y + 4);
+    mark(x, y, made);
+    x += wide + 18;
+  }
+  if (keys.length) y += 18;
+  let line = null;
+  for (const word of figure.querySelector(".about").textContent.trim().split(/\s+/)) {
+    const before = line?.textContent;
+    if (line) line.textContent += ` ${word}`;
+    if (line && line.getComputedTextLength() <= width - 8) continue;
+    if (line) line.textContent = before;
+    line = node("text", {x: 4, y: y + 4}, made, word);
+    y += LETTERS;
+  }
+  return y;
+}
+/** The drawing with its styles written into it, between its title, a key and what is said of it. */
 function toSVG(figure) {
-  const drawn = figure.querySelector(".plot > svg"), {width, height} = drawn.getBoundingClientRect();
+  const drawn = figure.querySelector(".plot > svg"), {width, height} = drawn.getBoundingClientRect(), keys = keysOf(figure, drawn);
   document.documentElement.classList.add("printing");  // on white, whatever the screen
   try {
-    const named = figure.querySelector("text.name"), keys = named ? [] : [...new Set([...drawn.querySelectorAll("[data-model]")].map(e => e.dataset.model))];
-    const across = Math.max(1, Math.floor((width - 16) / 78)), tall = 26 + height + 18 * Math.ceil(keys.length / across);
-    const made = node("svg", {xmlns: SVG, width, height: tall, viewBox: `0 0 ${width} ${tall}`});
+    const made = node("svg", {xmlns: SVG, width});
     drawn.append(made);  // where styles reach it
-    node("rect", {width, height: tall, fill: "var(--paper)"}, made);
+    const ground = node("rect", {width, fill: "var(--paper)"}, made);
     const title = node("text", {class: "here", x: 2, y: 17}, made);
     write(title, titleOf(figure));
     node("tspan", {"font-weight": 400}, title, `, ${stateInWords(figure.querySelector(".plot").id)}`);
     const copy = node("g", {transform: "translate(0,26)"}, made);
     for (const child of drawn.children) if (child !== made) copy.append(child.cloneNode(true));
-    keys.sort((m, n) => ORDER.indexOf(m) - ORDER.indexOf(n)).forEach((m, i) => {
-      const x = 8 + 78 * (i % across), y = 26 + height + 18 * Math.floor(i / across) + 6;
-      node("line", {class: m === "exact" ? "curve exact" : "curve", style: colors(m), "stroke-dasharray": dashes(m), x1: x, x2: x + 24, y1: y, y2: y}, made);
-      node("text", {class: "name", style: colors(m), x: x + 29, y: y + 4}, made, nameOf(m));
-    });
+    const tall = writeBelow(figure, keys, made, width, 26 + height);
+    ground.setAttribute("height", tall);
+    for (const [n, v] of [["height", tall], ["viewBox", `0 0 ${width} ${tall}`]]) made.setAttribute(n, v);
     const all = [...made.querySelectorAll("*")];
     const styles = all.map(e => { const computed = getComputedStyle(e); return KEPT.map(name => `${name}:${computed.getPropertyValue(name)}`).join(";"); });
     all.forEach((e, i) => {

@@ -13,7 +13,7 @@ function drawOrbit() {
     const points = orbits[m] = [];
     for (let k = 0; k <= TURN; k++) {
       const phase = 2 * Math.PI * k / TURN;
-      points.push(m === "exact" ? exactState(w, i, phase) : modelState(m, w, i, phase));
+      points.push(m === "exact" ? exactState(w, i, phase) : modelState(m, w, i, phase - Math.PI / 2));  // all straight at phase 0
       if (points[k][1] > fastest) fastest = points[k][1];
     }
   }
@@ -28,7 +28,7 @@ let dot = null;
 function drawDot() {
   if (!dot) dot = node("circle", {class: "dot", r: 5}, orbit.front);
   const [x, v] = exactState(state.w, state.a, state.phase);
-  dot.setAttribute("cx", orbit.x(x)); dot.setAttribute("cy", orbit.y(v));
+  place(dot, orbit.x(x), orbit.y(v));
   document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam.`;
 }
 orbit.listen(place => {
@@ -36,6 +36,7 @@ orbit.listen(place => {
   if (!place) return orbit.tell(null);
   let best = null;
   for (const m of shown()) for (const p of orbits[m]) {
+    if (!Number.isFinite(p[0])) continue;
     const distance = Math.hypot(orbit.x(p[0]) - place[0], orbit.y(p[1]) - place[1]);
     if (!best || distance < best.distance - 1e-9) best = {m, p, distance};
   }

@@ -11,16 +11,17 @@ function ownPoints() {
 }
 function drawOwnPoints() {
   for (const [a, ratio, , k] of ownPoints())
-    if (a <= LARGEST) node("path", {class: "own", "data-own": OWN[k].name, d: markOf(k, backbone.x(a), backbone.y(ratio))}, backbone.front);
+    if (a <= LARGEST) node("path", {class: "own", "data-own": k, d: markOf(k, backbone.x(a), backbone.y(ratio))}, backbone.front);
 }
-/** Own histories, [t, q/L], thinned to what a screen shows. */
-function ownHistories() {
-  return Object.fromEntries(OWN.flatMap((own, k) => {
-    if (own.kind !== "history") return [];
-    const every = Math.ceil(own.rows.length / MOST_POINTS);
-    return [[`own-${k}`, own.rows.filter((_, i) => i % every === 0).map(r => [r.t, r[own.key]])]];
-  }));
+/** How many points of one's own are at the present speed and outside the axes. */
+const ownUnseen = () => ownPoints().filter(([a, ratio]) => a > LARGEST || !backbone.inside(ratio)).length;
+/** A history [t, q/L] in the time that is drawn, thinned to what a screen shows. */
+function thinned({rows, key}) {
+  const within = (r, i) => (rows[i + 1] ?? r).t >= 0 && (rows[i - 1] ?? r).t <= DATA.duration;
+  const drawn = rows.filter(within), every = Math.ceil(drawn.length / MOST_POINTS);
+  return drawn.filter((_, i) => i % every === 0).map(r => [r.t, r[key]]);
 }
+const ownHistories = () => Object.fromEntries(OWN.flatMap((own, k) => own.kind === "history" ? [[`own-${k}`, own.line]] : []));
 /** Columns of a chart's CSV that are a person's own. */
 function ownColumns(id) {
   return OWN.flatMap(({name, kind, rows, key}) =>
@@ -29,14 +30,16 @@ function ownColumns(id) {
 }
 const places = (count, what) => `${count} ${what}${count === 1 ? "" : "s"}`;
 /** What became of a file, in a sentence. */
-function described({kind, rows, headings}) {
+function described({kind, rows, headings, without}) {
+  const told = kind === "history" ? headings : headings.filter(h => columnOf(h).key === "omega_NL" && !/^(omega|ω)_nl\s*([[(]|$)/i.test(h));
+  const from = (told.length ? `, from "${told.join('", "')}"` : "") + (without ? `; ${places(without, "row")} without a number left out` : "");
   if (kind === "history") {
-    const beyond = rows.filter(r => r.t > DATA.duration).length;
-    return `${places(rows.length, "sample")} of q(t) beside the spin-up, from "${headings.join('", "')}"` + (beyond ? `; ${beyond} are after ${plain(DATA.duration)} s` : "");
+    const beyond = rows.filter(r => r.t < 0 || r.t > DATA.duration).length;
+    return `${places(rows.length, "sample")} of q(t) beside the spin-up${from}` + (beyond ? `; ${beyond} not within 0 to ${plain(DATA.duration)} s` : "");
   }
   const speeds = [...new Set(rows.map(r => r.w))].map(w => plain(D.omega[w])), beyond = rows.filter(r => r.a > LARGEST).length;
   return `${places(rows.length, "point")} at ${speeds.join(", ")} rad/s` + (rows[0].omega === undefined ? ", the slider's speed" : "") +
-    (rows[0].omega_n === undefined ? ", over the exact natural frequency" : "") + (beyond ? `; ${beyond} beyond a = ${plain(LARGEST)}` : "");
+    (rows[0].omega_n === undefined ? ", over the exact natural frequency" : "") + from + (beyond ? `; ${beyond} beyond a = ${plain(LARGEST)}` : "");
 }
 async function take(file) {
   if (file.size > MOST_BYTES) refuse(`it has ${Math.round(file.size / 1e6)} MB: give at most ${MOST_BYTES / 1e6}`);
@@ -46,6 +49,7 @@ async function take(file) {
     row.w = row.omega === undefined ? state.w : nearest(D.omega, row.omega);
     if (row.omega !== undefined && Math.abs(D.omega[row.w] - row.omega) > half) refuse(`line ${row.line}: omega = ${row.omega} rad/s is beyond the slider, which ends at ${plain(FASTEST)} rad/s`);
   }
+  if (own.kind === "history") own.line = thinned(own);
   OWN.push(own);
 }
 async function takeAll(files) {

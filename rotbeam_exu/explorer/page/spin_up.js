@@ -23,13 +23,14 @@ function meshLeft(j, time) {
 }
 function drawSpinUp() {
   const j = speed(), all = D.spin_up.subarray(j * RAMPS * SAMPLES, (j + 1) * RAMPS * SAMPLES);
-  const reach = level(1.04 * DATA.step * all.reduce((most, v) => v === DATA.unknown ? most : Math.max(most, Math.abs(v)), 0));
+  const own = ownHistories(), widest = Object.values(own).flat().reduce((most, [, q]) => Math.max(most, Math.abs(q)), 0);
+  const reach = level(1.04 * Math.max(widest, DATA.step * all.reduce((most, v) => v === DATA.unknown ? most : Math.max(most, Math.abs(v)), 0)));
   spinUp.frame([0, DATA.duration], [-reach, reach], back => {
     spinUp.ramp = node("rect", {class: "wash", x: spinUp.x0, y: spinUp.y1, height: spinUp.y0 - spinUp.y1}, back);
     node("path", {class: "zero", fill: "none", d: `M${spinUp.x0},${spinUp.y(0)}H${spinUp.x1}`}, back);
   });
   spinUp.ramp.setAttribute("width", spinUp.x(T()) - spinUp.x0);
-  spinUp.draw({...state.hide.has("exact") ? {} : {exact: spinUpCurve()}, ...ownHistories()});
+  spinUp.draw({...state.hide.has("exact") ? {} : {exact: spinUpCurve()}, ...own});
   spinUp.mark(T(), `T = ${plain(T())}`);
   spinUp.front.replaceChildren();
   const a = exactLeft(j, state.t);
@@ -76,13 +77,16 @@ function tellLeft(place) {
 }
 left.listen(tellLeft, place => set({t: nearest(D.exact_ramp_time, left.invertX(place[0]))}));
 left.step("t", D.exact_ramp_time, tellLeft, leftNumbers);
-spinUp.listen(place => {
+const spinUpNumbers = i => [`t = ${fixed(seconds(i), 2)} s`, [["exact", "q/L", fixed(spinUpAt(speed(), state.t, i), 4)]]];
+function tellSpinUp(place) {
   spinUp.over.replaceChildren();
   if (!place || place[0] < spinUp.x0 || place[0] > spinUp.x1) return spinUp.tell(null);
   const i = Math.round(spinUp.invertX(place[0]) / DATA.duration * (SAMPLES - 1)), x = spinUp.x(seconds(i));
   node("line", {class: "cross", x1: x, x2: x, y1: spinUp.y0, y2: spinUp.y1}, spinUp.over);
-  spinUp.tell(place, `t = ${fixed(seconds(i), 2)} s`, [["exact", "q/L", fixed(spinUpAt(speed(), state.t, i), 4)]]);
-});
+  spinUp.tell(place, ...spinUpNumbers(i));
+}
+spinUp.listen(tellSpinUp);
+spinUp.step("sample", Array.from({length: SAMPLES}, (_, i) => seconds(i)), tellSpinUp, spinUpNumbers);
 const rampInput = document.getElementById("ramp");
 Object.assign(rampInput, {min: 0, max: RAMPS - 1, step: 1});
 rampInput.addEventListener("input", () => set({t: +rampInput.value}));

@@ -1,7 +1,8 @@
 // What the person has chosen; the address keeps it.
 
-const START = {w: nearest(D.omega, 6), a: nearest(D.a, 0.3), t: nearest(D.exact_ramp_time, 3), scale: "close", norm: "own", hide: new Set(["P3", "P4", "P5"])};
-const state = {...START, hide: new Set(START.hide), phase: Math.PI / 3, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches};
+// In the middle of what there is: for the paper's beam 6 rad/s, in 3 s.
+const START = {w: nearest(D.omega, D.fe_omega[nearest(D.fe_omega, FASTEST / 2)]), a: nearest(D.a, 0.3), t: nearest(D.exact_ramp_time, [...D.ramp_time].sort((p, q) => p - q)[D.ramp_time.length >> 1]), scale: "close", norm: "own", hide: new Set(["P3", "P4", "P5"])};
+const state = {...START, hide: new Set(START.hide), phase: Math.PI / 3, sample: 0, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches};
 function nearest(grid, value) {
   let best = 0;
   for (let i = 1; i < grid.length; i++) if (Math.abs(grid[i] - value) < Math.abs(grid[best] - value)) best = i;

@@ -50,6 +50,7 @@ function showNumbers() {
   if (D.omega[w] > 2 * D.exact_omega_n[w]) warnings.push("ω is above twice the natural frequency, where models of one mode are beyond their range.");
   const from = /from a = ([\d.]+)/.exec(DATA.notes[w]);
   if (from && D.a[a] > +from[1] - 1e-9) warnings.push("Exact orbit, " + DATA.notes[w] + ".");
+  if (!Number.isFinite(exactFrequency(w, a))) warnings.push("No exact orbit was found at this amplitude.");
   const text = warnings.join(" "), place = document.getElementById("warning");
   if (place.textContent !== text) place.textContent = text;
 }
