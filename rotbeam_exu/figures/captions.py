@@ -46,11 +46,10 @@ CAPTIONS: dict[int, str] = {
         "The paper: FrI is noticeably close "
         "but open, its frequency too low; CI and CE are significantly inaccurate. The print does "
         "not say which T. At T = 3.375 and 3.25 s (a = 0.20, 0.23) the paper's order of the paths "
-        "holds: FrI strays 3.0 and 3.5 % of the half axes, CI 4.3 and 4.0 %, CE 6 %. From T = 3 s "
+        "holds: FrI strays 3.0 and 3.4 % of the half axes, CI 4.3 and 3.9 %, CE 6 %. From T = 3 s "
         "on (a = 0.32) it does not: FrI strays 6.2 % and misses its start by 35 %, CI only 2.3 and "
         "7.5 %, as its too high ω_n and too strong softening cancel. FrI's frequency is too low "
-        "at every T. FrM, FrC and FrE close to 1.3 %. All three stray 2 % from the exact orbit, "
-        "which is a little lower: the second harmonic, which Coriolis forces bring and Eq. 65 "
-        "has not."
+        "at every T. At T = 3 s FrM, FrC and FrE close to 1.2 %. FrC and FrE stray 2 %, for they "
+        "lack the second harmonic, which Coriolis forces bring; FrM has it and strays 0.2 %."
     ),
 }
