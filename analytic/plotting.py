@@ -26,6 +26,13 @@ def axes_or_new(ax: Axes | None) -> Axes:
     return plt.subplots(layout="constrained")[1]
 
 
+def cycled(number: int) -> str:
+    """Return a color of the cycle in use now: a "C0" would be that of the time of drawing."""
+    from matplotlib.colors import to_hex  # noqa: PLC0415
+
+    return to_hex(f"C{number}")
+
+
 def apart(places: FloatArray, gap: float) -> FloatArray:
     """Return `places` in their order, moved up where two are nearer than `gap`: of labels."""
     moved = np.array(places, dtype=float)
@@ -33,3 +40,14 @@ def apart(places: FloatArray, gap: float) -> FloatArray:
     for below, above in pairwise(order):
         moved[above] = max(moved[above], moved[below] + gap)
     return moved
+
+
+def free_place(omegas: FloatArray, frequencies: FloatArray, order: int, top: float) -> float:
+    """Return the speed farthest right whose label, left of it above kω, no mode crosses."""
+    low, high = float(omegas[0]), float(omegas[-1])
+    for at in np.linspace(high, low, 51)[1:26]:
+        under = np.linspace(max(at - 0.07 * (high - low), low), at, 5)
+        modes = np.array([np.interp(under, omegas, row) for row in frequencies.T])
+        if not np.any((modes > order * at - 0.005 * top) & (modes < order * at + 0.05 * top)):
+            return float(at)
+    return high

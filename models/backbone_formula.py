@@ -3,7 +3,8 @@ A million points of the exact backbone
 ======================================
 
 A series through ten exact orbits answers a million amplitudes in milliseconds; beside it what
-perturbation theory gives without any orbit, to third order (FrM) and to fifth (FrM5).
+perturbation theory gives without any orbit, to third order (FrM) and to fifth (FrM5). The shift is
+that of the frequency from its value at small amplitude, :math:`\omega_n`.
 """
 
 import time
@@ -12,7 +13,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, backbone_curve, periodic_orbits, reduced_model
+from rotbeam_exu import figures
 
+plt.style.use(figures.STYLE)
 beam, omega = Beam.reference(), 6.0
 curve = backbone_curve(beam, omega)
 a = np.linspace(0.0, curve.holds_up_to, 1_000_000)
@@ -20,10 +23,9 @@ start = time.perf_counter()
 ratio = curve.frequency(a) / curve.omega_n
 print(f"{curve}\na million of them in {1e3 * (time.perf_counter() - start):.0f} ms")
 
-shift = 1.0 - ratio[::20_000]
-peak = a[::20_000]
+shift, peak = 1.0 - ratio[::20_000], a[::20_000]
 orbits = periodic_orbits(beam, omega, [0.15, 0.3, 0.45, 0.58])
-_, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.8), layout="constrained")
+_, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.2))
 left.plot(ratio[::1000], a[::1000], "k-", label="exact, a series")
 left.plot(orbits.frequency / orbits.omega_n, orbits.amplitude, "ko", mfc="w", label="exact orbits")
 for name, style in (("FrM", "C0--"), ("FrM5", "C3-.")):

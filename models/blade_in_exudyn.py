@@ -2,8 +2,8 @@ r"""
 A blade in an Exudyn model of one's own
 =======================================
 
-:func:`~rotbeam_exu.fem.add_rotating_beam` puts the driven blade into any Exudyn
-system and returns its numbers. Here a weight hangs on its tip by a spring.
+:func:`~rotbeam_exu.fem.add_rotating_beam` puts the driven blade into any Exudyn system and returns
+its nodes' and markers' numbers there. Here a weight hangs on its tip by a spring, and bounces.
 """
 
 import exudyn as exu
@@ -11,19 +11,18 @@ import exudyn.itemInterface as eii  # noqa: N813  (as in its examples)
 import matplotlib.pyplot as plt
 
 from analytic import Beam, SpinUp
+from rotbeam_exu import figures
 from rotbeam_exu.fem import add_rotating_beam
 
+plt.style.use(figures.STYLE)
 mbs = exu.SystemContainer().AddSystem()
 blade, spin_up = Beam.reference().with_hub_radius(0.5), SpinUp(omega=3.0, ramp_time=3.0)
 numbers = add_rotating_beam(mbs, blade, spin_up, elements=8)
 weight = mbs.AddNode(eii.NodePoint2D(referenceCoordinates=[9, 0]))
 mbs.AddObject(eii.ObjectMassPoint2D(nodeNumber=weight, mass=0.1))
 hook = mbs.AddMarker(eii.MarkerNodePosition(nodeNumber=weight))
-spring = mbs.AddObject(
-    eii.ObjectConnectorSpringDamper(
-        markerNumbers=[numbers.tip_marker, hook], stiffness=100.0, damping=0.2, referenceLength=0.5
-    )
-)
+ends, law = [numbers.tip_marker, hook], {"stiffness": 100.0, "damping": 0.2, "referenceLength": 0.5}
+spring = mbs.AddObject(eii.ObjectConnectorSpringDamper(markerNumbers=ends, **law))
 pull = exu.OutputVariableType.ForceLocal
 force = mbs.AddSensor(eii.SensorObject("", spring, outputVariableType=pull, storeInternal=True))
 mbs.Assemble()
@@ -33,7 +32,6 @@ settings.timeIntegration.verboseMode = 0
 settings.solution.sensors.writePeriod, settings.solution.file.write = 0.02, False
 mbs.SolveDynamic(settings)
 time, pull = mbs.GetSensorStoredData(force)[:, :2].T
-plt.plot(time, pull)
-plt.gca().set(xlabel="time [s]", ylabel="force of the spring [N]")
+plt.subplot(xlabel="time [s]", ylabel="force of the spring [N]").plot(time, pull)
 plt.show()
 mbs.Reset()

@@ -2,8 +2,8 @@ r"""
 Campbell diagram
 ================
 
-In-plane frequencies of the exact beam against the speed of rotation, and the lines :math:`k\omega`
-on which a force that is fixed in space excites a mode.
+Frequencies of the exact beam in the plane of rotation, its lag, against the speed, and the lines
+:math:`k\omega`. A force that is fixed in space excites a mode where it meets one of them, at a dot.
 """
 
 import matplotlib.pyplot as plt
@@ -20,13 +20,14 @@ diagram.plot(ax)
 plt.show()
 
 # %%
-# The second engine order meets the first mode here:
+# The line :math:`2\omega` meets the first mode here:
 first = next(c for c in diagram.crossings if (c.mode, c.order) == (1, 2))
 print(f"mode 1 meets 2ω at ω = {first.omega:.6f} rad/s")
 
 # %%
-# Where the section is known, flap and torsion come along: the rectangle that has the paper's A and
-# I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is as slow as its third lag.
+# Where the section is known, flap, out of the plane, and torsion come along: here of the rectangle
+# that has the paper's A and I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is
+# as slow as its third lag.
 flat = campbell(Beam.reference().rectangle(), diagram.omegas, planes=("lag", "flap", "torsion"))
 _, ax = plt.subplots(figsize=(6, 4.5))
 flat.plot(ax, highest=80.0)

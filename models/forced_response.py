@@ -3,8 +3,9 @@ Forced response
 ===============
 
 The beam's response to a ripple of its speed, :math:`\omega+\varepsilon\cos\nu t`, over the drive's
-frequency, at three levels of damping: hardening at 2 rad/s, softening at 6. Where the curve turns
-around, at its folds, the response jumps; what lies between two folds is unstable.
+frequency, at three dampings :math:`\eta_b` of the moment :math:`EI(\kappa+\eta_b\dot\kappa)`: it
+hardens at 2 rad/s and softens at 6. Where the curve turns around, at its folds, the response jumps;
+between two folds it is unstable. The thin line, the backbone, is the free oscillation.
 """
 
 import matplotlib.pyplot as plt
@@ -17,13 +18,10 @@ plt.style.use(figures.STYLE)
 beam, ripple = Beam.reference(), SpeedRipple(amplitude=0.002)  # [rad/s]
 curves = {}
 for omega in (2.0, 6.0):
-    omega_n = linear_modes(beam, omega, 1).frequencies[0]
+    drive = linear_modes(beam, omega, 1).frequencies[0] * np.array([0.993, 1.007])
     curves[omega] = [
         forced_response(
-            beam.with_damping(Damping.from_ratio(beam, ratio=ratio)),
-            omega,
-            ripple,
-            omega_n * np.array([0.993, 1.007]),
+            beam.with_damping(Damping.from_ratio(beam, ratio=ratio)), omega, ripple, drive
         )
         for ratio in (8e-4, 1.2e-3, 2.4e-3)
     ]

@@ -2,9 +2,10 @@ r"""
 A beam that turns under its weight
 ==================================
 
-The paper's beam on earth, in a vertical plane of rotation, damped by the air. Its weight goes
-around once a turn, and bends it with harmonics of all orders: the k-th is greatest about where
-:math:`\omega_n=k\omega`, dotted. Above is the greatest deflection, to whichever side.
+The paper's beam on earth, in a vertical plane of rotation, damped by the air, which takes
+:math:`d\,\dot{\mathbf r}` per length. Its weight goes around once a turn, and bends it with
+harmonics of all orders: the k-th is greatest about where :math:`\omega_n=k\omega`, dotted. Above is
+the greatest deflection, to whichever side, below are the harmonics.
 """
 
 import matplotlib.pyplot as plt
@@ -23,7 +24,7 @@ _, (above, below) = plt.subplots(nrows=2, figsize=(6, 7))
 figures.forced_response(comparison.forced_response(response), ax=above)
 below.semilogy(response.omega, np.abs(response.harmonics[:, 1:5]), label=["1", "2", "3", "4"])
 below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L", xlim=above.get_xlim())
-below.legend(title="k", ncols=4, loc="lower left")
+below.legend(title="k", ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.16))
 for crossing in crossings:
     for ax in (above, below):
         ax.axvline(crossing.omega, color="0.6", ls=":", lw=0.8)

@@ -2,10 +2,10 @@ r"""
 Internal resonance
 ==================
 
-The backbone of the paper's beam at 2 rad/s. The sixth harmonic, which the Coriolis force brings,
-meets the second mode at two thirds of the length: the branch turns around and the second mode takes
-over; beyond, the backbone goes on from the other side. All other crossings, the dots, are too weak
-to be seen.
+The backbone of the paper's beam, inextensible, at 2 rad/s. The sixth harmonic, which the Coriolis
+force brings, meets the second mode at two thirds of the length: the branch turns around and the
+second mode takes over, dashed; beyond, the backbone goes on from the other side. All other
+crossings, the dots with harmonic:mode, are too weak to be seen.
 """
 
 import matplotlib.pyplot as plt
@@ -35,5 +35,5 @@ for one in branch.resonances:
         ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
                     (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=8,
                     ha="right" if left else "left")  # fmt: skip
-ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85), title="harmonic:mode")
+ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85))
 plt.show()

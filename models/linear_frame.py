@@ -6,6 +6,7 @@ What linear elasticity in one floating frame does with the benchmark: it diverge
 
 Above the beam's first natural frequency centrifugal forces win over the bending stiffness, since
 nothing in the model knows of the tension that they bring. A geometrically exact beam just swings.
+The thin line is its length.
 """
 
 import matplotlib.pyplot as plt
@@ -26,7 +27,7 @@ except SimulationError as error:
 
 rate = growth_rate(beam, spin_up.omega)
 expected = np.sqrt(spin_up.omega**2 - beam.omega_0**2)
-print(f"growth rate {rate:.5f} 1/s, sqrt(omega^2 - omega_0^2) = {expected:.5f} 1/s")
+print(f"growth rate {rate:.5f} 1/s, √(ω² - ω_0²) = {expected:.5f} 1/s")
 for run, name in ((linear, "linear floating frame"), (exact, "geometrically exact")):
     plt.semilogy(run["time"], np.abs(run["q"]) / beam.length, label=name)
 plt.axhline(1.0, color="0.6", lw=0.5)

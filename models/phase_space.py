@@ -3,13 +3,18 @@ Phase space
 ===========
 
 One period of the tip's orbit, Fig. 15 of the paper: finite elements, the reduced models, and the
-exact beam at the same peak. A model whose frequency is off does not close.
+exact beam at the same peak. A model whose frequency is off does not close. C and Fr have the
+cantilever's and the rotating mode, I and E are inextensible and extensible; FrC has a consistent
+foreshortening, and FrM all other bending modes as well.
 """
+
+import matplotlib.pyplot as plt
 
 from rotbeam_exu import comparison, figures
 
 data = comparison.figure_15(omega=6.0, ramp_time=3.0)
 figures.figure_15(data)
+plt.show()
 
 # %%
 # By how much each model's period misses that of the finite element run:

@@ -11,15 +11,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, SpinUp, design_ramp
-from rotbeam_exu import simulate
+from rotbeam_exu import figures, simulate
 
+plt.style.use(figures.STYLE)
 beam, T = Beam.reference(), 4.0
 ramps = {
     "Eq. 1": SpinUp(omega=6.0, ramp_time=T),
     "designed": design_ramp(beam, omega=6.0, duration=T),
 }
 
-_, (above, below) = plt.subplots(nrows=2, sharex=True, figsize=(6, 5), layout="constrained")
+_, (above, below) = plt.subplots(nrows=2, sharex=True, figsize=(6, 5))
 left = {}
 for name, ramp in ramps.items():
     run = simulate(beam, ramp, duration=10.0)

@@ -6,6 +6,8 @@ The benchmark itself. The clamped end of the paper's beam is brought to 6 rad/s 
 behind, swings forward, and keeps oscillating, for nothing damps it.
 """
 
+import matplotlib.pyplot as plt
+
 from analytic import Beam, SpinUp
 from rotbeam_exu import figures, natural_frequencies, simulate, steady_oscillation
 
@@ -13,6 +15,7 @@ beam = Beam.reference()
 run = simulate(beam, SpinUp(omega=6.0, ramp_time=3.0), elements=16)
 steady = steady_oscillation(run)
 figures.spin_up(run)
+plt.show()
 
 # %%
 # The amplitude is half peak to peak; the frequency differs from that of small oscillations on the

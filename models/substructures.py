@@ -6,7 +6,8 @@ Linear floating frames in a row: stable up to a divergence speed that grows with
 
 Valverde and García-Vallejo's point of 2009: the nonlinearity that a rotating beam needs can be had
 from linear substructures, for the rotation between their frames brings it in, and how much each
-of them brings depends on what its frame follows.
+of them brings depends on what its frame follows: its tangent at one end, or the line between its
+ends, on which it is pinned. One tangent frame diverges at the first frequency at rest, ω_0.
 """
 
 import matplotlib.pyplot as plt

@@ -3,8 +3,8 @@ A tapered blade on a hub: lag and flap
 ======================================
 
 The Campbell diagram of the paper's beam made a blade: width and height fall to two thirds and a
-half at the tip, and the hub's radius is a tenth of the length. Out of the plane of rotation, flap,
-the frequencies are higher: :math:`\omega_{flap}^2 \approx \omega_{lag}^2 + \omega^2`.
+half at the tip, and the hub's radius is a tenth of the length. Lag is in the plane of rotation; out
+of it, in flap, frequencies are higher: :math:`\omega_{flap}^2 \approx \omega_{lag}^2 + \omega^2`.
 """
 
 import math

@@ -14,7 +14,7 @@ from scipy import optimize
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
-from ..plotting import apart, axes_or_new
+from ..plotting import apart, axes_or_new, cycled, free_place
 from .continuum import Continuum
 from .modes import LinearModes, Plane, linear_modes, modes_on
 from .out_of_plane_modes import flap_blade
@@ -113,13 +113,15 @@ class Campbell:
         low, high = float(self.omegas[0]), float(self.omegas[-1])
         top = 1.05 * float(self.frequencies.max()) if highest is None else highest
         met = [c for c in self.crossings if c.frequency <= top]
-        for order in range(1, max((c.order for c in met), default=1) + 1):
+        last = max((c.order for c in met), default=1)
+        for order in range(1, last + 1):
             ax.plot([low, high], [order * low, order * high], color="0.75", lw=0.6, zorder=0)
-            # Where the line leaves the frame: above it, or before the names at its right.
-            at = top / order if order * high > top else low + 0.97 * (high - low)
+            # Where the line leaves the frame: above it, or at its right where no mode passes.
+            above = order * high > top
+            at = top / order if above else free_place(self.omegas, self.frequencies, order, top)
             ax.text(
                 at, min(order * at, top), f"{order}ω", color="0.45", fontsize="small",
-                ha="center", va="bottom", clip_on=False,
+                ha="center" if above and order < last else "right", va="bottom", clip_on=False,
             )  # fmt: skip
         families = list(dict.fromkeys(self.planes))
         heights = apart(self.frequencies[-1], 0.045 * top)
@@ -129,7 +131,7 @@ class Campbell:
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
             family = families.index(plane)
-            (line,) = ax.plot(self.omegas, row, color=f"C{family}", ls=("-", "--", "-.")[family])
+            (line,) = ax.plot(self.omegas, row, color=cycled(family), ls=("-", "--", "-.")[family])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,

@@ -31,7 +31,7 @@ def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 ms=3.5,
                 mfc="white",
                 ls="none",
-                label=f"ω = {float(omega):g} rad/s: $λ_ω$ = {float(here['lambda_omega']):.4f}",
+                label=f"ω = {float(omega):g} rad/s: $λ_ω = {float(here['lambda_omega']):#.3g}$",
             )
         ax.axvline(1.0, color="0.7", lw=0.5)
         ax.set(xlabel=label(data["ratio"]), ylabel=label(data["amplitude"]), ylim=(0.0, 0.88))
@@ -45,10 +45,9 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
     On axes of a figure narrower than 6 in the legend has the models' short names.
     """
     count = data.sizes["omega"]
+    rows, height = (count + 1) // 2, 2.6 if count > 1 else 3.6
     axes: Any = (
-        np.ravel(
-            new_figure(columns(), 2.6 * ((count + 1) // 2), nrows=(count + 1) // 2, ncols=2)[1]
-        )
+        np.ravel(new_figure(columns(), height * rows, nrows=rows, ncols=min(count, 2))[1])
         if ax is None
         else ax
     )

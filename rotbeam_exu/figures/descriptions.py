@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import xarray as xr
 
-from ..paper import MODEL_NAMES
+from ..paper import MODEL_NAMES, MODELS
 from ..verdict import beam_of
 from .captions import CAPTIONS
 
 _COEFFICIENTS = "λ_ω of ω_NL = ω_n (1 - λ_ω a²) and λ_x of Eq. 65, a → 0,"
+_RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
 _EXACT = "black: the geometrically exact beam, by harmonic balance"
 
 
@@ -27,7 +28,7 @@ def caption(number: int, data: xr.Dataset) -> str:
     """
     parts = [_DESCRIPTIONS[number](data), _beam(data), CAPTIONS[number]]
     parts.append(str(data.attrs.get("out_of_plane", "")))
-    return " ".join(filter(None, parts))
+    return " ".join(" ".join(parts).split())
 
 
 def _figure_3(data: xr.Dataset) -> str:
@@ -41,8 +42,9 @@ def _figure_3(data: xr.Dataset) -> str:
         for n, a, p in zip(data["elements"].to_numpy()[:-1], size, period, strict=False)
     ]
     return (
-        f"Tip displacement with {_listed(data['elements'])} elements at ω = {attrs['omega']:g} "
-        f"rad/s, T = {attrs['ramp_time']:g} s; shaded: steady rotation; inset: its last quarter. "
+        f"Tip displacement with {_listed(data['elements'])} elements, brought to "
+        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s; shaded: steady rotation; "
+        "inset: its last quarter. "
         f"Amplitude and period of the steady oscillation against those of {last} elements: "
         f"{'; '.join(off)}. {_numerics(data)}"
     )
@@ -53,8 +55,9 @@ def _figure_4(data: xr.Dataset) -> str:
     return (
         f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
         "speed, in one scale; what both have is black. Lines are the first turn, all turns lie "
-        "behind it, pale. The normalization is that of Eqs. 15, 17 and 18, Eq. 18 corrected: "
-        f"q̇₀ = q₀√(EI/mL³ + ω²). {_numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
+        "behind it, pale. The normalization is that of Eqs. 17 and 18, m the mass ρAL: "
+        "q₀ = mωL⁴/(T(EI + mω²L³)) and, corrected, q̇₀ = q₀√(EI/mL³ + ω²). "
+        f"{_numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
         f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: "
         f"{100.0 * float(smeared['smear']):.1f} % of its velocity is no harmonic of its frequency "
         "but the second mode, which so short a ramp excites too."
@@ -72,14 +75,15 @@ def _figure_5(data: xr.Dataset) -> str:
 
 def _figure_8(data: xr.Dataset) -> str:
     return (
-        "Backbones of the inextensible model CI, Eq. 63, at Ω = 0, 1 and → ∞, shaded between; "
-        f"{_EXACT}, at Ω = {_listed(data['exact_speed_ratio'])}; left, the marked strip. "
-        "The model's a is the first harmonic of q/L, the exact beam's the peak."
+        f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
+        f"between; {_EXACT}, at Ω = {_listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
+        "marked strip, as high. The model's a is the first harmonic of q/L, the exact beam's half "
+        "peak to peak."
     )
 
 
 def _figure_9(data: xr.Dataset) -> str:
-    return f"{_COEFFICIENTS} against Ω: the inextensible model CI; {_EXACT}."
+    return f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {_EXACT}."
 
 
 def _figure_10(data: xr.Dataset) -> str:
@@ -91,8 +95,9 @@ def _figure_10(data: xr.Dataset) -> str:
 
 def _figure_11(data: xr.Dataset) -> str:
     return (
-        f"{_COEFFICIENTS} against ω by the extensible model CE for several slendernesses "
-        f"μ = I/(AL²); {data.attrs['held']}; {_EXACT}, of the μ below."
+        f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
+        f"slendernesses μ = I/(AL²); {data.attrs['held']}; {_EXACT}, "
+        f"of μ = {beam_of(data.attrs).slenderness:.4g}."
     )
 
 
@@ -100,23 +105,26 @@ def _figure_12(data: xr.Dataset) -> str:
     first = [int(data["degree"][np.isfinite(row.to_numpy())][0]) for row in data["omega_n"]]
     return (
         "Distance of the natural frequency by Frobenius' series from its limit, over the degree N "
-        f"of the polynomial, at ω = {_listed(data['omega'])} rad/s. Before N = {_listed(first)} "
-        "there is no point, for Eq. 86 has no root near the first frequency; below 1e-13 rad/s "
-        "there is none, for that is round-off."
+        f"of the polynomial, even ones, at ω = {_listed(data['omega'])} rad/s. "
+        f"Before N = {_listed(first)} there is no point, for Eq. 86 has no root near the first "
+        "frequency; below 1e-13 rad/s there is none, for that is round-off."
     )
 
 
 def _figure_13(data: xr.Dataset) -> str:
+    rise = data["shape"][1:] - data["shape"][0]
+    highest = [f"{float(row.max()):.3f}" for row in rise]
     return (
         "First mode shape, 1 at the tip, at rest and by Frobenius' series at "
-        f"ω = {_listed(data['omega'][1:])} rad/s."
+        f"ω = {_listed(data['omega'][1:])} rad/s. It lies above the cantilever's by up to "
+        f"{', '.join(highest[:-1])} and {highest[-1]}, there at η/L = "
+        f"{float(data['eta'][np.argmax(rise[-1].to_numpy())]):.2g}."
     )
 
 
 def _figure_14(data: xr.Dataset) -> str:
-    models = [f"{m} ({MODEL_NAMES[m]})" for m in data["model"].values.tolist() if m != "exact"]
     return (
-        f"Backbones of {', '.join(models)} and of the geometrically exact beam, black, with finite "
+        f"Backbones of {_models(data)} and of the geometrically exact beam, black, with finite "
         f"element points, {_spin_ups(data)}. {_meshes(data)}"
     )
 
@@ -125,7 +133,7 @@ def _figure_15(data: xr.Dataset) -> str:
     attrs = data.attrs
     return (
         f"One period of the tip's orbit at ω = {attrs['omega']:g} rad/s, T = {attrs['ramp_time']:g}"
-        f" s: finite elements, the models and the exact beam at the same peak |q|/L = "
+        f" s: finite elements, {_models(data)} and the exact beam at the same peak |q|/L = "
         f"{attrs['amplitude']:.4f}; dots mark where each ends, and the inset those that end near "
         f"the start. {_numerics(data)}"
     )
@@ -143,7 +151,7 @@ def _beam(data: xr.Dataset) -> str:
     beam = beam_of(data.attrs)
     return (
         f"Beam: L = {beam.length:g} m, EI = {beam.bending_stiffness:.5g} N m², "
-        f"EA = {beam.axial_stiffness:.4g} N, m = {beam.mass_per_length:.5g} kg/m, "
+        f"EA = {beam.axial_stiffness:.4g} N, ρA = {beam.mass_per_length:.5g} kg/m, "
         f"μ = {beam.slenderness:.4g}."
     )
 
@@ -157,6 +165,12 @@ def _numerics(data: xr.Dataset) -> str:
         if "step" in attrs
         else ""
     )
+
+
+def _models(data: xr.Dataset) -> str:
+    """Return the reduced models, spelled out."""
+    names = [name for name in data["model"].values.tolist() if name in MODELS]
+    return ", ".join(f"{name} ({MODEL_NAMES[name]})" for name in names)
 
 
 def _spin_ups(data: xr.Dataset) -> str:

@@ -28,7 +28,7 @@ def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     with mpl.rc_context(STYLE):
         ax.axhline(omega_0, color="0.6", lw=0.5)
         last = int(data["substructures"][-1])
-        ax.annotate("ω0", (last, omega_0), xytext=(0, 3), textcoords="offset points", ha="right")
+        ax.annotate("$ω_0$", (last, omega_0), xytext=(0, 3), textcoords="offset points", ha="right")
         styles = {"tangent": (ink(BLUE), "o"), "pinned": (ink(ORANGE), "s")}
         for frame, (color, marker) in styles.items():
             ax.plot(

@@ -84,10 +84,12 @@ def view(ax: Axes, title: str, length: float, left: float = REACH) -> None:
 
 
 def scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
-    """Draw a bar of a quarter of the beam's length below a view, from `start` lengths on."""
+    """Draw a bar of a quarter of the beam's length below a view, and what the dashes are beside."""
     bar, low, left = 0.25 * length, -0.98 * REACH * length, start * length
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
     ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
+    ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **CLAMP)
+    ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
 
 
 def between(time: FloatArray) -> FloatArray:

@@ -42,7 +42,9 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         limit = float(data.attrs.get("limit", np.inf))
         if np.isfinite(limit):
             ax.axvline(limit, color="0.5", lw=0.7, ls="--", label=f"limit, a = {limit:.3g}")
-        if not stable.all():
+        if stable.all():
+            ax.set(ylim=(0.0, 1.0), yticks=[0.0])
+        else:
             ax.set_yscale("log")
         ax.set(xlabel=label(data["a"]), ylabel=label(data["growth_rate"]), xlim=(0.0, None))
         ax.set_title(f"ω = {data.attrs['omega']:g} rad/s", loc="left")
@@ -92,6 +94,8 @@ def growth_out_of_plane(
         levels = [0.01, 0.02, 0.05, 0.1, 0.2, 0.4]
         ax.set_yticks(levels, [f"{level:g}" for level in levels])
         ax.set_yticks([], minor=True)
+        # White beyond what was computed would say that it stays.
+        ax.set_ylim(drawn.get_coordinates()[[0, -1], 0, 1])
     return ax
 
 

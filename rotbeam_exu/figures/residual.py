@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, RED
-from .style import STYLE, column, label, new_figure
+from .style import STYLE, column, ink, label, new_figure
 
 
 def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -24,13 +24,20 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     ax = ax or new_figure(column(), 3.2)[1]
     assert ax is not None
     with mpl.rc_context(STYLE):
-        ax.semilogy(data["ramp_time"], data["linear"], color=BLUE, label="closed form")
+        blue, red = ink(BLUE), ink(RED)
         ax.semilogy(
-            data["ramp_time"], data["corrected"], color=BLUE, ls="--", lw=0.8,
-            label="with the backbone",
+            data["ramp_time"], data["linear"], color=blue, label="linear modes, closed form"
+        )
+        ax.semilogy(
+            data["ramp_time"], data["corrected"], color=blue, ls="--", lw=0.8,
+            label="corrected by the backbone",
         )  # fmt: skip
         for name, text, marker in (
-            ("exact", "exact", {"marker": "o", "ms": 3.5, "mfc": "black", "mec": "black"}),
+            (
+                "exact",
+                "exact transient",
+                {"marker": "o", "ms": 3.5, "mfc": "black", "mec": "black"},
+            ),
             (
                 "finite_element",
                 "finite elements",
@@ -44,15 +51,17 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 )
         if data["quiet"].size:
             at = data["quiet_ramp_time"]
-            ax.semilogy(at, data["quiet"], ls="none", marker="v", ms=5, color=RED, label="quiet")
+            ax.semilogy(
+                at, data["quiet"], ls="none", marker="v", ms=5, color=red, label="quiet ramps"
+            )
             for T, left in zip(at.to_numpy(), data["quiet"].to_numpy(), strict=True):
                 ax.annotate(
                     f"{T:.2f} s", (T, left), xytext=(0, -5), textcoords="offset points",
-                    ha="center", va="top", size=6.5, color=RED,
+                    ha="center", va="top", size=6.5, color=red,
                 )  # fmt: skip
         lowest = float(np.nanmin(np.append(data["linear"], data["quiet"])))
         ax.set(
-            xlabel=label(data["ramp_time"]), ylabel="amplitude left over L",
+            xlabel=label(data["ramp_time"]), ylabel="amplitude left, $|q|/L$",
             xlim=(float(data["ramp_time"][0]), float(data["ramp_time"][-1])),
             ylim=(0.3 * lowest, 1.5),
         )  # fmt: skip

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import BLUE, RED
-from .style import STYLE, colormap, column, label, new_figure
+from .style import STYLE, colormap, column, ink, label, new_figure
 
 
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -63,9 +63,12 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     x = data["w_bar"].to_numpy()
     with mpl.rc_context(STYLE):
         ax.axhline(0.0, color="0.6", lw=0.5)
-        for plane, color, below in (("lag", BLUE, True), ("flap", RED, False)):
+        for plane, color, dashes, below in (
+            ("lag", ink(BLUE), "-", True),
+            ("flap", ink(RED), "--", False),
+        ):
             values = data["lambda_omega"].sel(plane=plane).to_numpy()
-            ax.plot(x, values, color=color, label=plane)
+            ax.plot(x, values, color=color, ls=dashes, label=plane)
             for k in np.flatnonzero(np.diff(np.sign(values))):
                 zero = x[k] - values[k] * (x[k + 1] - x[k]) / (values[k + 1] - values[k])
                 ax.plot(zero, 0.0, "o", color=color, ms=3)

@@ -146,7 +146,8 @@ def label(variable: xr.DataArray) -> str:
     """Return an axis label, long name and unit, from a variable's attributes."""
     unit = variable.attrs.get("units", "")
     name = str(variable.attrs.get("long_name", variable.name))
-    # The names' underscores are subscripts.
+    # The names' underscores are subscripts; ω₀ is written ω0 in some.
+    name = re.sub(r"ω0\b", "ω_0", name)
     name = re.sub(r"(\w)_(\w+)", r"$\1_{\2}$", name)
     return f"{name} [{unit}]" if unit and unit != "1" else name
 

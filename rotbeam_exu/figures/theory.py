@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 from .style import STYLE, column, columns, cycle, label, model_line, new_figure
 
+_SHORT_DASHES = ("-", (0, (2, 1)), (0, (1, 1)))  # what greys do not tell from the models'
 _DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 _ROUND_OFF = 1e-13
 
@@ -31,7 +32,7 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             panel.fill_betweenx(a, ratio[0], ratio[-1], color="0.92", lw=0)
             for row, color, dashes, name in zip(ratio, cycle(), _DASHES, names, strict=False):
                 panel.plot(row, a, color=color, ls=dashes, label=name)
-            for row, dashes in zip(exact, _DASHES, strict=False):
+            for row, dashes in zip(exact, _SHORT_DASHES, strict=False):
                 name = f"exact, Ω = {float(row['exact_speed_ratio']):g}"
                 panel.plot(row, data["exact_amplitude"], **{**line, "ls": dashes}, label=name)
         ax.set(xlabel=label(ratio), ylabel=label(a), xlim=(0.76, 1.06), ylim=(0.0, 0.4))
@@ -74,7 +75,7 @@ def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             xytext=(3, -2), textcoords="offset points", va="top", color="0.4", fontsize=7,
         )  # fmt: skip
         ax.set(
-            xlabel=label(data["degree"]), ylabel="$|ω_n(N) - ω_n|$ [rad/s]",
+            xlabel=f"{label(data['degree'])} N", ylabel="$|ω_n(N) - ω_n|$ [rad/s]",
             ylim=(_ROUND_OFF, 10.0),
         )  # fmt: skip
         ax.legend(loc="lower left")

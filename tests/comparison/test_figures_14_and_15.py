@@ -209,6 +209,10 @@ def test_figure_15_agrees_with_the_golden_data(beam):
     # At T = 3 s the paper's order is reversed: CI's errors cancel, FrI's do not.
     assert data["distance"].sel(model="CI") < 0.4 * data["distance"].sel(model="FrI")
     assert data["gap"].sel(model="CI") < 0.3 * data["gap"].sel(model="FrI")
+    # As the caption has it: FrM has the second harmonic, FrC and FrE have not.
+    near = data["distance"].sel(model=["FrM", "FrC", "FrE"]).to_numpy()
+    assert near == pytest.approx([0.002, 0.019, 0.022], abs=1e-3)
+    assert data["gap"].sel(model="FrC").item() == pytest.approx(0.012, abs=1e-3)
     found = data[["q_bar", "q_dot_bar"]].to_dataframe().reset_index()
     assert np.allclose(kept["q_bar"], found["q_bar"], atol=1e-6)
     assert np.allclose(kept["q_dot_bar"], found["q_dot_bar"], atol=1e-6)

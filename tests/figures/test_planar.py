@@ -26,6 +26,13 @@ def test_growth_over_the_amplitude(beam):
     assert by_label["stays in plane"].get_xdata() == pytest.approx([0.25])
 
 
+def test_what_stays_is_drawn_at_zero(beam):
+    found = planar_stability(beam.tube(0.015, 0.77e-3), 6.0, [0.1, 0.3])
+    axes = figures.planar_stability(comparison.planar_stability(found))
+    assert axes.get_ylim()[0] == 0.0
+    assert axes.get_yticks().tolist() == [0.0]
+
+
 def test_the_map_has_a_color_where_it_grows_only(beam):
     data = comparison.growth_out_of_plane(omegas=[2.0, 4.0], amplitudes=[0.02, 0.06])
     axes = figures.growth_out_of_plane(data, spin_ups={2.0: [0.05]})
@@ -33,6 +40,8 @@ def test_the_map_has_a_color_where_it_grows_only(beam):
     # The least unstable amplitudes are 0.029 and 0.055.
     assert np.isnan(drawn).tolist() == [[True, True], [False, False]]
     assert drawn[1] == pytest.approx(data["growth_rate"].to_numpy()[:, 1])
+    # White is what stays, not what was not computed.
+    assert axes.get_ylim() == pytest.approx((0.0, 0.08), abs=1e-3)
 
 
 def test_limits_over_the_shape(beam):

@@ -77,6 +77,10 @@ def test_an_unknown_style_names_those_that_are_known():
         pass
 
 
+def test_one_speed_has_one_panel(data):
+    assert len(figures.figure_14(data)[0].figure.axes) == 1
+
+
 def test_models_are_spelled_out_where_there_is_room(data):
     (legend,) = figures.figure_14(data)[0].figure.legends
     names = [text.get_text() for text in legend.get_texts()]
