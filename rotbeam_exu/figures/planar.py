@@ -95,7 +95,8 @@ def growth_out_of_plane(
         ax.set_yticks(levels, [f"{level:g}" for level in levels])
         ax.set_yticks([], minor=True)
         # White beyond what was computed would say that it stays.
-        ax.set_ylim(drawn.get_coordinates()[[0, -1], 0, 1])
+        edges = np.asarray(drawn.get_coordinates())[:, 0, 1]
+        ax.set_ylim(edges[0], edges[-1])
     return ax
 
 

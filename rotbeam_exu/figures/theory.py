@@ -32,9 +32,9 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             panel.fill_betweenx(a, ratio[0], ratio[-1], color="0.92", lw=0)
             for row, color, dashes, name in zip(ratio, cycle(), _DASHES, names, strict=False):
                 panel.plot(row, a, color=color, ls=dashes, label=name)
-            for row, dashes in zip(exact, _SHORT_DASHES, strict=False):
+            for row, short in zip(exact, _SHORT_DASHES, strict=False):
                 name = f"exact, Ω = {float(row['exact_speed_ratio']):g}"
-                panel.plot(row, data["exact_amplitude"], **{**line, "ls": dashes}, label=name)
+                panel.plot(row, data["exact_amplitude"], **{**line, "ls": short}, label=name)
         ax.set(xlabel=label(ratio), ylabel=label(a), xlim=(0.76, 1.06), ylim=(0.0, 0.4))
         ax.indicate_inset((0.991, 0.0, 0.014, 0.4), edgecolor="0.5", alpha=1.0)
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
