@@ -223,6 +223,12 @@ class Beam:
         """Return the blade as a tube of this mean radius and wall [m], with the beam's A and I."""
         return self.blade.with_out_of_plane(tube(self._gyration, radius, wall, poisson_ratio))
 
+    def __str__(self) -> str:
+        return (
+            f"Beam of {self.length:g} m: EI {self.bending_stiffness:.4g} N m², "
+            f"EA {self.axial_stiffness:.4g} N, ρA {self.mass_per_length:.4g} kg/m"
+        )
+
     @property
     def _gyration(self) -> Gyration:
         return Gyration(squared=self.second_moment / self.area, area=self.area)

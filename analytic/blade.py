@@ -282,6 +282,6 @@ class Blade:
             f"set at {self.setting_angle:.4g} rad\n"
             f"  EI {self.bending_stiffness:.4g} to {tip['bending_stiffness']:.4g} N m², "
             f"EA {self.axial_stiffness:.4g} to {tip['axial_stiffness']:.4g} N, "
-            f"m {self.mass_per_length:.4g} to {tip['mass_per_length']:.4g} kg/m\n"
+            f"ρA {self.mass_per_length:.4g} to {tip['mass_per_length']:.4g} kg/m\n"
             f"  point masses: {masses or 'none'}{damped}"
         )

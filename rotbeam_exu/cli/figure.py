@@ -84,8 +84,7 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
     written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
     words = name.with_suffix(".txt")
     with whole_file(words) as partial:
-        text = " ".join(filter(None, (caption(n, data), data.attrs.get("out_of_plane"))))
-        partial.write_text(f"Figure {n}. {text}\n", encoding="utf-8")
+        partial.write_text(f"Figure {n}. {caption(n, data)}\n", encoding="utf-8")
     written.append(words)
     print_written(console, written)
     return written

@@ -202,12 +202,14 @@ def _mark_instability(history: Axes, beside: LinearResponse) -> None:
         return
     start, speed = fine[np.argmax(faster)], beside.beam.omega_0 / beside.beam.unit.setting
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
+    late = start > 0.5 * beside.time[-1]  # then there is more room on the left
     history.annotate(
-        f"from {start:.2f} s on faster than {speed:.2f} rad/s: the linear model is unstable",
+        f"from {start:.2f} s on faster than {speed:.2f} rad/s: linear unstable",
         (start, 1.0),
         xycoords=("data", "axes fraction"),
-        xytext=(4, -4),
+        xytext=(-4 if late else 4, -4),
         textcoords="offset points",
+        ha="right" if late else "left",
         va="top",
         color=RED,
     )
