@@ -16,7 +16,8 @@ PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
 # Pages that run finite elements in number, long exact spin-ups, or a cluster of processes.
 SLOW = ("index", "gotchas", "validation", "theory/comparison", "theory/continuum",
-        "theory/finite_element", "theory/spin_up", "howto/sweeps")  # fmt: skip
+        "theory/finite_element", "theory/harmonic_balance", "theory/spin_up", "howto/own_element",
+        "howto/paper_figures", "howto/sweeps")  # fmt: skip
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
 
 

@@ -201,6 +201,7 @@ def settling(blade, response, i, nu, cycles, steps, elements):
     return abs(limit / response.harmonics[i, 1]), away[-1] / away[0], misfit / away[0]
 
 
+@pytest.mark.slow
 def test_a_disturbed_response_is_returned_to_at_its_floquet_multipliers(beam):
     blade, nu = by_mass(beam, 0.2, axial=1e-4), 4.4 * beam.frequency_scale
     ripple = SpeedRipple(amplitude=0.08 * beam.frequency_scale)

@@ -119,6 +119,7 @@ def test_unknown_peer():
         peer("ansys")
 
 
+@pytest.mark.slow
 def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys, monkeypatch):
     """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
     monkeypatch.setenv("COLUMNS", "200")

@@ -85,6 +85,7 @@ def test_tapered_blade(run):
     assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
 
 
+@pytest.mark.slow
 def test_forced_response(run):
     least = {omega: curves[0] for omega, curves in run("forced_response")["curves"].items()}
     # Hardening at 2 rad/s, softening at 6, and jumps at either.
@@ -98,6 +99,7 @@ def test_forced_response(run):
         assert len(folds) == 2
 
 
+@pytest.mark.slow
 def test_gravity(run):
     found = run("gravity")
     response = found["response"]
@@ -107,6 +109,7 @@ def test_gravity(run):
     assert sorted(crossing.order for crossing in found["crossings"]) == [1, 2, 3, 4]
 
 
+@pytest.mark.slow
 def test_blade_in_exudyn(run):
     # The centrifugal force of 0.1 kg 9.1 m from the axis at 3 rad/s; it still swings.
     assert run("blade_in_exudyn")["pull"][-100:].mean() == pytest.approx(8.2, rel=0.25)
@@ -184,6 +187,7 @@ def test_scripts_are_short_and_all_tested():
     assert set(scripts) - tested == {"rotating_beam"}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_internal_resonance(run):
     found = run("internal_resonance")
