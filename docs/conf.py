@@ -154,14 +154,22 @@ def spread(app: Any, env: Any, pages: list[str]) -> None:
 
 def write_interactive() -> None:
     """Write the explorer and the animations that the pages embed, by the command line itself."""
-    for line in (
-        "explore --cache _build/runs --out _static/explorer.html",
-        "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
-        "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
-        "--out _static/figures/linear.gif",
+    rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
+    for lines in (
+        ("explore --cache _build/runs --out _static/explorer.html",),  # takes all cores
+        (
+            "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
+            "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
+            "--out _static/figures/linear.gif",
+        ),
     ):
-        rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
-        subprocess.run([*rotbeam, *line.split()], check=True, cwd=HERE, stdout=subprocess.DEVNULL)
+        jobs = [
+            subprocess.Popen([*rotbeam, *line.split()], cwd=HERE, stdout=subprocess.DEVNULL)
+            for line in lines
+        ]
+        for job in jobs:
+            if job.wait():
+                raise subprocess.CalledProcessError(job.returncode, job.args)
 
 
 def setup(app: Any) -> None:
