@@ -207,7 +207,7 @@ class Blade:
 
     @property
     def frequency_scale(self) -> float:
-        """√(EI/(mL⁴)) at the root, by which w̄ = ω over it [rad/s]."""
+        """√(EI/(ρAL⁴)) at the root, by which w̄ = ω over it [rad/s]."""
         return math.sqrt(self.bending_stiffness / (self.mass_per_length * self.length**4))
 
     @cached_property

@@ -65,7 +65,7 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
     """
     if top > _FASTEST:
         raise ValueError(
-            f"the modes over the speed are known up to w̄ = ω/√(EI/mL⁴) = {_FASTEST:g}, got "
+            f"the modes over the speed are known up to w̄ = ω/√(EI/ρAL⁴) = {_FASTEST:g}, got "
             f"{top:.4g}: rotate slower"
         )
     solve, points = _eigenproblem(blade, top, count), _FEWEST

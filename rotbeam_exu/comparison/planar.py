@@ -84,7 +84,7 @@ def growth_out_of_plane(
 ) -> xr.Dataset:
     """Return how fast planar orbits leave their plane, over speed and amplitude.
 
-    Each point takes about a third of a second.
+    The 600 points unless others are given take some 15 s.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ def softening_map(
     hub_ratios : sequence of float, optional
         R/L, by default 0 to 5.
     w_bars : sequence of float, optional
-        w̄ = ω/√(EI/mL⁴), by default 0 to 10.
+        w̄ = ω/√(EI/ρAL⁴), by default 0 to 10.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def softening_map(
         },
         coords={
             "hub_ratio": ("hub_ratio", hubs, {"units": "1", "long_name": "hub radius R/L"}),
-            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/mL⁴)"}),
+            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/ρAL⁴)"}),
         },
     )
 
@@ -72,7 +72,7 @@ def softening_by_plane(
     beam : Beam or Blade, optional
         By default the paper's beam; its own setting angle is replaced.
     w_bars : sequence of float, optional
-        w̄ = ω/√(EI/mL⁴), by default 0 to 10.
+        w̄ = ω/√(EI/ρAL⁴), by default 0 to 10.
 
     Returns
     -------
@@ -101,6 +101,6 @@ def softening_by_plane(
         },
         coords={
             "plane": list(planes),
-            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/mL⁴)"}),
+            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/ρAL⁴)"}),
         },
     )

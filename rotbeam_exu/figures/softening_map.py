@@ -63,9 +63,10 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     x = data["w_bar"].to_numpy()
     with mpl.rc_context(STYLE):
         ax.axhline(0.0, color="0.6", lw=0.5)
-        for plane, color, dashes, below in (
-            ("lag", ink(BLUE), "-", True),
-            ("flap", ink(RED), "--", False),
+        # Where each name of a zero is clear of both curves.
+        for plane, color, dashes, at, side in (
+            ("lag", ink(BLUE), "-", (4, -9), "left"),
+            ("flap", ink(RED), "--", (-4, 3), "right"),
         ):
             values = data["lambda_omega"].sel(plane=plane).to_numpy()
             ax.plot(x, values, color=color, ls=dashes, label=plane)
@@ -73,8 +74,8 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 zero = x[k] - values[k] * (x[k + 1] - x[k]) / (values[k + 1] - values[k])
                 ax.plot(zero, 0.0, "o", color=color, ms=3)
                 ax.annotate(
-                    f"{zero:.2f}", (zero, 0.0), xytext=(4, -9 if below else 2),
-                    textcoords="offset points", fontsize=6.5, color=color,
+                    f"{zero:.2f}", (zero, 0.0), xytext=at, textcoords="offset points",
+                    fontsize=6.5, color=color, ha=side,
                 )  # fmt: skip
         sign = f"{label(data['lambda_omega'])}: hardens < 0 < softens"
         ax.set(xlabel=label(data["w_bar"]), ylabel=sign, xlim=(x[0], x[-1]))
