@@ -24,7 +24,7 @@ from ..sweeps.grid import failed_cases
 from ..sweeps.grid import sweep as run_sweep
 from .configuration import configured
 from .cost import require_affordable
-from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
+from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
 from .output import choice, new_console, print_columns, print_line, print_text, print_written
 from .progress import counter
@@ -103,13 +103,7 @@ def sweep(
     refuse_to_replace({**one.describe(), **grid}, path, force=results.force)
     console = new_console()
     if config is not None:
-        print_line(
-            console,
-            "motion",
-            f"omega {_values(omegas)} rad/s, ramp-time {_values(ramp_times)} s, "
-            f"duration {motion.duration:g} s, step {motion.step:g} s "
-            "(where not given, the paper's, scaled by ω_0)",
-        )
+        print_line(console, "motion", _described(motion, omegas, ramp_times))
     with (
         _executor(scheduler if executor == "dask" else None) as pool,
         _kept_and_counted(console, workers.cache, count // part[1]) as progress,
@@ -211,6 +205,14 @@ def _kept_and_counted(
             shown(done, number)
 
         yield progress
+
+
+def _described(motion: Motion, omegas: list[float], ramp_times: list[float]) -> str:
+    return (
+        f"omega {_values(omegas)} rad/s, ramp-time {_values(ramp_times)} s, "
+        f"duration {motion.duration:g} s, step {motion.step:g} s "
+        "(where not given, the paper's, scaled by ω_0)"
+    )
 
 
 def _values(values: list[float]) -> str:
