@@ -169,6 +169,8 @@ class Backbone:
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency, from ω_n on, and return the axes.
 
+        Dots are the orbits; what joins them is straight.
+
         Parameters
         ----------
         ax : Axes, optional
@@ -187,7 +189,7 @@ class Backbone:
         ax.plot(
             np.append(self.omega_n, self.frequency[order]),
             np.append(0.0, self.amplitude[order]),
-            **{"label": f"ω = {self.omega:g} rad/s{mode}", **line},
+            **{"label": f"ω = {self.omega:g} rad/s{mode}", "marker": ".", **line},
         )
         ax.set(xlabel="frequency $ω_{NL}$ [rad/s]", ylabel="peak |q|/L")
         ax.set_ylim(bottom=0.0)
