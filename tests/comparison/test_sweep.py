@@ -254,7 +254,9 @@ def living(group):
     return found
 
 
-@pytest.mark.parametrize("signal_number", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize(
+    "signal_number", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT]
+)
 def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
     arguments = [
         sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "8",

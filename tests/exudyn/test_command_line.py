@@ -137,7 +137,7 @@ def test_rpm_is_a_warning_on_the_command_line(tmp_path, capsys):
     assert "warning: omega = 400 rad/s is 137 times" in error
 
 
-@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+@pytest.mark.parametrize("frame", ["inertial", pytest.param("rotating", marks=pytest.mark.slow)])
 def test_interrupt_stops_the_solver_and_leaves_nothing(tmp_path, frame):
     job = subprocess.Popen(
         [sys.executable, "-m", "rotbeam_exu.cli", "run", "--step", "1e-5", "--frame", frame,

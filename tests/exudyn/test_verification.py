@@ -98,6 +98,7 @@ def test_cost_is_read_off_a_ladder():
     assert np.isnan(cost_at_error(entry, 1e-9)[0])
 
 
+@pytest.mark.slow
 def test_command_line(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(measures, "DEFAULT", ("L", "S1"))

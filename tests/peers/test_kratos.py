@@ -16,7 +16,7 @@ needs_kratos = pytest.mark.skipif(
 
 @pytest.mark.skipif(installed("kratos"), reason="KratosMultiphysics is installed")
 def test_it_says_how_to_install_it():
-    with pytest.raises(NotInstalledError, match=r"not installed; pip install 'rotbeam-exu\[pe"):
+    with pytest.raises(NotInstalledError, match=r"not installed; pip install '\.\[peers\]' in a"):
         peer("kratos")
 
 
