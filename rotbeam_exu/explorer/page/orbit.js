@@ -3,7 +3,7 @@
 const orbit = new Chart("orbit", {x: "x = q/L", y: "dx/dτ", margin: {left: 44, right: 20, top: 28, bottom: 36}, label: "Orbit of the tip in phase space, one curve per model"});
 const LEVELS = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 8];
 const level = v => LEVELS.find(l => l >= v) ?? 10;
-let orbits = {};
+let orbits = {}, speeds = "";
 const TURN = 120;
 function drawOrbit() {
   const {w, a: i} = state;
@@ -17,6 +17,8 @@ function drawOrbit() {
       if (points[k][1] > fastest) fastest = points[k][1];
     }
   }
+  const largest = m => Math.max(...orbits[m].map(p => p[1]));
+  speeds = shown().filter(m => Number.isFinite(largest(m))).map(m => `${m} ${fixed(largest(m), 3)}`).join(", ");
   const reach = level(1.04 * D.a[i]), rate = level(1.04 * fastest);
   orbit.frame([-reach, reach], [-rate, rate], back => {
     node("path", {class: "zero", fill: "none", d: `M${orbit.x0},${orbit.y(0)}H${orbit.x1}M${orbit.x(0)},${orbit.y0}V${orbit.y1}`}, back);
@@ -29,7 +31,7 @@ function drawDot() {
   if (!dot) dot = node("circle", {class: "dot", r: 5}, orbit.front);
   const [x, v] = exactState(state.w, state.a, state.phase);
   place(dot, orbit.x(x), orbit.y(v));
-  document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam.`;
+  document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam. Largest dx/dτ: ${speeds}.`;
 }
 orbit.listen(place => {
   orbit.over.replaceChildren();
