@@ -23,6 +23,9 @@ Elements of second order leave a quarter, of fourth a sixteenth.
 _SMALL = 0.05
 """Amplitude over L whose nonlinear effect, 5e-5 or less of the frequency, few meshes show."""
 
+_FINEST = 128
+"""Elements above which a mesh is not compared with a finer one: 1024 take minutes, and round off."""
+
 _NOISE = 1e-7
 """Relative error of ω_n below which a finer mesh need not improve it: of the eigenvalues."""
 
@@ -36,7 +39,8 @@ class Assessment:
     theory : str
         Bernoulli-Euler, or Timoshenko for elements with shear and rotary inertia.
     omega_n, refined_omega_n, exact_omega_n : float
-        Natural frequency of the mesh, of one twice as fine and of the exact beam [rad/s].
+        Natural frequency of the mesh, of one twice as fine, NaN of a very fine one, and of the
+        exact beam [rad/s].
     amplitude, frequency : float
         Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
     exact_frequency : float or None
@@ -175,6 +179,8 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
                 case.beam, case.omega, element=case.element, elements=elements, count=1
             )[0]
         )
+        if elements <= max(2 * _FINEST, case.elements)
+        else math.nan
         for elements in (case.elements, 2 * case.elements)
     )
     return Assessment(
