@@ -11,7 +11,7 @@ from typing import Any
 import matplotlib as mpl
 
 HERE = Path(__file__).parent
-_HANDS = 8
+_HANDS = 8  # that pages are dealt to: more than there are chunks for each process
 sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
 
 import rotbeam_exu  # noqa: E402

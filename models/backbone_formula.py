@@ -2,7 +2,7 @@ r"""
 A million points of the exact backbone
 ======================================
 
-A series through ten exact orbits answers a million amplitudes in milliseconds; beside it what
+A series through nine exact orbits answers a million amplitudes in milliseconds; beside it what
 perturbation theory gives without any orbit, to third order (FrM) and to fifth (FrM5). The shift is
 that of the frequency from its value at small amplitude, :math:`\omega_n`.
 """

@@ -24,7 +24,7 @@ _SMALL = 0.05
 """Amplitude over L whose nonlinear effect, 5e-5 or less of the frequency, few meshes show."""
 
 _FINEST = 128
-"""Elements above which a mesh is not compared with a finer one: 1024 take minutes, and round off."""
+"""Elements above which a mesh is not compared with a finer one: 1024 take minutes."""
 
 _NOISE = 1e-7
 """Relative error of ω_n below which a finer mesh need not improve it: of the eigenvalues."""

@@ -260,7 +260,7 @@ def living(group):
 def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
     arguments = [
         sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "8",
-        "--ramp-time", "3", "2", "--elements", "8", "--step", "0.004", "--duration", "12",
+        "--ramp-time", "3", "2", "--elements", "8", "--step", "0.002", "--duration", "12",
         "--cache", tmp_path / "cache", "--out", tmp_path / "out", "--jobs", "2",
     ]  # fmt: skip
     here = {"cwd": Path(__file__).parents[2], "start_new_session": True, "text": True}

@@ -66,7 +66,7 @@ class Chart {
     let d = "", pen = "M";
     for (const [x, y] of points) {
       if (!Number.isFinite(y)) { pen = "M"; continue; }
-      d += pen + this.x(x).toFixed(1) + "," + Math.max(-9999, Math.min(9999, this.y(y))).toFixed(1);
+      d += pen + this.x(x).toFixed(2) + "," + Math.max(-9999, Math.min(9999, this.y(y))).toFixed(2);
       pen = "L";
     }
     return d;

@@ -31,7 +31,7 @@ function drawDot() {
   if (!dot) dot = node("circle", {class: "dot", r: 5}, orbit.front);
   const [x, v] = exactState(state.w, state.a, state.phase);
   place(dot, orbit.x(x), orbit.y(v));
-  document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam. Largest dx/dτ: ${speeds}.`;
+  document.getElementById("about-orbit").textContent = `● exact, x = ${fixed(x, 3)}, dx/dτ = ${fixed(v, 3)}, at the phase of the beam.` + (speeds && ` Largest dx/dτ: ${speeds}.`);
 }
 orbit.listen(place => {
   orbit.over.replaceChildren();
