@@ -1,17 +1,26 @@
-"""What acts on a blade and takes from it: loads and damping, as values in SI units."""
+"""What acts on a blade and takes from it: loads and damping, as values in SI units.
+
+A load answers for itself: its force, what that acts on, and itself in other units. A new one is a
+class that inherits from `HarmonicLoad` or `Load`, here or elsewhere; theory, Exudyn, files and
+figures then know it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar, Literal, Self
 
+import numpy as np
+
+from .arrays import ComplexArray, FloatArray
+from .description import Described, kinds_of
 from .input_checks import finite_number, not_negative, whole_number
 from .motion import Rippled, Rotation
 
 
 @dataclass(frozen=True, kw_only=True)
-class Damping:
+class Damping(Described):
     """Viscous damping of a blade.
 
     The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė), and the air takes
@@ -73,15 +82,77 @@ class Damping:
 UNDAMPED = Damping()
 
 
+class Load(Described, abstract=True):
+    """Force or motion that acts on a blade; a frozen dataclass whose first field is its size.
+
+    Attributes
+    ----------
+    unit, symbol, called : str
+        Of the size: its unit in SI and the theory's letter; and the load in a sentence.
+    dimension : tuple of three int
+        Powers of length, mass and time in the size.
+    acts_on : {"mass", "length", "tip"} or None
+        What the force is per unit of; None of a load that moves the clamp and is no force.
+    frequency : float or None
+        ν [rad/s] of a harmonic load, where it is given.
+    """
+
+    unit: ClassVar[str]
+    symbol: ClassVar[str]
+    called: ClassVar[str]
+    dimension: ClassVar[tuple[int, int, int]]
+    acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
+    frequency: float | None = None
+
+    @property
+    def size(self) -> float:
+        """Amplitude, in `unit`."""
+        return float(getattr(self, self._of_size()))
+
+    def _of_size(self) -> str:
+        return fields(self)[0].name  # type: ignore[arg-type]
+
+    def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
+        """Return the force (samples,): real part along the undeformed blade, imaginary across.
+
+        Parameters
+        ----------
+        phase, angle : ndarray (samples,)
+            νt and θ [rad].
+        setting : float
+            c = cos ψ.
+        """
+        raise NotImplementedError
+
+    def rate(self, phase: FloatArray) -> FloatArray:
+        """Return what is added to the speed of the clamp, (samples,)."""
+        return 0.0 * phase
+
+    def acceleration(self, phase: FloatArray, frequency: float) -> FloatArray:
+        """Return what is added to its acceleration at ν = `frequency`, (samples,)."""
+        return 0.0 * frequency * phase
+
+    def in_units(self, length: float, mass: float, time: float) -> Self:
+        """Return the load in units of length [m], mass [kg] and time [s]."""
+        powers = zip((length, mass, time), self.dimension, strict=True)
+        size = self.size
+        for unit, power in powers:
+            size /= unit**power
+        scaled = {self._of_size(): size}
+        if self.frequency is not None:
+            scaled["frequency"] = self.frequency * time
+        return replace(self, **scaled)  # type: ignore[type-var]
+
+    def __str__(self) -> str:
+        return f"{self.called} of {self.size:g} {self.unit}"
+
+
 @dataclass(frozen=True, kw_only=True)
-class _Harmonic:
-    """What acts at one frequency, as the cosine."""
+class HarmonicLoad(Load, abstract=True):
+    """What acts at one frequency, as the cosine; unless a kind says otherwise, across the blade."""
 
     amplitude: float
     frequency: float | None = None
-
-    unit: ClassVar[str]
-    called: ClassVar[str]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
@@ -89,13 +160,18 @@ class _Harmonic:
             frequency = not_negative("frequency", self.frequency, "rad/s")
             object.__setattr__(self, "frequency", frequency)
 
+    def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
+        """Return F cos νt across the undeformed blade."""
+        del angle, setting
+        return 1j * self.amplitude * np.cos(phase)
+
     def __str__(self) -> str:
         at = "" if self.frequency is None else f" at {self.frequency:g} rad/s"
-        return f"{self.called} of {self.amplitude:g} {self.unit}{at}"
+        return f"{super().__str__()}{at}"
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpeedRipple(_Harmonic):
+class SpeedRipple(HarmonicLoad):
     """A ripple of the speed: the clamp turns at ω + ε cos νt.
 
     Parameters
@@ -116,11 +192,22 @@ class SpeedRipple(_Harmonic):
     """
 
     unit: ClassVar[str] = "rad/s"
+    symbol: ClassVar[str] = "ε"
     called: ClassVar[str] = "a ripple"
+    dimension: ClassVar[tuple[int, int, int]] = (0, 0, -1)
+    acts_on: ClassVar[None] = None
+
+    def rate(self, phase: FloatArray) -> FloatArray:
+        """Return ε cos νt."""
+        return np.asarray(self.amplitude * np.cos(phase))
+
+    def acceleration(self, phase: FloatArray, frequency: float) -> FloatArray:
+        """Return -εν sin νt."""
+        return np.asarray(-self.amplitude * frequency * np.sin(phase))
 
 
 @dataclass(frozen=True, kw_only=True)
-class TipForce(_Harmonic):
+class TipForce(HarmonicLoad):
     """A force on the tip across the undeformed blade, F cos νt, turning with the clamp.
 
     Parameters
@@ -140,11 +227,14 @@ class TipForce(_Harmonic):
     """
 
     unit: ClassVar[str] = "N"
+    symbol: ClassVar[str] = "F"
     called: ClassVar[str] = "a tip force"
+    dimension: ClassVar[tuple[int, int, int]] = (1, 1, -2)
+    acts_on: ClassVar[Literal["tip"]] = "tip"
 
 
 @dataclass(frozen=True, kw_only=True)
-class DistributedForce(_Harmonic):
+class DistributedForce(HarmonicLoad):
     """A force per undeformed length across the blade, p cos νt, turning with the clamp.
 
     Parameters
@@ -165,11 +255,14 @@ class DistributedForce(_Harmonic):
     """
 
     unit: ClassVar[str] = "N/m"
+    symbol: ClassVar[str] = "p"
     called: ClassVar[str] = "a distributed force"
+    dimension: ClassVar[tuple[int, int, int]] = (0, 1, -2)
+    acts_on: ClassVar[Literal["length"]] = "length"
 
 
 @dataclass(frozen=True)
-class Gravity:
+class Gravity(Load):
     """Gravity in a plane of rotation that stands vertical: -g(sin θ i + cos ψ cos θ j).
 
     At θ = 0 the blade points sideways, and gravity bends it back.
@@ -193,19 +286,25 @@ class Gravity:
     gravity: float = 9.81
 
     unit: ClassVar[str] = "m/s²"
+    symbol: ClassVar[str] = "g"
+    called: ClassVar[str] = "gravity"
+    dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
+    acts_on: ClassVar[Literal["mass"]] = "mass"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
 
-    def __str__(self) -> str:
-        return f"gravity of {self.gravity:g} {self.unit}"
+    def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
+        """Return the weight of a unit mass, which goes around once a turn."""
+        del phase
+        return np.asarray(-self.gravity * (np.sin(angle) + 1j * setting * np.cos(angle)))
 
 
-HarmonicLoad = SpeedRipple | TipForce | DistributedForce
-"""What acts at one frequency."""
-
-Load = HarmonicLoad | Gravity
-"""What a motion in time takes."""
+def require_load(load: object) -> None:
+    """Refuse what is no load."""
+    if not isinstance(load, Load):
+        *others, last = kinds_of(Load)
+        raise TypeError(f"a load must be a {', '.join(others)} or {last}, got {load!r}")
 
 
 def loads_in_time(loads: Any) -> tuple[Load, ...]:
@@ -221,13 +320,8 @@ def loads_in_time(loads: Any) -> tuple[Load, ...]:
     if not isinstance(loads, (tuple, list)):
         raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
     for load in loads:
-        if not isinstance(load, Load):
-            raise TypeError(
-                f"a load must be a SpeedRipple, TipForce, DistributedForce or Gravity, got {load!r}"
-            )
-        if isinstance(load, Gravity):
-            continue
-        if load.frequency is None:
+        require_load(load)
+        if isinstance(load, HarmonicLoad) and load.frequency is None:
             raise ValueError(
                 f"a motion in time needs the frequency of {load}: give frequency= [rad/s]"
             )

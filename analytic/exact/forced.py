@@ -15,7 +15,7 @@ from ..loads import Gravity, HarmonicLoad
 from ..methods.driven import DrivenOrbit
 from ..methods.response_curve import ResponseNotFollowedError, response_curve
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
-from .loading import DrivenBeam, unit_loads
+from .loading import DrivenBeam, unit_load
 from .modes import linear_modes, resolved_model
 from .steady import steady_rate
 
@@ -74,7 +74,7 @@ def forced_response(
     """
     if isinstance(load, Gravity):
         raise TypeError("gravity goes around once a turn, at ω itself: take gravity_response")
-    loads = unit_loads(beam, load)
+    unit = unit_load(beam, load)
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "
@@ -85,7 +85,7 @@ def forced_response(
     if not any(beam.unit.damping):
         _require_no_resonance(beam, omega, asked)
     model = resolved_model(beam, 1, inextensible, False, functions)
-    system = DrivenBeam(model, steady_rate(beam, omega, model), loads)
+    system = DrivenBeam(model, steady_rate(beam, omega, model), unit)
     return _followed(beam, load, system, asked, harmonics)
 
 
@@ -140,7 +140,7 @@ def gravity_response(
                 f"{math.floor(slow)} times the speed in between: take "
                 "beam.with_damping(Damping(...))"
             )
-    system = DrivenBeam(model, None, unit_loads(beam, load))
+    system = DrivenBeam(model, None, unit_load(beam, load))
     return _followed(beam, load, system, asked, harmonics)
 
 

@@ -8,63 +8,33 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
-from ..loads import DistributedForce, Gravity, Load, SpeedRipple, TipForce
+from ..loads import Load, require_load
 from ..methods.system import Tangent
 from .continuum import Continuum
 from .steady import BeamCoordinates
 
 
-class UnitLoads(NamedTuple):
-    """Sizes of the loads, nondimensional.
-
-    Attributes
-    ----------
-    gravity : float
-        γ = g m0 L³/EI0.
-    ripple : float
-        ε √(m0 L⁴/EI0).
-    tip : float
-        F L²/EI0.
-    length : float
-        p L³/EI0.
-    """
-
-    gravity: float = 0.0
-    ripple: float = 0.0
-    tip: float = 0.0
-    length: float = 0.0
-
-
-def unit_loads(beam: AnyBlade, load: Load) -> UnitLoads:
-    """Return a load without dimensions.
+def unit_load(beam: AnyBlade, load: Load) -> Load:
+    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0).
 
     Raises
     ------
     TypeError
         If it is none.
     """
-    L, EI = beam.length, beam.bending_stiffness
-    if isinstance(load, Gravity):
-        return UnitLoads(gravity=load.gravity * beam.mass_per_length * L**3 / EI)
-    if isinstance(load, SpeedRipple):
-        return UnitLoads(ripple=load.amplitude / beam.frequency_scale)
-    if isinstance(load, TipForce):
-        return UnitLoads(tip=load.amplitude * L**2 / EI)
-    if isinstance(load, DistributedForce):
-        return UnitLoads(length=load.amplitude * L**3 / EI)
-    raise TypeError(
-        f"a load must be a SpeedRipple, TipForce, DistributedForce or Gravity, got {load!r}"
+    require_load(load)
+    return load.in_units(
+        beam.length, beam.mass_per_length * beam.length, 1.0 / beam.frequency_scale
     )
 
 
 def pushes(
-    model: Continuum, loads: Sequence[tuple[UnitLoads, FloatArray]], angle: FloatArray
+    model: Continuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
 ) -> ComplexArray | None:
     """Return the force of all loads beyond each Gauss point, (samples, points), None if none.
 
@@ -72,22 +42,16 @@ def pushes(
     ----------
     model : Continuum
     loads : sequence
-        Sizes, and the phases (samples,) of those that are harmonic.
+        Without dimensions, and their phases (samples,).
     angle : ndarray (samples,)
         θ [rad].
     """
     total: ComplexArray | None = None
-    for sizes, phase in loads:
-        across = 1j * np.cos(phase)
-        falling = -(np.sin(angle) + 1j * model.blade.setting * np.cos(angle))
-        for force, onto in (
-            (sizes.gravity * falling, "mass"),
-            (sizes.length * across, "length"),
-            (sizes.tip * across, "tip"),
-        ):
-            if force.any():
-                push = np.multiply.outer(force, model.outboard[onto])
-                total = push if total is None else total + push
+    for load, phase in loads:
+        if load.acts_on is not None:
+            force = load.force(phase, angle, model.blade.setting)
+            push = np.multiply.outer(force, model.outboard[load.acts_on])
+            total = push if total is None else total + push
     return total
 
 
@@ -102,11 +66,12 @@ class DrivenBeam(BeamCoordinates):
     ----------
     rate : float or None
         w̄; None where it is the parameter.
-    loads : UnitLoads
+    load : Load
+        Without dimensions.
     """
 
     rate: float | None
-    loads: UnitLoads
+    load: Load
 
     def frequency(self, parameter: float) -> float:
         """Return ν itself."""
@@ -124,9 +89,10 @@ class DrivenBeam(BeamCoordinates):
         self, phase: FloatArray, parameter: float
     ) -> tuple[FloatArray, FloatArray, ComplexArray | None]:
         """Return w, ẇ and the push at the phases."""
-        ripple, w = self.loads.ripple, self.speed(parameter)
-        push = pushes(self.model, [(self.loads, phase)], phase)
-        return w + ripple * np.cos(phase), -ripple * parameter * np.sin(phase), push
+        load = self.load
+        rate = self.speed(parameter) + load.rate(phase)
+        # The phase is the angle too under gravity; no harmonic load knows the angle.
+        return rate, load.acceleration(phase, parameter), pushes(self.model, [(load, phase)], phase)
 
     def residual(
         self,

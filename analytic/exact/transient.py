@@ -11,11 +11,11 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
-from ..loads import Load, SpeedRipple
+from ..loads import Load
 from ..methods.collocation import radau
 from ..motion import Rotation
 from .continuum import Continuum
-from .loading import pushes, unit_loads
+from .loading import pushes, unit_load
 
 _STAGES = 8
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
@@ -40,14 +40,10 @@ def _drive(
 ) -> Callable[[FloatArray], dict[str, Any]]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
     per_second = beam.frequency_scale
-    forces = [
-        (unit_loads(beam, load), getattr(load, "frequency", 0.0))
-        for load in loads
-        if not isinstance(load, SpeedRipple)
-    ]
+    acting = [(unit_load(beam, load), load.frequency or 0.0) for load in loads]
 
     def at(times: FloatArray) -> dict[str, Any]:
-        phases = [(sizes, frequency * times) for sizes, frequency in forces]
+        phases = [(load, frequency * times) for load, frequency in acting]
         return {
             "rate": rotation.rate(times) / per_second,
             "rate_dot": rotation.acceleration(times) / per_second**2,

@@ -79,13 +79,13 @@ def response_inputs(
     beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
 ) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
-    size = load.gravity if isinstance(load, Gravity) else load.amplitude
     damping: Damping = getattr(beam, "damping", UNDAMPED)
     return {
         **beam_attributes(beam),
         **{f"damping_{name}": value for name, value in asdict(damping).items()},
         "load": type(load).__name__,
-        "load_size": size,
+        "load_size": load.size,
+        "load_symbol": load.symbol,
         "load_unit": load.unit,
         **({} if omega is None else {"omega": omega}),
     }

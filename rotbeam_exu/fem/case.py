@@ -124,7 +124,7 @@ class Case:
         """How many steps there are, and of how many one is kept."""
         return checked_steps(
             self.beam, self.fastest, self.ramp_time, self.elements, self.duration, self.step,
-            [getattr(load, "frequency", self.omega) for load in self.loads],
+            [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 
     def describe(self) -> dict[str, Any]:

@@ -20,8 +20,8 @@ import exudyn
 import numpy as np
 from scipy import sparse
 
-from analytic import AnyBlade, Beam, DistributedForce, Gravity, SpeedRipple, TipForce
-from analytic.arrays import ComplexArray, FloatArray
+from analytic import AnyBlade, Beam
+from analytic.arrays import FloatArray
 from analytic.loads import Load
 from analytic.motion import Rotation
 
@@ -58,17 +58,17 @@ class Loading:
         mass: sparse.csr_array,
         loads: Sequence[Load],
     ) -> None:
-        forces = [load for load in loads if not isinstance(load, SpeedRipple)]
+        forces = [(load, load.acts_on) for load in loads if load.acts_on is not None]
         external = Mesh(blade=beam, elements=elements).damping.external
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
-        if external or any(isinstance(load, DistributedForce) for load in forces):
+        if external or any(onto == "length" for _, onto in forces):
             of_length = mass_matrix(model, _of_unit_density(beam), elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
-        acted_on = {Gravity: mass, DistributedForce: of_length, TipForce: at_tip}
+        acted_on = {"mass": mass, "length": of_length, "tip": at_tip}
         # Unit translations along and across the blade.
         shifts = np.tile(np.eye(2, per_node), size // per_node)
-        self._pushes = [(load, np.asarray(shifts @ acted_on[type(load)])) for load in forces]
+        self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
         self._drag, self._model, self._setting = external * of_length, model, beam.unit.setting
         self._acts = bool(forces) or external > 0.0
 
@@ -79,7 +79,7 @@ class Loading:
         """Return the nodal forces of all loads in the frame of the clamp, (samples, n)."""
         total = np.zeros((t.size, self._drag.shape[0]))
         for load, onto in self._pushes:
-            force = _complex_force(load, self._setting, t, angle)
+            force = load.force((load.frequency or 0.0) * t, angle, self._setting)
             total += np.stack([force.real, force.imag], axis=1) @ onto
         return total
 
@@ -144,9 +144,3 @@ def _of_unit_density(beam: AnyBlade) -> AnyBlade:
         return replace(beam, density=1.0 / beam.area)
     section = replace(beam.section, mass_per_length=1.0, rotary_inertia=_NO_INERTIA)
     return replace(beam, section=section, point_masses=())
-
-
-def _complex_force(load: Any, setting: float, t: FloatArray, angle: FloatArray) -> ComplexArray:
-    if isinstance(load, Gravity):
-        return np.asarray(-load.gravity * (np.sin(angle) + 1j * setting * np.cos(angle)))
-    return np.asarray(1j * load.amplitude * np.cos(load.frequency * t))

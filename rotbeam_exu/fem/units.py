@@ -18,12 +18,8 @@ from analytic import (
     BeamState,
     Blade,
     Damping,
-    DistributedForce,
-    Gravity,
     PointMass,
     Section,
-    SpeedRipple,
-    TipForce,
 )
 from analytic.loads import Load
 from analytic.motion import Rotation
@@ -108,20 +104,7 @@ class Units:
 
     def loads(self, loads: Iterable[Load]) -> tuple[Load, ...]:
         """Return the loads of a motion in time in these units."""
-        force = self.energy / self.length
-        units = {
-            SpeedRipple: 1.0 / self.time,
-            TipForce: force,
-            DistributedForce: force / self.length,
-        }
-
-        def of(load: Any) -> Load:
-            if isinstance(load, Gravity):
-                return Gravity(load.gravity * self.time**2 / self.length)
-            amplitude = load.amplitude / units[type(load)]
-            return replace(load, amplitude=amplitude, frequency=load.frequency * self.time)  # type: ignore[no-any-return]
-
-        return tuple(of(load) for load in loads)
+        return tuple(load.in_units(self.length, self.mass, self.time) for load in loads)
 
     def rotation(self, rotation: Rotation) -> Rotation:
         """Return the rotation over time in these units."""

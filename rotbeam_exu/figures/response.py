@@ -13,7 +13,6 @@ from scipy.interpolate import PchipInterpolator
 
 from .style import STYLE, column, cycle, label, new_figure
 
-_SYMBOLS = {"SpeedRipple": "ε", "TipForce": "F", "DistributedForce": "p", "Gravity": "g"}
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
 _UNSTABLE: Any = {"ls": (0, (2.5, 1.5)), "lw": 0.8}
 _FOLD: Any = {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white"}
@@ -84,7 +83,7 @@ def _parts(curve: xr.Dataset) -> tuple[Any, Any]:
 def _title(curve: xr.Dataset) -> str:
     """Return load and damping in the theory's symbols."""
     attrs = curve.attrs
-    parts = [f"{_SYMBOLS[attrs['load']]} = {attrs['load_size']:g} {attrs['load_unit']}"]
+    parts = [f"{attrs['load_symbol']} = {attrs['load_size']:g} {attrs['load_unit']}"]
     parts += [
         f"{symbol} = {attrs[f'damping_{name}']:.3g} {unit}"
         for name, (symbol, unit) in _DAMPINGS.items()

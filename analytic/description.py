@@ -1,0 +1,117 @@
+"""Values by name: what files hold of blades, motions, loads and elements, and the values again.
+
+A kind is a frozen dataclass that inherits from `Described`. From its definition on it is known by
+the name of its class, so that a new one is a class in one place. What is no such class is refused.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, TypeVar
+
+_KINDS: dict[str, type[Described]] = {}
+_KIND = "kind"
+
+
+class Described:
+    """A value that its kind and its fields tell; base of blades, motions, loads and elements.
+
+    A class that others only build on is defined with ``abstract=True``.
+
+    Raises
+    ------
+    TypeError
+        If a class is defined whose name another kind has.
+    """
+
+    def __init_subclass__(cls, *, abstract: bool = False, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        if abstract:
+            return
+        known = _KINDS.get(cls.__name__, cls)
+        # The same class may be defined anew, as where a module or a notebook's cell runs again.
+        if _place(known) != _place(cls):
+            raise TypeError(
+                f"files know {_place(known)} by the name {cls.__name__}: give {_place(cls)} "
+                "another one"
+            )
+        _KINDS[cls.__name__] = cls
+
+
+ValueT = TypeVar("ValueT")
+
+
+def kinds_of(family: type[ValueT]) -> dict[str, type[ValueT]]:
+    """Return the kinds that inherit from a class, by name, in the order of their definition."""
+    return {name: cls for name, cls in _KINDS.items() if issubclass(cls, family)}
+
+
+def describe(value: object) -> dict[str, Any]:
+    """Return kind and fields of a value as plain numbers, texts, lists and mappings.
+
+    Raises
+    ------
+    TypeError
+        If its class is no kind, or if its fields do not tell all of it.
+    """
+    cls, told = type(value), _told(value)
+    try:
+        whole = bool(from_description(json.loads(json.dumps(told)), cls) == value)
+    except (TypeError, ValueError):
+        whole = False
+    if not whole:
+        raise TypeError(
+            f"no file can hold {value!r}: let the fields of {_place(cls)} be numbers, text, or "
+            "tuples of them"
+        )
+    return told
+
+
+def from_description(told: Mapping[str, Any], family: type[ValueT]) -> ValueT:
+    """Return the value that `describe` told of.
+
+    Raises
+    ------
+    ValueError
+        If it is of no known kind of this family, or the kind has other fields.
+    """
+    kind = told.get(_KIND)
+    cls = kinds_of(family).get(str(kind))
+    if cls is None:
+        raise ValueError(
+            f"{kind!r} is no known {family.__name__}: import the module that defines it"
+        )
+    given = {name: _value(part) for name, part in told.items() if name != _KIND}
+    try:
+        return cls(**given)
+    except TypeError as error:
+        raise ValueError(f"this is no {kind} as {_place(cls)} defines it: {error}") from error
+
+
+def _told(value: object) -> dict[str, Any]:
+    cls = type(value)
+    if _KINDS.get(cls.__name__) is not cls or "__dataclass_fields__" not in vars(cls):
+        raise TypeError(
+            f"no file can hold {value!r}: let {_place(cls)} be a frozen dataclass that inherits "
+            "from one of the same sort, or from analytic.description.Described"
+        )
+    parts = ((field.name, getattr(value, field.name)) for field in fields(value) if field.init)  # type: ignore[arg-type]
+    return {_KIND: cls.__name__, **{name: _plain(part) for name, part in parts}}
+
+
+def _plain(part: object) -> Any:
+    if isinstance(part, Described):
+        return _told(part)
+    return list(map(_plain, part)) if isinstance(part, tuple | list) else part
+
+
+def _value(part: Any) -> Any:
+    if isinstance(part, Mapping):
+        return from_description(part, Described)
+    return tuple(map(_value, part)) if isinstance(part, list) else part
+
+
+def _place(cls: type) -> str:
+    return f"{cls.__module__}.{cls.__qualname__}"
