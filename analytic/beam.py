@@ -7,6 +7,7 @@ import warnings
 from dataclasses import dataclass, fields
 
 from .blade import Blade
+from .description import Described
 from .input_checks import RotbeamWarning, positive
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
@@ -21,7 +22,7 @@ _RPM_SUSPECT = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beam:
+class Beam(Described):
     """A uniform, initially straight beam; SI units.
 
     Parameters

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -18,13 +17,14 @@ import numpy as np
 from scipy.linalg import eigh
 
 from .arrays import FloatArray
+from .description import Described
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units
 from .quadrature import BasisValues, transverse_basis
-from .section import Section, section_from
+from .section import Section
 from .unit_blade import UnitBlade
 
 _FUNCTIONS = 24  # for scales: ω0 and the burst speed
@@ -34,20 +34,8 @@ _ACROSS, _ALONG = 0, 1
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
 
 
-def blade_from(values: Mapping[str, Any]) -> Blade:
-    """Return the blade of which `dataclasses.asdict` made `values`, lists for tuples or not."""
-    return Blade(
-        **{
-            **values,
-            "section": section_from(values["section"]),
-            "point_masses": tuple(PointMass(**one) for one in values.get("point_masses", ())),
-            "damping": Damping(**values.get("damping", {})),
-        }
-    )
-
-
 @dataclass(frozen=True, kw_only=True)
-class Blade:
+class Blade(Described):
     """A straight blade of variable section on a hub; SI units.
 
     Parameters
@@ -259,7 +247,7 @@ class Blade:
             mass=in_units(section.mass_per_length, length, m0),
             bending=in_units(section.bending_stiffness, length, self.bending_stiffness),
             axial=in_units(section.axial_stiffness, length, self.axial_stiffness),
-            rotary=in_units(section.rotary_inertia, length, m0 * length**2),
+            rotary=in_units(section.rotary_inertia or 0.0, length, m0 * length**2),
             damping=(
                 self.damping.bending * self.frequency_scale,
                 self.damping.axial * self.frequency_scale,

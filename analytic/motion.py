@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Protocol, overload
 import numpy as np
 
 from .arrays import FloatArray
+from .description import Described
 from .input_checks import positive, rotation_speed
 
 
@@ -32,8 +33,12 @@ class Rotation(Protocol):
     def acceleration(self, t: FloatArray) -> FloatArray: ...
 
 
+class Motion(Described, abstract=True):
+    """Base of all rotations of the clamp, by which files know them."""
+
+
 @dataclass(frozen=True, kw_only=True)
-class SteadyRotation:
+class SteadyRotation(Motion):
     """Rotation at a constant angular velocity from t = 0 on.
 
     Parameters
@@ -80,7 +85,7 @@ class SteadyRotation:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpinUp:
+class SpinUp(Motion):
     """Smooth spin-up from rest to a constant angular velocity, Eq. 1.
 
     Angle, rate and acceleration are continuous at t = 0 and t = T; the acceleration is
@@ -165,7 +170,7 @@ class SpinUp:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rippled:
+class Rippled(Motion):
     """A rotation whose rate has a ripple, ε cos νt, from t = 0 on.
 
     Parameters

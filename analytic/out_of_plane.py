@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .description import Described
 from .input_checks import not_negative, positive
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
@@ -20,7 +21,7 @@ _SAME = 0.01  # what rounded dimensions may differ from A and I
 
 
 @dataclass(frozen=True, kw_only=True)
-class OutOfPlane:
+class OutOfPlane(Described):
     """What a slice of the blade resists and weighs out of the plane, over what it has in it.
 
     The ratios hold all along the blade.

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .description import Described
 from .input_checks import not_negative
 
 
 @dataclass(frozen=True, kw_only=True)
-class PointMass:
+class PointMass(Described):
     """A mass on the blade's axis.
 
     Parameters

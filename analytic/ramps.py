@@ -14,14 +14,16 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
-from .motion import SpinUp, SteadyRotation
+from .motion import Motion, SpinUp, SteadyRotation
 
 _MOST_WAVES = 100
 _ROUND_OFF = 1e-9
 
 
-class SpeedChange(ABC):
+class SpeedChange(Motion, ABC, abstract=True):
     """A change of the speed from t = 0 to `ramp_time`, steady before and after.
+
+    A new one is a frozen dataclass that inherits from it, here or elsewhere.
 
     Attributes
     ----------
@@ -256,7 +258,7 @@ def _coefficients(name: str, values: object) -> tuple[float, ...]:
     return tuple(numbers.tolist())
 
 
-AnyRamp = SpinUp | SmoothRamp | Table
+AnyRamp = SpinUp | SpeedChange
 """A motion with a beginning and an end, between two steady speeds."""
 
 
@@ -264,8 +266,8 @@ def require_ramp(motion: object) -> None:
     """Refuse what is no change of the speed, a steady rotation for one."""
     if not isinstance(motion, AnyRamp):
         raise TypeError(
-            f"spin_up must be a SpinUp, a SmoothRamp or a Table, got {motion!r}; for a beam that "
-            f"turns steadily take periodic_orbits"
+            f"spin_up must be a SpinUp, a SmoothRamp, a Table or another SpeedChange, got "
+            f"{motion!r}; for a beam that turns steadily take periodic_orbits"
         )
 
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from .arrays import FloatArray
+from .description import Described
 from .out_of_plane import OutOfPlane
 from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
 
 
 @dataclass(frozen=True, kw_only=True)
-class Section:
+class Section(Described):
     """What a slice of the blade resists and weighs, each a `Profile` along x.
 
     Parameters
@@ -26,8 +25,10 @@ class Section:
         EI [N m²] in the plane of bending.
     mass_per_length : Profile
         m [kg/m].
-    rotary_inertia : Profile
-        Inertia of the slices against rotation, ρI [kg m].
+    rotary_inertia : Profile, optional
+        Inertia of the slices against rotation, ρI [kg m]; zero of slices that have none. None where
+        it is not told: the theory then has none, and an element that models it takes that of a
+        homogeneous section, m EI/EA.
     out_of_plane : OutOfPlane, optional
         What they resist out of the plane of bending, None where it is not known.
 
@@ -44,21 +45,22 @@ class Section:
     axial_stiffness: Profile
     bending_stiffness: Profile
     mass_per_length: Profile
-    rotary_inertia: Profile = 0.0
+    rotary_inertia: Profile | None = None
     out_of_plane: OutOfPlane | None = None
 
     def __post_init__(self) -> None:
-        for name in ("axial_stiffness", "bending_stiffness", "mass_per_length", "rotary_inertia"):
-            object.__setattr__(self, name, checked_profile(name, getattr(self, name)))
+        for name, profile in self.profiles().items():
+            object.__setattr__(self, name, checked_profile(name, profile))
 
     def profiles(self) -> dict[str, Profile]:
-        """Return the profiles by name."""
-        return {
+        """Return the profiles by name, but of a rotary inertia that is not told."""
+        profiles = {
             "axial_stiffness": self.axial_stiffness,
             "bending_stiffness": self.bending_stiffness,
             "mass_per_length": self.mass_per_length,
-            "rotary_inertia": self.rotary_inertia,
         }
+        told = self.rotary_inertia
+        return profiles if told is None else profiles | {"rotary_inertia": told}
 
     def require_along(self, length: float) -> None:
         """Refuse a section that vanishes on a blade of that length [m], or is given for another."""
@@ -87,15 +89,9 @@ class Section:
             axial_stiffness=times(self.axial_stiffness, slice_),
             bending_stiffness=times(self.bending_stiffness, bent),
             mass_per_length=times(self.mass_per_length, slice_),
-            rotary_inertia=times(self.rotary_inertia, bent),
+            rotary_inertia=None if self.rotary_inertia is None else times(self.rotary_inertia, bent),
             out_of_plane=self.out_of_plane,
         )
-
-
-def section_from(values: Mapping[str, Any]) -> Section:
-    """Return the section of which `dataclasses.asdict` made `values`."""
-    beyond = values.get("out_of_plane")
-    return Section(**{**values, "out_of_plane": None if beyond is None else OutOfPlane(**beyond)})
 
 
 def _require_section(name: str, values: FloatArray, x: FloatArray) -> None:

@@ -5,29 +5,17 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from analytic import (
-    AnyBlade,
-    Beam,
-    Blade,
-    DistributedForce,
-    Gravity,
-    SmoothRamp,
-    SpeedRipple,
-    SpinUp,
-    SteadyRotation,
-    Table,
-    TipForce,
-)
-from analytic.blade import blade_from
+from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
+from analytic.description import describe, from_description
 from analytic.loads import Load
-from analytic.ramps import AnyRamp
+from analytic.motion import Motion
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -80,50 +68,44 @@ class _Check:
 def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
     """Return the beam or blade that the attributes of a run describe."""
     if "blade" in attrs:
-        return blade_from(json.loads(attrs["blade"]))
+        return from_description(json.loads(attrs["blade"]), Blade)
     return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
 
 
 def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
     """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
-    if isinstance(beam, Blade):
-        return {"beam_length": beam.length, "blade": json.dumps(asdict(beam))}
-    return {f"beam_{name}": value for name, value in asdict(beam).items()}
+    if type(beam) is Beam:
+        return {f"beam_{field.name}": getattr(beam, field.name) for field in fields(Beam)}
+    return {"beam_length": beam.length, "blade": json.dumps(describe(beam))}
 
 
 def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
     """Return the loads that the attributes of a run describe."""
-    kinds = {kind.__name__: kind for kind in (SpeedRipple, TipForce, DistributedForce, Gravity)}
-    written = json.loads(attrs.get("loads", "[]"))
-    return tuple(kinds[one.pop("load")](**one) for one in written)
+    return tuple(from_description(one, Load) for one in json.loads(attrs.get("loads", "[]")))
 
 
 def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
     """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
-    written = [{"load": type(load).__name__, **asdict(load)} for load in loads]
-    return {"loads": json.dumps(written)} if written else {}
+    return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
 
 
-def motion_of(attrs: Mapping[Any, Any]) -> AnyRamp | SteadyRotation:
+def motion_of(attrs: Mapping[Any, Any]) -> Motion:
     """Return the rotation of the clamp that the attributes of a run describe."""
+    if "motion" in attrs:
+        return from_description(json.loads(attrs["motion"]), Motion)
     omega, ramp_time = float(attrs["omega"]), float(attrs["ramp_time"])
-    if "motion" not in attrs:
-        return (
-            SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
-        )
-    kinds = {kind.__name__: kind for kind in (SmoothRamp, Table)}
-    written = json.loads(attrs["motion"])
-    return kinds[written.pop("motion")](**written)
+    return SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
 
 
-def motion_attributes(motion: AnyRamp | SteadyRotation) -> dict[str, Any]:
+def motion_attributes(motion: Motion) -> dict[str, Any]:
     """Return the attribute by which a run says how it was driven; `motion_of` reads it.
 
-    Eq. 1 and a steady rotation need none beside omega and ramp_time.
+    Eq. 1 and a steady rotation need none beside omega and ramp_time. A rotation that is no known
+    kind is refused.
     """
-    if isinstance(motion, SmoothRamp | Table):
-        return {"motion": json.dumps({"motion": type(motion).__name__, **asdict(motion)})}
-    return {}
+    if type(motion) in (SpinUp, SteadyRotation):
+        return {}
+    return {"motion": json.dumps(describe(motion))}
 
 
 def remedy(run: xr.Dataset, t: float) -> str:

@@ -40,6 +40,9 @@ class SpinUpResponse:
     ----------
     beam : Beam or Blade
     spin_up : SpinUp, SmoothRamp or Table
+    loads : tuple of loads
+    rotary_inertia, shear_share : bool, float or None
+        Of the sections, as asked for.
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -68,6 +71,9 @@ class SpinUpResponse:
 
     beam: AnyBlade
     spin_up: AnyRamp
+    loads: tuple[Load, ...]
+    rotary_inertia: bool
+    shear_share: float | None
     time: FloatArray
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
@@ -173,6 +179,9 @@ def spin_up_response(
                 return SpinUpResponse(
                     beam=beam,
                     spin_up=spin_up,
+                    loads=loads,
+                    rotary_inertia=rotary_inertia,
+                    shear_share=share,
                     time=time,
                     **_in_units(beam, finer, turned),
                     error=error,

@@ -27,6 +27,8 @@ def recorded_case(path: Path) -> tuple[Case, xr.Dataset]:
         moving = bool(run["q"][0] or run["q_dot"][0])
     except (KeyError, IndexError) as error:
         raise ValueError(f"{path} is not of a run: it has no {error.args[0]!r}") from error
+    if getattr(case.model, "leaves_plane", False):
+        raise ValueError(f"{path} is of a run in space, which only simulate_3d repeats")
     if moving:
         raise ValueError(
             f"{path} cannot be repeated: its beam did not start at rest, and from which state the "

@@ -7,9 +7,10 @@ import json
 import xarray as xr
 
 from analytic import SpinUpResponse
+from analytic.loads import rippled
 
 from ..fem.simulation import versions
-from ..verdict import beam_attributes
+from ..verdict import beam_attributes, loads_attributes, motion_attributes
 
 
 def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:
@@ -18,22 +19,24 @@ def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:
     Parameters
     ----------
     response : SpinUpResponse
-        As `analytic.spin_up_response` returns it, without loads.
+        As `analytic.spin_up_response` returns it.
 
     Returns
     -------
     Dataset
         Over `time` [s]: q [m] and q_dot [m/s] of the tip (Eq. 16), tip_x and tip_y [m] in the
-        inertial frame, angle [rad]. The attributes hold beam and motion, versions, and `error`:
+        inertial frame, angle [rad]. The attributes hold beam, motion, loads, versions, and `error`:
         the estimated error of the tip's position over the largest |q|.
     """
+    rotation = rippled(response.spin_up, response.loads)
     columns = {
         "q": (response.q, "m", "tip displacement q, Eq. 16"),
         "q_dot": (response.q_dot, "m/s", "tip velocity q̇, Eq. 16"),
         "tip_x": (response.tip[:, 0], "m", "tip position x, inertial frame"),
         "tip_y": (response.tip[:, 1], "m", "tip position y, inertial frame"),
-        "angle": (response.spin_up.angle(response.time), "rad", "rotation angle θ"),
+        "angle": (rotation.angle(response.time), "rad", "rotation angle θ"),
     }
+    sections = {"rotary_inertia": int(response.rotary_inertia), "shear_share": response.shear_share}
     return xr.Dataset(
         {
             name: ("time", values, {"units": unit, "long_name": long_name})
@@ -44,6 +47,9 @@ def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:
             **beam_attributes(response.beam),
             "omega": response.spin_up.omega,
             "ramp_time": response.spin_up.ramp_time,
+            **motion_attributes(response.spin_up),
+            **loads_attributes(response.loads),
+            **{name: value for name, value in sections.items() if value},
             "duration": float(response.time[-1]),
             "samples": response.time.size,
             "error": response.error,

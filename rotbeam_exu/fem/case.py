@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from analytic import AnyBlade, SteadyRotation
+from analytic.description import Described, describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
@@ -23,7 +24,7 @@ from ..verdict import (
     motion_attributes,
     motion_of,
 )
-from .elements import Formulation, formulation, options_of, require_modeled
+from .elements import Formulation, formulation, require_modeled
 from .solver import Frame, require_frame
 
 
@@ -56,6 +57,11 @@ class Case:
     loads: Sequence[Load] = ()
 
     def __post_init__(self) -> None:
+        if not isinstance(self.spin_up, AnyRamp | SteadyRotation):
+            raise TypeError(
+                "spin_up must be a SpinUp, a SmoothRamp, a Table, another SpeedChange or a "
+                f"SteadyRotation, got {self.spin_up!r}; a ripple of it is one of the loads"
+            )
         for name, value in (
             ("element", formulation(self.element)),
             ("elements", whole_number("elements", self.elements)),
@@ -68,20 +74,22 @@ class Case:
         require_modeled(self.beam, self.model)
         _ = self.steps_and_sampling
         try:
-            json.dumps([options_of(self.model), hash(self.model)])
+            _ = hash(self.model), describe(self.model)
         except TypeError as error:
             raise TypeError(
                 "element must be the name of a formulation, or an instance of a frozen dataclass "
-                f"whose options are numbers and text, got {self.element!r}"
+                "that inherits from a kind of node and whose options are numbers and text, got "
+                f"{self.element!r}"
             ) from error
+        self.describe()  # refuses what no file can hold
 
     @classmethod
     def described(cls, attrs: Mapping[Any, Any]) -> Case:
         """Return the case that the attributes of a run describe: `describe` inverted."""
         return cls(
             beam=beam_of(attrs),
-            spin_up=motion_of(attrs),
-            element=formulation(attrs["element"], json.loads(attrs["element_options"])),
+            spin_up=motion_of(attrs),  # type: ignore[arg-type]  # others are refused
+            element=from_description(json.loads(attrs["element_options"]), Described),  # type: ignore[arg-type]
             elements=int(attrs["elements"]),
             duration=float(attrs["duration"]),
             step=float(attrs["step"]),
@@ -135,7 +143,7 @@ class Case:
             "ramp_time": self.ramp_time,
             **motion_attributes(self.spin_up),
             "element": self.model.name,
-            "element_options": json.dumps(options_of(self.model)),
+            "element_options": json.dumps(describe(self.model)),
             "elements": self.elements,
             "duration": self.duration,
             "step": self.step,

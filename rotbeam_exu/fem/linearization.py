@@ -127,8 +127,8 @@ def mesh_frequencies(
             f"{omega:g} rad/s is unstable, it grows with {growth:.6g} 1/s: lower the speed or take "
             "another element"
         )
-    frequencies = 1.0 / np.sort(np.abs(inverse.imag))[::-1]
-    return np.asarray(frequencies[: 2 * count : 2]) / Units.of(beam).time
+    slowest = np.sort(np.abs(inverse.imag))[::-1][: 2 * count : 2]
+    return np.asarray(1.0 / slowest) / Units.of(beam).time
 
 
 def growth_rate(

@@ -32,9 +32,6 @@ from .linearization import mass_matrix
 from .mesh import Mesh
 from .solver import Frame
 
-_NO_INERTIA = 1e-30
-"""Of a section: zero stands for that of a homogeneous one, which the air does not brake."""
-
 
 class Loading:
     """What acts on a chain besides its inertia: the consistent loads and the drag.
@@ -142,5 +139,5 @@ def _of_unit_density(beam: AnyBlade) -> AnyBlade:
     if isinstance(beam, Beam):
         # It has no drag, and a force that shifts its sections does not turn them.
         return replace(beam, density=1.0 / beam.area)
-    section = replace(beam.section, mass_per_length=1.0, rotary_inertia=_NO_INERTIA)
+    section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
     return replace(beam, section=section, point_masses=())

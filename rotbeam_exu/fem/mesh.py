@@ -19,7 +19,7 @@ from analytic.quadrature import gauss_points
 class ElementSection:
     """What an element of constant section has: m [kg/m], EI [N m²], EA [N], ρI [kg m].
 
-    ρI is for elements that model it; where the blade gives none, that of a homogeneous section.
+    ρI is for elements that model it; where the blade tells none, that of a homogeneous section.
     """
 
     mass_per_length: float
@@ -109,13 +109,14 @@ class Mesh:
         m = blade.mass_per_length * evaluated(unit.mass, x)
         EI = blade.bending_stiffness * evaluated(unit.bending, x)
         EA = blade.axial_stiffness * evaluated(unit.axial, x)
-        given = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
+        told = isinstance(blade, Blade) and blade.section.rotary_inertia is not None
+        own = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
         return PointSections(
             mass_per_length=m,
             bending_stiffness=EI,
             axial_stiffness=EA,
             # A homogeneous section has ρI = m EI/EA.
-            rotary_inertia=m * EI / EA if unit.rotary == 0.0 else given,
+            rotary_inertia=own if told else m * EI / EA,
         )
 
     def lumped(self) -> Iterator[tuple[int, PointMass]]:

@@ -77,7 +77,7 @@ class Units:
         }
         profiles = blade.section.profiles()
         scaled: dict[str, Any] = {
-            name: in_units(profiles[name], self.length, unit) for name, unit in per.items()
+            name: in_units(profile, self.length, per[name]) for name, profile in profiles.items()
         }
         out = blade.section.out_of_plane
         if out is not None and out.polar_inertia is not None:

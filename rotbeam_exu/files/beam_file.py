@@ -9,8 +9,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane
-from analytic.blade import blade_from
+from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _DAMPING = tuple(field.name for field in fields(Damping))
@@ -122,8 +121,15 @@ def _blade(table: dict[str, Any], source: Path) -> Blade:
     require_keys(damping, "[blade.damping]", source, (), _DAMPING)
     for one in masses:
         require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
-    values = {name: value for name, value in table.items() if name != "point_mass"}
-    return blade_from({**values, "point_masses": masses})
+    out_of_plane = None if beyond is None else OutOfPlane(**beyond)
+    return Blade(
+        **{name: value for name, value in table.items() if name != "point_mass"}
+        | {
+            "section": Section(**section | {"out_of_plane": out_of_plane}),
+            "point_masses": tuple(PointMass(**one) for one in masses),
+            "damping": Damping(**damping),
+        }
+    )
 
 
 def require_keys(

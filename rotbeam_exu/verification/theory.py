@@ -80,7 +80,7 @@ class Theory:
 def _with_inertia(blade: Blade) -> Blade:
     """Return the blade with the rotary inertia of a homogeneous section if it says none."""
     section, x = blade.section, np.linspace(0.0, 1.0, 257)
-    if section.rotary_inertia != 0.0:
+    if section.rotary_inertia is not None:
         return blade
     if not np.allclose(evaluated(blade.unit.mass, x), evaluated(blade.unit.axial, x), rtol=1e-9):
         raise ValueError(

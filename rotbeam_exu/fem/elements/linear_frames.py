@@ -30,7 +30,7 @@ from .node_kinds import QUARTER_TURN, SlopeNodes
 FloatingFrame = Literal["tangent", "pinned"]
 
 
-class _LinearFrames(SlopeNodes):
+class _LinearFrames(SlopeNodes, abstract=True):
     """What both formulations below share: `row` says how a beam is cut into frames."""
 
     def row(self, beam: Beam, elements: int) -> FrameRow:

@@ -12,12 +12,13 @@ import numpy as np
 
 from analytic import BeamState
 from analytic.arrays import FloatArray
+from analytic.description import Described
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""
 
 
-class SlopeNodes:
+class SlopeNodes(Described, abstract=True):
     """Nodes carry r and the slope r' of the axis; the clamp holds its direction."""
 
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
@@ -35,7 +36,7 @@ class SlopeNodes:
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
 
-class SectionSlopeNodes:
+class SectionSlopeNodes(Described, abstract=True):
     """Nodes carry r and the slope r_y of the section; the clamp holds its direction."""
 
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
@@ -55,7 +56,7 @@ class SectionSlopeNodes:
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
 
-class AngleNodes:
+class AngleNodes(Described, abstract=True):
     """Nodes carry r and the angle φ of the section; the clamp holds it."""
 
     quarter_turn: ClassVar[FloatArray] = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0] * 3])

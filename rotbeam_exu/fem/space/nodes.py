@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation as Turn
 
 from analytic.arrays import FloatArray
+from analytic.description import Described
 
 from .state import SpaceState
 
@@ -24,7 +25,7 @@ _HALF_TURN = np.array(
 """What the unit vector along z makes of Euler parameters, as a quaternion from the left."""
 
 
-class SpaceSlopeNodes:
+class SpaceSlopeNodes(Described, abstract=True):
     """Nodes carry r and the slope r' of the axis; the clamp holds its direction."""
 
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), _QUARTER_TURN)
@@ -52,7 +53,7 @@ class SpaceSlopeNodes:
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
 
-class FrameNodes:
+class FrameNodes(Described, abstract=True):
     """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
 
     quarter_turn: ClassVar[FloatArray] = np.block(
