@@ -35,7 +35,7 @@ class Described:
         if _place(known) != _place(cls):
             raise TypeError(
                 f"files know {_place(known)} by the name {cls.__name__}: give {_place(cls)} "
-                "another one"
+                "another one, or begin anew where it has moved"
             )
         _KINDS[cls.__name__] = cls
 

@@ -89,7 +89,9 @@ class Section(Described):
             axial_stiffness=times(self.axial_stiffness, slice_),
             bending_stiffness=times(self.bending_stiffness, bent),
             mass_per_length=times(self.mass_per_length, slice_),
-            rotary_inertia=None if self.rotary_inertia is None else times(self.rotary_inertia, bent),
+            rotary_inertia=None
+            if self.rotary_inertia is None
+            else times(self.rotary_inertia, bent),
             out_of_plane=self.out_of_plane,
         )
 

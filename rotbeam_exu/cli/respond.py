@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,18 +13,16 @@ from cyclopts import Parameter
 from analytic import (
     AnyBlade,
     Damping,
-    DistributedForce,
     ForcedResponse,
     Gravity,
     ResponseNotReachedError,
-    SpeedRipple,
-    TipForce,
     forced_response,
     gravity_response,
 )
 from analytic.arrays import FloatArray
+from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
-from analytic.loads import HarmonicLoad
+from analytic.loads import HarmonicLoad, Load
 
 from .. import comparison
 from ..comparison.response import response_inputs
@@ -39,51 +37,60 @@ _SECONDS_PER_POINT = 0.02
 """From below."""
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class Loads:
-    """What acts on the blade: one of these.
+def _option(kind: type[Load]) -> str:
+    """Return the name of a load without its article, as an option."""
+    return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
 
-    Parameters
-    ----------
-    ripple
-        Amplitude ε of the speed ω + ε cos νt [rad/s].
-    tip_force
-        Amplitude of a force on the tip across the blade [N].
-    distributed_force
-        Amplitude of a force per length across the blade [N/m].
-    gravity
-        Weight in a vertical plane of rotation, 9.81 unless given [m/s²].
-    """
 
-    ripple: float | None = None
-    tip_force: float | None = None
-    distributed_force: float | None = None
-    gravity: Annotated[
-        bool | float, Parameter(negative=(), show_default=False, metavar="[FLOAT]")
-    ] = False
+_HARMONIC = {_option(kind): kind for kind in kinds_of(HarmonicLoad).values()}
+_Weight = Annotated[
+    bool | float,
+    Parameter(
+        negative=(), show_default=False, metavar="[FLOAT]",
+        help="Weight in a vertical plane of rotation, 9.81 unless given [m/s²].",
+    ),
+]  # fmt: skip
+
+
+class _OneLoad:
+    """What acts on the blade: one of these."""
 
     def one(self) -> HarmonicLoad | Gravity:
         """Return the load."""
-        given: dict[str, HarmonicLoad | Gravity] = {}
-        if self.ripple is not None:
-            given["--ripple"] = SpeedRipple(amplitude=self.ripple)
-        if self.tip_force is not None:
-            given["--tip-force"] = TipForce(amplitude=self.tip_force)
-        if self.distributed_force is not None:
-            given["--distributed-force"] = DistributedForce(amplitude=self.distributed_force)
-        if self.gravity is not False:
-            given["--gravity"] = Gravity() if self.gravity is True else Gravity(self.gravity)
+        asked = {name: getattr(self, name.replace("-", "_")) for name in (*_HARMONIC, "gravity")}
+        given: dict[str, HarmonicLoad | Gravity] = {
+            f"--{name}": kind(amplitude=asked[name])
+            for name, kind in _HARMONIC.items()
+            if asked[name] is not None
+        }
+        if (weight := asked["gravity"]) is not False:
+            given["--gravity"] = Gravity() if weight is True else Gravity(weight)
         if len(given) != 1:
+            *others, last = [f"--{name}" for name in asked]
             raise ValueError(
-                "give one load, --ripple, --tip-force, --distributed-force or --gravity, got "
+                f"give one load, {', '.join(others)} or {last}, got "
                 + (" and ".join(given) or "none")
             )
         (load,) = given.values()
-        size = load.gravity if isinstance(load, Gravity) else load.amplitude
-        if size == 0.0:
+        if load.size == 0.0:
             raise ValueError(f"{next(iter(given))} 0 is no load: give its amplitude")
         return load
+
+
+def _amplitude(kind: type[HarmonicLoad]) -> tuple[str, Any, None]:
+    first = (kind.__doc__ or "").partition("\n")[0].removesuffix(".")
+    about = Parameter(help=f"{first}; {kind.symbol} [{kind.unit}].")
+    return _option(kind).replace("-", "_"), Annotated[float | None, about], None
+
+
+# An option for each kind of load that is known.
+Loads: Any = Parameter(name="*")(
+    make_dataclass(
+        "Loads",
+        [*map(_amplitude, _HARMONIC.values()), ("gravity", _Weight, False)],
+        bases=(_OneLoad,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
+    )
+)  # fmt: skip
 
 
 @Parameter(name="*")
@@ -235,10 +242,8 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
 
 
 def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
-    if isinstance(load, Gravity):
-        return f"response-gravity-{load.gravity:g}"
-    kind = {SpeedRipple: "ripple", TipForce: "tip-force", DistributedForce: "distributed-force"}
-    return f"response-omega-{omega:g}-{kind[type(load)]}-{load.amplitude:g}"
+    turning = "" if omega is None else f"omega-{omega:g}-"
+    return f"response-{turning}{_option(type(load))}-{load.size:g}"
 
 
 def _data_files(path: Path) -> tuple[Path, Path]:

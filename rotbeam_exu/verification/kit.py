@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Blade, Gravity, SpinUp
+from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
+from analytic.description import describe
 
 from .cases import CASES, VERSION, Asked, Case, starting_orbit
 from .judgement import THRESHOLDS
@@ -97,17 +98,23 @@ def kit_files() -> dict[str, bytes]:
 
 
 def row_of(case: Case) -> dict[str, Any]:
-    """Return the data of a case by the names in cases.csv; what it does not have is None."""
+    """Return the data of a case by the names in cases.csv; what it does not have is None.
+
+    Raises
+    ------
+    ValueError
+        If the case has what these names cannot say.
+    """
     blade = case.blade if isinstance(case.blade, Blade) else case.blade.blade
     ramp = case.motion.ramp_time if isinstance(case.motion, SpinUp) else None
-    return {
+    row = {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
         "L": blade.length,
-        "EA": blade.section.axial_stiffness,
-        "EI": blade.section.bending_stiffness,
-        "rhoA": blade.section.mass_per_length,
+        "EA": blade.axial_stiffness,
+        "EI": blade.bending_stiffness,
+        "rhoA": blade.mass_per_length,
         "hub_radius": blade.hub_radius,
         "tip_mass": float(sum(mass.mass for mass in blade.point_masses)),
         "bending_damping": blade.damping.bending,
@@ -117,6 +124,45 @@ def row_of(case: Case) -> dict[str, Any]:
         "duration": case.duration or None,
         "speeds": list(case.speeds),
         "amplitudes": list(case.amplitudes),
+    }
+    asked, said = _parts(blade, case.motion, case.loads), _parts(*_said(row))
+    lost = [name for name in sorted(asked | said) if asked.get(name) != said.get(name)]
+    if lost:
+        raise ValueError(
+            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
+            "row_of and to the problem, or leave it out of the case"
+        )
+    return row
+
+
+def _said(row: dict[str, Any]) -> tuple[Blade, SpinUp | SteadyRotation | None, tuple[Gravity, ...]]:
+    """Return what an author makes of a row."""
+    section = Section(
+        axial_stiffness=row["EA"], bending_stiffness=row["EI"], mass_per_length=row["rhoA"]
+    )
+    tip, omega, ramp = row["tip_mass"], row["omega"], row["T"]
+    blade = Blade(
+        length=row["L"],
+        section=section,
+        hub_radius=row["hub_radius"],
+        point_masses=(PointMass(position=row["L"], mass=tip),) if tip else (),
+        damping=Damping(bending=row["bending_damping"]),
+    )
+    steady = None if omega is None else SteadyRotation(omega=omega)
+    motion = SpinUp(omega=omega, ramp_time=ramp) if ramp else steady
+    return blade, motion, (Gravity(row["gravity"]),) if row["gravity"] else ()
+
+
+def _parts(blade: Blade, motion: Any, loads: Sequence[Any]) -> dict[str, Any]:
+    """Return all numbers by the names of where they stand, to be compared."""
+    told = describe(blade)
+    section, damping = told.pop("section"), told.pop("damping")
+    return {
+        **told,
+        **{f"section.{name}": value for name, value in section.items()},
+        **{f"damping.{name}": value for name, value in damping.items()},
+        "motion": motion,
+        "loads": tuple(loads),
     }
 
 

@@ -2,12 +2,11 @@
 
 import json
 import math
-from dataclasses import asdict
 
 import pytest
 
 from analytic import Beam, Blade, OutOfPlane, Section
-from analytic.blade import blade_from
+from analytic.description import describe, from_description
 
 UNIT = Blade(
     length=1.0,
@@ -39,7 +38,7 @@ def test_the_sections_with_the_a_and_i_of_the_paper(beam):
 
 def test_they_are_values_and_travel(beam):
     blade = beam.with_section_out_of_plane(0.01, math.inf, 0.0)
-    again = blade_from(json.loads(json.dumps(asdict(blade))))
+    again = from_description(json.loads(json.dumps(describe(blade))), Blade)
     assert again == blade
     assert hash(again) == hash(blade)
     assert again.section.out_of_plane.torsion_ratio == math.inf

@@ -18,7 +18,7 @@ def test_options_reach_the_element_and_the_file(tmp_path, capsys):
     run = load(next(tmp_path.glob("*.nc")))
     assert run.attrs["element"] == "ancf3"
     assert json.loads(run.attrs["element_options"]) == {
-        "law": "coupled", "poisson_ratio": 0.25, "shear_correction": 1.0,
+        "kind": "Ancf3", "law": "coupled", "poisson_ratio": 0.25, "shear_correction": 1.0,
     }  # fmt: skip
 
 

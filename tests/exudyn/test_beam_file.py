@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from analytic import Beam, Damping
 from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.verdict import beam_attributes, beam_of
 
 GOOD = """[beam]
 length = 8.0
@@ -75,6 +76,17 @@ def test_the_damping_of_a_blade_is_read(tmp_path):
     assert blade.damping == Damping(bending=1e-3, external=0.02)
     without = DAMPED.partition("[blade.damping]")[0]
     assert not load_beam(written(tmp_path / "blade.toml", without)).damping
+
+
+def test_no_rotary_inertia_is_other_than_none_told(tmp_path):
+    section = "mass_per_length = 0.2"
+    assert section in DAMPED
+    for told, found in (("", None), ("rotary_inertia = 0", 0.0), ("rotary_inertia = 1e-4", 1e-4)):
+        blade = load_beam(
+            written(tmp_path / "blade.toml", DAMPED.replace(section, f"{section}\n{told}"))
+        )
+        assert blade.section.rotary_inertia == found
+        assert beam_of(beam_attributes(blade)) == blade
 
 
 @pytest.mark.parametrize(

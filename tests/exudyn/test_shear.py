@@ -1,13 +1,15 @@
 """Reissner's beam in Exudyn and on paper: elements of the one converge to the other."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
-from analytic import Beam, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
+from analytic import Beam, SpinUp, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate
-from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.fem.elements import Ancf3, Exact
+from rotbeam_exu.verification.entries import theory_of
 from rotbeam_exu.verification.theory import Theory
 
 SHARE = (5.0 / 6.0) / 2.6
@@ -29,6 +31,45 @@ def test_frequencies_converge_with_the_fourth_power(blade, fitted_order):
     assert -fitted_order(meshes, np.abs(errors)) == pytest.approx(4.0, abs=0.1)
     assert abs(errors[-1]) < 1e-7
     assert exact < 0.996 * linear_modes(blade, 50.0, 1).frequencies[0]
+
+
+def with_rotary_inertia(told):
+    return replace(THICK.blade, section=replace(THICK.blade.section, rotary_inertia=told))
+
+
+HOMOGENEOUS = THICK.density * THICK.second_moment
+
+
+@pytest.mark.parametrize("model", [Exact(nodes=3), Ancf3()], ids=["exact", "ancf3"])
+@pytest.mark.parametrize(("told", "has"), [(None, HOMOGENEOUS), (0.0, 0.0), (0.02, 0.02)])
+def test_rotary_inertia_is_that_which_is_told(model, told, has):
+    """Zero is none, of elements as of theory; of what is not told elements have their own."""
+    theory = theory_of(model)
+    blades = with_rotary_inertia(told), with_rotary_inertia(has), with_rotary_inertia(0.05)
+    found, _, heavy = (natural_frequencies(one, 50.0, element=model, elements=32) for one in blades)
+    _, exact, exactly_heavy = (
+        linear_modes(one, 50.0, shear_share=theory.shear_share).frequencies for one in blades
+    )
+    # Shear of ancf3 is another's by 2e-3; what inertia takes, 7e-3 to 9e-2, is the same.
+    taken = 1.0 - exactly_heavy / exact
+    assert 1.0 - heavy / found == pytest.approx(taken, rel=6e-3)
+    assert theory.first_frequency(blades[0], 50.0) == pytest.approx(exact[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_sections_without_inertia_spin_up_as_the_theory_has_it(frame):
+    motion, stubby = SpinUp(omega=30.0, ramp_time=0.2), with_rotary_inertia(0.0)
+    run = simulate(
+        stubby, motion, element=Exact(nodes=3), elements=8, duration=0.3, step=5e-4, frame=frame
+    )
+    at = np.linspace(0.0, 0.3, 31)
+    q = np.interp(at, run["time"], run["q"])
+    bare, heavy = (
+        spin_up_response(blade, motion, at, tolerance=1e-5, shear_share=SHARE).q
+        for blade in (stubby, with_rotary_inertia(HOMOGENEOUS))
+    )
+    apart = np.abs(bare - heavy).max()
+    assert np.abs(q - bare).max() < 0.3 * apart
 
 
 def test_started_on_an_orbit_of_its_own_it_stays_there(beam):

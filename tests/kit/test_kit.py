@@ -3,17 +3,19 @@
 import csv
 import hashlib
 import json
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from analytic import Blade, PointMass, Section, SpinUp
+from analytic import Blade, Damping, Gravity, PointMass, Section, SmoothRamp, SpinUp, TipForce
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification import kit as room
 from rotbeam_exu.verification import problem_statement
 from rotbeam_exu.verification.cases import CASES, VERSION, Asked, starting_orbit
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
-from rotbeam_exu.verification.kit import MESHES, kit_files, write_kit
+from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission_files.reading import read_submission
@@ -80,6 +82,34 @@ def test_cases_can_be_made_again_from_their_rows(folder):
                 value = rows[row["id"]][key]
                 text = " ".join(map(str, value)) if isinstance(value, list) else str(value)
                 assert cell == ("" if value is None else text)
+
+
+S1 = CASES["S1"]
+FORCE = TipForce(amplitude=0.1, frequency=3.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "lost"),
+    [
+        ({"blade": S1.blade.with_point_mass(0.3, 4.0)}, "point_masses"),
+        ({"blade": S1.blade.with_tip_mass(0.3, 0.01)}, "point_masses"),
+        ({"blade": S1.blade.with_setting_angle(0.5 * math.pi)}, "setting_angle"),
+        ({"blade": S1.blade.with_damping(Damping(external=0.1))}, "damping.external"),
+        ({"blade": S1.blade.with_taper(0.1, 0.1)}, "section.axial_stiffness, section.bending_"),
+        ({"loads": (Gravity(2.0), FORCE)}, "loads"),
+        ({"motion": SmoothRamp(start=1.0, omega=6.0, ramp_time=3.0)}, "motion"),
+    ],
+)
+def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):
+    with pytest.raises(ValueError, match=f"cases.csv has no column for {lost}.* of case S1: add"):
+        row_of(replace(S1, **change))
+
+
+def test_a_case_that_it_can_say_is_whole():
+    blade = S1.blade.with_tip_mass(0.3).with_hub_radius(0.5).with_damping(Damping(bending=0.01))
+    row = row_of(replace(S1, blade=blade, loads=(Gravity(2.0),)))
+    said = row["tip_mass"], row["hub_radius"], row["bending_damping"], row["gravity"]
+    assert said == (0.3, 0.5, 0.01, 2.0)
 
 
 def test_drives_read_back_to_the_last_bit(folder):

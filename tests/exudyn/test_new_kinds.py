@@ -1,0 +1,291 @@
+"""A load, a motion and an element of one's own: a class each, here, and known everywhere."""
+
+import subprocess
+import sys
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from analytic import (
+    Beam,
+    Damping,
+    DistributedForce,
+    SmoothRamp,
+    SpeedRipple,
+    SpinUp,
+    SteadyRotation,
+    Table,
+    TipForce,
+    forced_response,
+    spin_up_response,
+)
+from analytic.description import describe, from_description
+from analytic.loads import HarmonicLoad, Load
+from analytic.motion import Motion, Rippled
+from analytic.ramps import SpeedChange
+from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate
+from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
+from rotbeam_exu.fem.case import Case
+from rotbeam_exu.fem.elements import Cable
+from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class TipPull(HarmonicLoad):
+    """A force on the tip along the undeformed blade, P cos νt."""
+
+    unit: ClassVar[str] = "N"
+    symbol: ClassVar[str] = "P"
+    called: ClassVar[str] = "a tip pull"
+    dimension: ClassVar[tuple[int, int, int]] = (1, 1, -2)
+    acts_on: ClassVar[str] = "tip"
+
+    def force(self, phase, angle, setting):
+        return self.amplitude * np.cos(phase) + 0j
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shake(HarmonicLoad):
+    """A clamp that is shaken across the blade, seen from the clamp: a force on all mass."""
+
+    unit: ClassVar[str] = "m/s²"
+    symbol: ClassVar[str] = "a"
+    called: ClassVar[str] = "a shake"
+    dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
+    acts_on: ClassVar[str] = "mass"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HalfSine(SpeedChange):
+    """A change of the speed whose acceleration is half a sine."""
+
+    omega: float
+    ramp_time: float
+    start: float = 0.0
+
+    @property
+    def shortest_wave(self):
+        return 2.0 * self.ramp_time
+
+    def _within(self, t, derivative):
+        half, phase = 0.5 * (self.omega - self.start), np.pi * np.asarray(t) / self.ramp_time
+        if derivative == 2:
+            return np.pi / self.ramp_time * half * np.sin(phase)
+        if derivative == 1:
+            return self.start + half * (1.0 - np.cos(phase))
+        return self.start * t + half * (t - self.ramp_time / np.pi * np.sin(phase))
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoftCable(Cable):
+    """A cable of a softer material, that says nothing of its name."""
+
+    share: float = 0.5
+
+    def lay(self, mbs, beam, elements):
+        soft = replace(beam, youngs_modulus=self.share * beam.youngs_modulus)
+        return super().lay(mbs, soft, elements)
+
+
+MOTION = HalfSine(omega=4.0, ramp_time=2.0)
+PULL = TipPull(amplitude=20.0, frequency=0.0)
+
+
+@pytest.fixture(autouse=True)
+def without_display(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    yield
+    plt.close("all")
+
+
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+def test_exudyn_and_theory_agree_on_them(beam, frame):
+    time = np.linspace(0.0, 3.0, 61)
+    loads = [PULL, TipForce(amplitude=1.0, frequency=3.0)]
+    run = simulate(beam, MOTION, elements=6, duration=3.0, step=4e-3, frame=frame, loads=loads)
+    q = np.interp(time, run["time"], run["q"])
+    exact, free = (
+        spin_up_response(beam, MOTION, time, tolerance=1e-4, loads=acting).q
+        for acting in (loads, loads[1:])
+    )
+    largest = np.abs(exact).max()
+    # Six cables at 4 ms.
+    assert q == pytest.approx(exact, abs=2e-3 * largest)
+    assert np.abs(exact - free).max() > 0.1 * largest, "the pull stiffens the blade"
+
+
+def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):
+    blade = Beam.reference().with_damping(Damping(external=0.1))
+    # On a uniform blade a force per mass is one per length.
+    push = DistributedForce(amplitude=0.5 * blade.mass_per_length)
+    mine, theirs = (
+        forced_response(blade, 6.0, one, [3.6, 3.7, 3.8], functions=8)
+        for one in (Shake(amplitude=0.5), push)
+    )
+    assert mine.amplitude[mine.at(3.7)] == pytest.approx(theirs.amplitude[theirs.at(3.7)], rel=1e-9)
+    data = load(save(comparison.forced_response(mine), tmp_path / "shaken.nc"))
+    assert (data.attrs["load"], data.attrs["load_size"]) == ("Shake", 0.5)
+    names = [text.get_text() for text in figures.forced_response(data).get_legend().get_texts()]
+    assert names[0] == "a = 0.5 m/s², $d$ = 0.1 kg/(m s)"
+    assert mine.plot().get_legend().get_texts()[0].get_text() == "a shake of 0.5 m/s²"
+
+
+def test_a_new_load_is_an_option_of_the_command(tmp_path):
+    code = f"""
+import sys
+sys.path.insert(0, {str(__file__.rpartition("/")[0])!r})
+import test_new_kinds
+from rotbeam_exu.cli import main
+main(["respond", "--omega", "6", "--shake", "0.5", "--external-damping", "0.1", "--from", "3.6",
+      "--to", "3.8", "--points", "2", "--functions", "8", "--no-figure", "--out", sys.argv[1]])
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "Response to a shake of 0.5 m/s²" in " ".join(done.stdout.split())
+    assert (tmp_path / "response-omega-6-shake-0.5-from-3.6-to-3.8.nc").exists()
+
+
+def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
+    model = SoftCable(share=0.25)
+    run = simulate(
+        beam, MOTION, element=model, elements=2, duration=2.5, step=5e-3, loads=[PULL]
+    )  # fmt: skip
+    attrs = load(save(run, tmp_path / "run.nc")).attrs
+    again = Case.described(attrs)
+    assert (again.spin_up, again.loads, again.model) == (MOTION, (PULL,), model)
+    assert motion_of(attrs) == MOTION
+    assert loads_of(attrs) == (PULL,)
+    # It is the soft one, though it has the cable's name.
+    soft, cable = (
+        natural_frequencies(beam, 0.0, element=one, elements=4)[0] for one in (again.model, "cable")
+    )
+    assert soft == pytest.approx(0.5 * cable, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        MOTION,
+        SmoothRamp(start=1.0, omega=2.0, ramp_time=2.0, cosines=(-1.2, 0.2)),
+        Table([0.0, 1.0, 2.0], [0.5, 1.0, 2.0]),
+        SpinUp(omega=2.0, ramp_time=2.0),
+    ],
+    ids=lambda motion: type(motion).__name__,
+)
+def test_an_exact_spin_up_says_what_drove_it(beam, motion, tmp_path):
+    ripple = SpeedRipple(amplitude=0.2, frequency=5.0)
+    time = np.linspace(0.0, 2.5, 6)
+    response = spin_up_response(
+        beam, motion, time, tolerance=1e-3, loads=[ripple], rotary_inertia=True
+    )
+    data = load(save(exact_spin_up(response), tmp_path / "exact.nc"))
+    assert motion_of(data.attrs) == motion
+    assert loads_of(data.attrs) == (ripple,)
+    assert data.attrs["rotary_inertia"] == 1
+    assert data["angle"].to_numpy() == pytest.approx(
+        motion.angle(time) + 0.04 * np.sin(5.0 * time), abs=1e-12
+    )
+
+
+def test_a_rotation_with_a_ripple_is_no_other():
+    motion = Rippled(rotation=Table([0.0, 1.0], [0.0, 2.0]), amplitude=0.1, frequency=3.0)
+    assert from_description(describe(motion), Motion) == motion
+    assert motion_of({**motion_attributes(motion), "omega": 2.0, "ramp_time": 1.0}) == motion
+
+
+class Quick(SpinUp):
+    """A ramp that is no dataclass of its own, and so looks like Eq. 1."""
+
+    def rate(self, t):
+        return 2.0 * super().rate(t)
+
+
+@dataclass(frozen=True)
+class Listed(SpeedChange):
+    """A ramp with a field that no file can hold."""
+
+    speeds: object
+    omega: float = 2.0
+    ramp_time: float = 1.0
+    start: float = 0.0
+    shortest_wave: float = 1.0
+
+    def _within(self, t, derivative):
+        return np.interp(t, [0.0, 1.0], self.speeds)
+
+
+class Foreign:
+    """A motion that inherits from nothing here."""
+
+    omega, ramp_time, start, shortest_wave = 2.0, 1.0, 0.0, 1.0
+
+
+class Heavy(Beam):
+    """A beam with a mass that its fields do not tell."""
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"spin_up": Quick(omega=2.0, ramp_time=1.0)}, "Quick be a frozen dataclass that inherits"),
+        ({"spin_up": Listed(np.array([0.0, 2.0]))}, "the fields of .*Listed be numbers, text"),
+        ({"spin_up": Foreign()}, "spin_up must be a SpinUp, a SmoothRamp, a Table, another Speed"),
+        (
+            {"spin_up": Rippled(rotation=SteadyRotation(omega=1.0), amplitude=1.0, frequency=1.0)},
+            "a ripple of it is one of the loads",
+        ),
+        ({"beam": Heavy(**vars(Beam.reference()))}, "Heavy be a frozen dataclass that inherits"),
+    ],
+)
+def test_what_is_not_known_is_refused_before_it_is_computed(beam, change, sentence):
+    given = {"beam": beam, "spin_up": MOTION, **change}
+    with pytest.raises(TypeError, match=sentence):
+        simulate(**given, elements=2, duration=2.5, step=1e-2)
+
+
+def test_what_is_not_known_is_not_recorded_as_another():
+    for motion in (Quick(omega=2.0, ramp_time=1.0), Foreign()):
+        with pytest.raises(TypeError, match="no file can hold"):
+            motion_attributes(motion)
+    with pytest.raises(TypeError, match="no file can hold"):
+        beam_attributes(Heavy(**vars(Beam.reference())))
+
+
+def test_what_a_file_tells_of_and_nobody_defined_is_refused():
+    told = describe(MOTION)
+    with pytest.raises(ValueError, match="'Unheard' is no known Motion: import the module that"):
+        from_description({**told, "kind": "Unheard"}, Motion)
+    with pytest.raises(ValueError, match="'HalfSine' is no known Load"):
+        from_description(told, Load)
+    with pytest.raises(ValueError, match="this is no HalfSine as .*test_new_kinds.HalfSine def"):
+        from_description({**told, "jerk": 1.0}, Motion)
+
+
+def test_two_kinds_cannot_have_one_name():
+    with pytest.raises(TypeError, match="files know analytic.ramps.Table by the name Table: give"):
+
+        class Table(SpeedChange):
+            """Another table."""
+
+    one, two = (type("Again", (SpeedChange,), {"__module__": "cell"}) for _ in range(2))
+    assert one is not two, "a notebook's cell may run again"
+
+
+@pytest.mark.parametrize(
+    "blade",
+    [
+        Beam.reference(),
+        Beam.reference().rectangle().with_tip_mass(0.1, 0.2).with_damping(Damping(axial=1e-3)),
+        replace(Beam.reference().blade, setting_angle=1.0),
+        Beam.reference().with_section_out_of_plane(1.0, np.inf),
+    ],
+    ids=["beam", "blade", "set", "stiff"],
+)
+def test_blades_are_read_back(blade):
+    assert beam_of(beam_attributes(blade)) == blade
+    assert from_description(describe(blade), type(blade)) == blade
