@@ -19,7 +19,9 @@ from analytic import (
     SteadyRotation,
     Table,
     TipForce,
+    exact_residual,
     forced_response,
+    residual_amplitude,
     spin_up_response,
 )
 from analytic.description import describe, from_description
@@ -117,6 +119,12 @@ def test_exudyn_and_theory_agree_on_them(beam, frame):
     assert np.abs(exact - free).max() > 0.1 * largest, "the pull stiffens the blade"
 
 
+def test_what_a_new_ramp_leaves_is_known(beam):
+    ramp = HalfSine(omega=2.0, ramp_time=4.0)
+    # In closed form, linear, and exact: 0.05 of the length is hardly nonlinear.
+    assert residual_amplitude(beam, ramp) == pytest.approx(exact_residual(beam, ramp), rel=5e-3)
+
+
 def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):
     blade = Beam.reference().with_damping(Damping(external=0.1))
     # On a uniform blade a force per mass is one per length.
@@ -152,9 +160,7 @@ main(["respond", "--omega", "6", "--shake", "0.5", "--external-damping", "0.1", 
 
 def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
     model = SoftCable(share=0.25)
-    run = simulate(
-        beam, MOTION, element=model, elements=2, duration=2.5, step=5e-3, loads=[PULL]
-    )  # fmt: skip
+    run = simulate(beam, MOTION, element=model, elements=2, duration=2.5, step=5e-3, loads=[PULL])
     attrs = load(save(run, tmp_path / "run.nc")).attrs
     again = Case.described(attrs)
     assert (again.spin_up, again.loads, again.model) == (MOTION, (PULL,), model)

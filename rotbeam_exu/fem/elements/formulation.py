@@ -47,8 +47,9 @@ class Chain:
 class Formulation(Protocol):
     """A planar beam element: its chain, its clamp and what its coordinates mean.
 
-    A formulation is a frozen dataclass whose fields are its options, so that name and options say
-    how to make it again. The coordinates of a node are those that Exudyn integrates, reference
+    A formulation is a frozen dataclass whose fields are its options, and inherits from
+    `analytic.description.Described`, as kinds of nodes do: its class and its options say how to
+    make it again. The coordinates of a node are those that Exudyn integrates, reference
     values included, here as arrays of shape (..., nodes, n). A rotation by θ takes them, and
     mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
     a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``, and by
