@@ -93,7 +93,10 @@ def figure_15(
             "omega": omega,
             "ramp_time": ramp_time,
             "amplitude": steady.amplitude,
-            **{name: run.attrs[name] for name in ("elements", "element", "step", "frame")},
+            **{
+                name: run.attrs[name]
+                for name in ("elements", "element", "element_options", "step", "frame")
+            },
             **beam_attributes(beam),
         },
     )

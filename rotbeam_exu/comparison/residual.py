@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 
@@ -17,6 +18,7 @@ from analytic import (
     quiet_ramp_times,
     residual_amplitude,
 )
+from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
 from ..fem.elements import Formulation
@@ -119,9 +121,15 @@ def residual(
         **beam_attributes(blade),
         omega=omega,
         longest=longest,
-        element=element if isinstance(element, str) else element.name,
+        **_named(element),
         elements=elements,
     )
+
+
+def _named(element: str | Formulation) -> dict[str, str]:
+    if isinstance(element, str):
+        return {"element": element}
+    return {"element": element.name, "element_options": json.dumps(describe(element))}
 
 
 def _dataset(values: dict[str, tuple[str, object, str]], times: tuple[object, ...]) -> xr.Dataset:

@@ -12,7 +12,7 @@ from analytic import Beam, SpinUp
 
 from ..fem.simulation import simulate
 from ..oscillation import steady_oscillation
-from ..verdict import beam_attributes
+from ..verdict import beam_attributes, motion_attributes
 
 
 def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:
@@ -56,9 +56,9 @@ def figure_3(
     data["elements"] = ("elements", list(meshes), {"units": "1", "long_name": "elements"})
     data.attrs = {
         **beam_attributes(beam),
-        **{
-            name: runs[0].attrs[name] for name in ("omega", "ramp_time", "element", "step", "frame")
-        },
+        **{name: runs[0].attrs[name] for name in ("omega", "ramp_time")},
+        **motion_attributes(spin_up),
+        **{name: runs[0].attrs[name] for name in ("element", "element_options", "step", "frame")},
     }
     return data
 
@@ -107,7 +107,10 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
         data[name] = ("case", values, {"units": unit, "long_name": long_name})
     data.attrs = {
         **beam_attributes(beam),
-        **{name: run.attrs[name] for name in ("element", "elements", "step", "frame")},
+        **{
+            name: run.attrs[name]
+            for name in ("element", "element_options", "elements", "step", "frame")
+        },
     }
     return data
 

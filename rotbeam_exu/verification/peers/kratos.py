@@ -14,7 +14,6 @@ import time as clock
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,7 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
 from ...resolution import require_resolved_ramp, sampling
-from ...verdict import SimulationError, beam_attributes
+from ...verdict import SimulationError, beam_attributes, motion_attributes
 
 
 def simulate(
@@ -105,7 +104,9 @@ def simulate(
     run = _dataset(time, q, q_dot)
     run.attrs = {
         **beam_attributes(beam),
-        **asdict(spin_up),
+        "omega": spin_up.omega,
+        "ramp_time": spin_up.ramp_time,
+        **motion_attributes(spin_up),
         "element": "kratos",
         "elements": elements,
         "duration": duration,
