@@ -80,9 +80,8 @@ def from_description(told: Mapping[str, Any], family: type[ValueT]) -> ValueT:
     kind = told.get(_KIND)
     cls = kinds_of(family).get(str(kind))
     if cls is None:
-        raise ValueError(
-            f"{kind!r} is no known {family.__name__}: import the module that defines it"
-        )
+        sort = "kind" if family is Described else family.__name__
+        raise ValueError(f"{kind!r} is no known {sort}: import the module that defines it")
     given = {name: _value(part) for name, part in told.items() if name != _KIND}
     try:
         return cls(**given)

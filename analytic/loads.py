@@ -149,7 +149,10 @@ class Load(Described, abstract=True):
 
 @dataclass(frozen=True, kw_only=True)
 class HarmonicLoad(Load, abstract=True):
-    """What acts at one frequency, as the cosine; unless a kind says otherwise, across the blade."""
+    """Load of one frequency, as the cosine; unless a kind says otherwise, across the blade.
+
+    Its force goes by the phase alone, not by the angle.
+    """
 
     amplitude: float
     frequency: float | None = None

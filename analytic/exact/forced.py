@@ -75,6 +75,8 @@ def forced_response(
     if isinstance(load, Gravity):
         raise TypeError("gravity goes around once a turn, at ω itself: take gravity_response")
     unit = unit_load(beam, load)
+    if not isinstance(load, HarmonicLoad):
+        raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "

@@ -91,8 +91,9 @@ class DrivenBeam(BeamCoordinates):
         """Return w, ẇ and the push at the phases."""
         load = self.load
         rate = self.speed(parameter) + load.rate(phase)
-        # The phase is the angle too under gravity; no harmonic load knows the angle.
-        return rate, load.acceleration(phase, parameter), pushes(self.model, [(load, phase)], phase)
+        # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
+        angle = phase if self.rate is None else np.full_like(phase, np.nan)
+        return rate, load.acceleration(phase, parameter), pushes(self.model, [(load, phase)], angle)
 
     def residual(
         self,

@@ -130,11 +130,11 @@ def test_what_cannot_be_repeated_is_refused(call, tmp_path, config):
     code, _, error = call("run", "--from", tmp_path / "moving.nc")
     assert code == 2
     assert "did not start at rest" in error
-    del from_state.attrs["element"]
+    del from_state.attrs["element_options"]
     save(from_state, tmp_path / "anything.nc")
     code, _, error = call("run", "--from", tmp_path / "anything.nc")
     assert code == 2
-    assert "is not of a run: it has no 'element'" in error
+    assert "is not of a run: it has no 'element_options'" in error
     code, _, error = call("run", "--from", tmp_path / "moving.nc", "--omega", "6")
     assert code == 2
     assert "repeats a run exactly" in error

@@ -29,10 +29,12 @@ from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled
 from analytic.ramps import SpeedChange
-from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate
+from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate, simulate_3d
+from rotbeam_exu.cli.repeat import recorded_case
 from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable
+from rotbeam_exu.fem.space.elements import SpaceCable
 from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
 
 
@@ -140,6 +142,46 @@ def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):
     names = [text.get_text() for text in figures.forced_response(data).get_legend().get_texts()]
     assert names[0] == "a = 0.5 m/s², $d$ = 0.1 kg/(m s)"
     assert mine.plot().get_legend().get_texts()[0].get_text() == "a shake of 0.5 m/s²"
+
+
+@dataclass(frozen=True)
+class Wind(Load):
+    """A wind that blows in one direction, whatever the angle, and has no frequency."""
+
+    pressure: float
+
+    unit: ClassVar[str] = "N/m"
+    symbol: ClassVar[str] = "p"
+    called: ClassVar[str] = "a wind"
+    dimension: ClassVar[tuple[int, int, int]] = (0, 1, -2)
+    acts_on: ClassVar[str] = "length"
+
+    def force(self, phase, angle, setting):
+        return self.pressure * np.exp(-1j * angle)
+
+
+def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(beam):
+    wind, time = Wind(0.5), np.linspace(0.0, 3.0, 31)
+    run = simulate(beam, MOTION, elements=8, duration=3.0, step=4e-3, loads=[wind])
+    exact, calm = (
+        spin_up_response(beam, MOTION, time, tolerance=1e-4, loads=acting).q
+        for acting in ([wind], [])
+    )
+    # Eight cables at 4 ms.
+    largest = np.abs(exact).max()
+    assert np.interp(time, run["time"], run["q"]) == pytest.approx(exact, abs=2e-3 * largest)
+    assert np.abs(exact - calm).max() > 0.1 * largest
+    with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
+        forced_response(beam, 6.0, wind, [3.6, 3.7])
+
+
+def test_a_run_in_space_is_not_repeated_in_the_plane(tmp_path):
+    tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
+    run = simulate_3d(tube, MOTION, element="cable", elements=2, duration=2.5, step=5e-3, kick=0.0)
+    path = save(run, tmp_path / "space.nc")
+    assert type(Case.described(load(path).attrs).model) is SpaceCable
+    with pytest.raises(ValueError, match="is of a run in space, which only simulate_3d repeats"):
+        recorded_case(path)
 
 
 def test_a_new_load_is_an_option_of_the_command(tmp_path):
