@@ -13,7 +13,7 @@ from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, Forc
 from analytic.loads import UNDAMPED, HarmonicLoad
 
 from ..fem.simulation import versions
-from ..verdict import beam_attributes
+from ..verdict import beam_attributes, loads_attributes
 
 
 def forced_response(response: ForcedResponse) -> xr.Dataset:
@@ -83,6 +83,7 @@ def response_inputs(
     return {
         **beam_attributes(beam),
         **{f"damping_{name}": value for name, value in asdict(damping).items()},
+        **loads_attributes([load]),
         "load": type(load).__name__,
         "load_size": load.size,
         "load_symbol": load.symbol,

@@ -35,6 +35,7 @@ from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.space.elements import SpaceCable
+from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
 
 
@@ -138,7 +139,10 @@ def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):
     )
     assert mine.amplitude[mine.at(3.7)] == pytest.approx(theirs.amplitude[theirs.at(3.7)], rel=1e-9)
     data = load(save(comparison.forced_response(mine), tmp_path / "shaken.nc"))
-    assert (data.attrs["load"], data.attrs["load_size"]) == ("Shake", 0.5)
+    assert loads_of(data.attrs) == (mine.load,)
+    assert list(differing_inputs(comparison.forced_response(theirs), tmp_path / "shaken.nc")) == [
+        "load", "load_size", "load_symbol", "load_unit", "loads"
+    ]  # fmt: skip
     names = [text.get_text() for text in figures.forced_response(data).get_legend().get_texts()]
     assert names[0] == "a = 0.5 m/s², $d$ = 0.1 kg/(m s)"
     assert mine.plot().get_legend().get_texts()[0].get_text() == "a shake of 0.5 m/s²"
@@ -243,6 +247,11 @@ def test_an_exact_spin_up_says_what_drove_it(beam, motion, tmp_path):
     data = load(save(exact_spin_up(response), tmp_path / "exact.nc"))
     assert motion_of(data.attrs) == motion
     assert loads_of(data.attrs) == (ripple,)
+    # One of Eq. 1, between the same speeds in the same time, is another one.
+    other = SpinUp(omega=motion.omega, ramp_time=2.0)
+    like = exact_spin_up(replace(response, spin_up=other))
+    named = differing_inputs(like, tmp_path / "exact.nc").keys() & {"motion", "loads", "omega"}
+    assert named == (set() if motion == other else {"motion"})
     assert data.attrs["rotary_inertia"] == 1
     assert data["angle"].to_numpy() == pytest.approx(
         motion.angle(time) + 0.04 * np.sin(5.0 * time), abs=1e-12
