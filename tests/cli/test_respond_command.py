@@ -98,7 +98,7 @@ def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("--omega", "6"), "--distributed-force or --gravity, got none"),
+        (("--omega", "6"), "--distributed-force.* or --gravity, got none"),
         (("--gravity", "--ripple", "0.1"), "give one load, .* got --ripple and --gravity"),
         (("--omega", "6", "--tip-force", "0"), "--tip-force 0 is no load"),
         (("--tip-force", "1", "--damping-ratio", "0.1"), "rotation speed in rad/s with --omega"),
