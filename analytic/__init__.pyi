@@ -1,6 +1,7 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
+from .damping import Damping as Damping
 from .exact.backbone import Backbone as Backbone
 from .exact.backbone_map import BackboneMap as BackboneMap
 from .exact.backbone_map import backbone_map as backbone_map
@@ -34,7 +35,6 @@ from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
 from .input_checks import RotbeamWarning as RotbeamWarning
-from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
 from .loads import SpeedRipple as SpeedRipple

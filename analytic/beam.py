@@ -7,9 +7,9 @@ import warnings
 from dataclasses import dataclass, fields
 
 from .blade import Blade
+from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import RotbeamWarning, positive
-from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade

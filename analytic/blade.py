@@ -17,9 +17,9 @@ import numpy as np
 from scipy.linalg import eigh
 
 from .arrays import FloatArray
+from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
-from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units

@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
-from analytic.loads import UNDAMPED, HarmonicLoad
+from analytic.damping import UNDAMPED
+from analytic.loads import HarmonicLoad
 
 from ..fem.simulation import versions
 from ..verdict import beam_attributes, loads_attributes

@@ -10,7 +10,7 @@ import numpy as np
 
 from analytic import AnyBlade, Blade, Damping, PointMass
 from analytic.arrays import FloatArray
-from analytic.loads import UNDAMPED
+from analytic.damping import UNDAMPED
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
 

@@ -16,7 +16,7 @@ FLOORS = {
     "analytic": [
         {"arrays", "description"},
         {"input_checks", "quadrature", "methods", "plotting"},
-        {"profiles", "motion", "out_of_plane", "point_mass"},
+        {"profiles", "motion", "damping", "out_of_plane", "point_mass"},
         {"unit_blade", "section", "loads", "ramps"},
         {"blade"},
         {"beam"},
