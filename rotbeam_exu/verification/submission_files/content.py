@@ -16,18 +16,18 @@ from .faults import Faults
 LARGEST = 100_000_000
 """Bytes of a file that is read; a history of a million samples has less."""
 
-LARGEST_TOML = 64_000
+LARGEST_TOML = 32_000
 """Bytes of entry.toml and run.toml."""
 
-_OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
+OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
 _FLAGS = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
 """No link is followed, and a pipe that nobody writes to is not waited for."""
 
 
-def outside(folder: Path, file: str) -> str:
-    """Return the sentence on a file or folder that links lead out to, or nothing."""
-    root = os.path.realpath(folder)
-    return "" if Path(os.path.realpath(folder / file)).is_relative_to(root) else _OUTSIDE
+def below(folder: Path, file: str) -> Path | None:
+    """Return the place below the folder to which links lead; None where they lead out."""
+    root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
+    return real.relative_to(root) if real.is_relative_to(root) else None
 
 
 def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
@@ -40,12 +40,13 @@ def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
     OSError
         If it cannot be read.
     """
-    if said := outside(folder, file):
-        raise ValueError(said)
+    place = below(folder, file)
+    if place is None:
+        raise ValueError(OUTSIDE)
     if (folder / file).is_dir():
         raise ValueError("is a folder: put a file in its place")
     with ExitStack() as opened:
-        handle = _opened(folder, file, opened)
+        handle = _opened(folder, place, opened)
         if not stat.S_ISREG(os.fstat(handle).st_mode):
             raise ValueError("is no regular file but a pipe or a device: put a file in its place")
         content = opened.enter_context(os.fdopen(handle, "rb", closefd=False)).read(largest + 1)
@@ -56,14 +57,13 @@ def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
     return content
 
 
-def _opened(folder: Path, file: str, opened: ExitStack) -> int:
-    """Return the handle of what links lead to, step by step, so that none is put in the way."""
-    root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
-    parts: tuple[str, ...] = (root, *real.relative_to(root).parts)
+def _opened(folder: Path, place: Path, opened: ExitStack) -> int:
+    """Return the handle of a file, opened step by step: no link is put in the way meanwhile."""
+    root = os.path.realpath(folder)
     if os.open not in os.supports_dir_fd:  # Windows, where pipes are no files and links are rare
-        parts = (str(real),)
+        root, place = str(Path(root, place)), Path()
     handle: int | None = None
-    for part in parts:
+    for part in (root, *place.parts):
         handle = os.open(part, _FLAGS, dir_fd=handle)
         opened.callback(os.close, handle)
     assert handle is not None

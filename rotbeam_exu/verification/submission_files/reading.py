@@ -13,7 +13,7 @@ import numpy as np
 from ..cases import CASES, Asked, Case
 from ..submission import BackbonePoint, Frequency, Run, Submission
 from . import entry, runs
-from .content import content_of, outside
+from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError
 from .histories import history_of
 from .points import backbone_of, frequencies_of
@@ -129,7 +129,7 @@ def _histories(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[R
 
 def _found_histories(root: Path, cases: Mapping[str, Case]) -> Iterator[str]:
     for name, case in cases.items():
-        if case.asked is Asked.HISTORY and not outside(root, name) and (root / name).is_dir():
+        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir():
             for path in sorted((root / name).glob("*.csv")):
                 yield f"{name}/{_printable(path.name)}"
 
@@ -142,9 +142,9 @@ def _strangers(root: Path, cases: Mapping[str, Case], faults: Faults) -> None:
     tables = (*_tables(cases), runs.FILE)
     for path in sorted(root.iterdir()):
         name = _printable(path.name)
-        if said := outside(root, path.name):
+        if below(root, path.name) is None:
             if path.name in cases:
-                faults.add(name, said)
+                faults.add(name, OUTSIDE)
         elif path.is_dir() and path.name not in cases and any(path.glob("m*_h*.csv")):
             faults.add(name, f"is the folder of no case; {_near(name, tuple(cases))}")
         elif path.suffix.lower() == ".csv" and path.name not in tables:
