@@ -24,7 +24,7 @@ def in_time():
     """Nothing here takes more than a few seconds; a pipe would be waited for without end."""
 
     def late(*_):
-        raise TimeoutError("the judge hangs")
+        pytest.fail("the judge hangs")
 
     former = signal.signal(signal.SIGALRM, late)
     signal.alarm(60)

@@ -93,7 +93,7 @@ def simulate_3d(
     if abs(kick) > _LARGEST_KICK:
         raise ValueError(
             f"kick must be at most {_LARGEST_KICK:g} of the length, got {kick:g}: it is to be "
-            f"small, {_SMALL_KICK:g} say"
+            "small, 1e-6 say"
         )
     case = Case(
         beam=blade, spin_up=motion, element=model, elements=elements, duration=duration,
@@ -108,9 +108,7 @@ def simulate_3d(
     except SimulationError as error:
         if error.run is None or error.run["time"].size > 1 or abs(kick) <= _SMALL_KICK:
             raise
-        told = SimulationError(
-            f"{error}, or kick={_SMALL_KICK:g}: {kick:g} is much for so slender a blade"
-        )
+        told = SimulationError(f"{error}, or kick=1e-6: {kick:g} is much for so slender a blade")
         told.run = error.run.assign_attrs(verdict=str(told), kick=kick)
         raise told from error
     return run.assign_attrs(kick=kick)
