@@ -8,6 +8,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 
 import cyclopts
 
@@ -15,8 +16,9 @@ from analytic.input_checks import RotbeamWarning
 
 from .. import __version__
 from .documented import documented, epilogue
+from .endings import sentence_on, stopped_as_by_ctrl_c
 from .messages import Messages
-from .output import spell_what_cannot_be_encoded
+from .output import ready_streams
 
 app = cyclopts.App(
     name="rotbeam",
@@ -48,15 +50,16 @@ _SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; bad input is one sentence and exit code 2, a failed run is 1."""
     arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
-    spell_what_cannot_be_encoded()
+    ready_streams()
     messages = Messages()
 
     def stop(text: str, code: int) -> None:
-        messages.count()
-        messages.say("rotbeam:", "red", text)
-        sys.exit(code)
+        with suppress(OSError):  # of a terminal that is closed
+            messages.count()
+            messages.say("rotbeam:", "red", text)
+        sys.exit(128 + met[0] if met else code)
 
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), stopped_as_by_ctrl_c() as met:
         warnings.simplefilter("always", RotbeamWarning)
         warnings.showwarning = messages.warn  # type: ignore[assignment]
         try:
@@ -73,7 +76,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
             stop(_missing(error), 2)
         except OverflowError as error:
             stop(f"a number is too large to compute with ({error})", 2)
-        except (cyclopts.CycloptsError, ValueError, TypeError, OSError, ImportError) as error:
+        except OSError as error:
+            stop(sentence_on(error), 2)
+        except (cyclopts.CycloptsError, ValueError, TypeError, ImportError) as error:
             stop(str(error), 2)
         except MemoryError as error:
             stop(f"there is not enough memory ({error}): take fewer or shorter", 1)

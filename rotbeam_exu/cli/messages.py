@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from rich.text import Text
 
-from .output import new_console, print_text
+from .output import harmless, new_console, print_text
 
 _LONGEST = 60
 """Letters of a sentence that are repeated to say which one it was."""
@@ -38,7 +38,9 @@ class Messages:
 
     def say(self, title: str, style: str, text: str) -> None:
         """Print a sentence in one line after its title."""
-        print_text(self._console, Text.assemble((title, style), " ", " ".join(text.split())))
+        print_text(
+            self._console, Text.assemble((title, style), " ", harmless(" ".join(text.split())))
+        )
 
     def warn(self, message: Warning | str, *_: object) -> None:
         """Print a warning, or count it: what `warnings.showwarning` takes."""

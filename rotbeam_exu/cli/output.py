@@ -6,6 +6,7 @@ import codecs
 import csv
 import io
 import math
+import os
 import sys
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
@@ -48,16 +49,40 @@ _SPELLED = {
     "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
     "–": "-", "·": "*", "√": "sqrt ",
 }  # fmt: skip
+_CONTROL = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+"""Categories of letters that steer a terminal, or the direction in which it writes."""
+
 _NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
+
+
+class _Console(Console):
+    """A console on which text from files does nothing but stand there."""
+
+    def render_str(self, text: str, *rest: Any, **options: Any) -> Text:
+        return super().render_str(harmless(text), *rest, **options)
 
 
 def new_console(*, stderr: bool = False) -> Console:
     """Return a console that prints text as it is: no [markup], no :emoji:, no line broken."""
-    return Console(stderr=stderr, highlight=False, soft_wrap=True, markup=False, emoji=False)
+    return _Console(stderr=stderr, highlight=False, soft_wrap=True, markup=False, emoji=False)
 
 
-def spell_what_cannot_be_encoded() -> None:
-    """Let standard output and error spell a letter they cannot encode, as omega for ω."""
+def harmless(text: str) -> str:
+    """Return a text, its control letters spelled as in Python: a terminal would obey them."""
+    return "".join(
+        repr(letter)[1:-1]
+        if unicodedata.category(letter) in _CONTROL and letter not in "\n\t"
+        else letter
+        for letter in text
+    )
+
+
+def ready_streams() -> None:
+    """Let standard output and error be there, and spell what they cannot encode, omega for ω."""
+    # Closed ones, as by >&-, are None; a new file takes their number, which no other then gets.
+    nowhere = Path(os.devnull)
+    sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
+    sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
     codecs.register_error("spelled", _spell)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -186,7 +211,7 @@ def _is_number(text: str) -> bool:
 
 def _encodable(text: str, console: Console) -> str:
     codecs.register_error("spelled", _spell)
-    return text.encode(console.encoding, "spelled").decode(console.encoding)
+    return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
 
 
 def _longest_word(text: str) -> int:

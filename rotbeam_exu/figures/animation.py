@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,6 +21,17 @@ from .moving_beam import CLAMP, REACH, MovingBeam, Response, between, scale_bar,
 from .style import STYLE, new_figure
 
 _DPI = 100
+
+
+class _Gif(PillowWriter):
+    """A GIF, not begun where drawing stops: matplotlib's fails of no picture, hiding why."""
+
+    @contextmanager
+    def saving(self, *arguments: Any, **options: Any) -> Iterator[PillowWriter]:
+        self.setup(*arguments, **options)
+        with mpl.rc_context({"savefig.bbox": None}):  # as matplotlib has it
+            yield self
+        self.finish()
 
 
 class _Scene(NamedTuple):
@@ -133,7 +145,7 @@ def save_animation(
     check_format(path)
     animation = animate(response, beside=beside, rate=rate)
     interval = float(response.time[1] - response.time[0])
-    writer_class = PillowWriter if path.suffix == ".gif" else FFMpegWriter
+    writer_class = _Gif if path.suffix == ".gif" else FFMpegWriter
     writer = writer_class(fps=rate or 1.0 / interval)  # type: ignore[arg-type]
     try:
         animation.save(

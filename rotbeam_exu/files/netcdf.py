@@ -52,18 +52,27 @@ def encode(data: xr.Dataset) -> bytes:
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Let Ctrl-C wait: h5netcdf, interrupted, leaves half a file that cannot be closed."""
+    """Let Ctrl-C and the like wait: h5netcdf, interrupted, leaves a file that cannot be closed."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     held: list[tuple[int, FrameType | None]] = []
-    former = signal.signal(signal.SIGINT, lambda *arguments: held.append(arguments))
+    numbers = [
+        signal.SIGINT,
+        signal.SIGTERM,
+        *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []),
+    ]
+    found = {number: signal.getsignal(number) for number in numbers}
+    former = {number: handler for number, handler in found.items() if callable(handler)}
+    for number in former:
+        signal.signal(number, lambda *arguments: held.append(arguments))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, former)
-    if held and callable(former):
-        former(*held[-1])
+        for number, handler in former.items():
+            signal.signal(number, handler)
+    for arguments in held[-1:]:
+        former[signal.Signals(arguments[0])](*arguments)
 
 
 def decode(raw: bytes) -> tuple[xr.Dataset, bool]:

@@ -206,6 +206,10 @@ def whole_file(target: Path) -> Iterator[Path]:
         os.umask(umask)
         partial.chmod(0o666 & ~umask)
         partial.replace(target)
+    except OSError as error:
+        if error.filename is None:  # as of a full disk
+            error.filename = str(target)
+        raise
     finally:
         partial.unlink(missing_ok=True)
 
@@ -215,8 +219,8 @@ def writable_folder(path: str | os.PathLike[str]) -> Path:
     folder = Path(path)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(4096))  # a full disk is willing to make a file, and no more
     except OSError as error:
         reason = error.strerror or error
         raise OSError(f"cannot write to the folder {folder}: {reason}; choose another") from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from concurrent.futures import Executor
 from typing import Any
 
@@ -36,4 +37,6 @@ def dask_executor(scheduler: str) -> tuple[Executor, Any]:
             f"the scheduler {scheduler} does not answer within {_PATIENCE:g} s: check its address "
             "and that it runs"
         ) from error
+    # Of a scheduler that ends it logs a traceback; the sweep says it in a sentence.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     return client.get_executor(), client

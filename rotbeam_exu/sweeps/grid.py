@@ -6,7 +6,7 @@ import os
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, as_completed
+from concurrent.futures import CancelledError, Executor, Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from itertools import product
 from typing import Literal
@@ -231,10 +231,13 @@ def _solved(
                 point = futures[future]
                 try:
                     result = future.result()
-                except BrokenProcessPool as error:
+                except (BrokenProcessPool, CancelledError) as error:
+                    what = "a worker process died"
+                    if isinstance(error, CancelledError):
+                        what = "the executor gave its cases up, as a Dask scheduler does that ends,"
                     raise SimulationError(
-                        f"a worker process died with {len(waiting) - finished} of {len(waiting)} "
-                        "cases to do; run again to resume from the cache"
+                        f"{what} with {len(waiting) - finished} of {len(waiting)} cases to do; "
+                        "run again to resume from the cache"
                     ) from error
                 yield point, _kept(store, cases[point], result)
         finally:

@@ -53,15 +53,10 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         what = "is not empty" if target.is_dir() else "is a file"
         raise FileExistsError(f"{target} {what}: name a folder that is new, or empty")
-    contents = kit_files()
+    contents, made = kit_files(), None
     try:
         target.absolute().parent.mkdir(parents=True, exist_ok=True)
         made = Path(tempfile.mkdtemp(prefix=".kit-", dir=target.absolute().parent))
-    except OSError as error:
-        raise OSError(
-            f"cannot write to {target.parent}: {error.strerror or error}; choose another folder"
-        ) from error
-    try:
         for name, content in contents.items():
             path = made / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -70,8 +65,13 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
         if target.exists():
             target.rmdir()
         made.rename(target)
+    except OSError as error:
+        raise OSError(
+            f"cannot write to {target.parent}: {error.strerror or error}; choose another folder"
+        ) from error
     finally:
-        shutil.rmtree(made, ignore_errors=True)
+        if made is not None:
+            shutil.rmtree(made, ignore_errors=True)
     return target
 
 

@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+import unicodedata
 from pathlib import Path
 
 import numpy as np
@@ -131,6 +132,43 @@ def test_other_files_are_not_replaced(call, folder, tmp_path):
     assert (code, other.read_text("utf-8")) == (2, "<html>")
     assert "choose another name" in err
     assert call("judge", tmp_path / "none")[2].strip().endswith("name that of the submission")
+
+
+HOSTILE = "\x1b]0;owned\x07\x1b[31m\x9b2J\u202eedoc"
+"""Titles the window, turns red, clears the screen, and writes from right to left."""
+
+
+def steers(text):
+    return [letter for letter in text if unicodedata.category(letter) in ("Cc", "Cf")]
+
+
+def test_a_terminal_obeys_no_author(call, folder, tmp_path):
+    """Neither by the names in entry.toml, nor by remarks and failures of runs, nor by files."""
+    entry = (
+        (folder / "entry.toml").read_text("utf-8").replace('"mine"', json.dumps(f"mine{HOSTILE}"))
+    )
+    (folder / "entry.toml").write_text(entry, "utf-8")
+    listed = (folder / "runs.csv").read_text("utf-8").splitlines()
+    rows = [f"{row}{HOSTILE}" if n else row for n, row in enumerate(listed)]
+    rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,{HOSTILE},")
+    (folder / "runs.csv").write_text("\n".join(rows), "utf-8")
+    code, out, err = call("judge", folder)
+    assert code in (0, 1), err
+    assert r"mine\x1b]0;owned\x07\x1b[31m\x9b2J\u202eedoc" in out
+    assert set(steers(out + err)) == {"\n"}
+    (folder / "L.csv").write_text(f"elements,speed,frequency\n8,{HOSTILE},1\n", "utf-8")
+    (folder / f"{HOSTILE}.csv").write_text("", "utf-8")
+    code, out, err = call("judge", folder)
+    assert code == 2
+    assert set(steers(out + err)) == {"\n"}
+
+
+def test_an_error_about_a_file_steers_no_terminal(call, tmp_path):
+    path = tmp_path / f"{HOSTILE}.toml"
+    path.write_text(f"{HOSTILE} = 1", "utf-8")
+    code, out, err = call("run", "--config", path)
+    assert code == 2
+    assert set(steers(out + err)) == {"\n"}
 
 
 def test_no_exudyn_is_needed(folder, tmp_path):

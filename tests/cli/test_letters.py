@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from rotbeam_exu.cli.output import spell_what_cannot_be_encoded
+from rotbeam_exu.cli.output import ready_streams
 
 
 @pytest.mark.parametrize(
@@ -22,7 +22,7 @@ def test_letters_are_spelled_where_they_must_be(monkeypatch, encoding, shown):
     raw = io.BytesIO()
     stream = io.TextIOWrapper(raw, encoding=encoding)
     monkeypatch.setattr(sys, "stdout", stream)
-    spell_what_cannot_be_encoded()
+    ready_streams()
     stream.write("ω_NL Ω ± × m² ϑ λ … − é 中 \udcff")
     stream.flush()
     assert raw.getvalue().decode(encoding) == shown

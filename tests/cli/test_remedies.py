@@ -6,6 +6,7 @@ import pytest
 
 import rotbeam_exu.cli.run as run_job
 import rotbeam_exu.cli.sweep as sweep_job
+from rotbeam_exu.sweeps.cache import Cache
 
 QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 
@@ -160,3 +161,25 @@ def test_dask_asks_for_its_scheduler_and_then_for_one_that_answers(small_sweep):
         n_workers=1, threads_per_worker=1, dashboard_address=None
     ) as cluster:
         assert small_sweep(*dask, "--scheduler", cluster.scheduler_address)[0] == 0
+
+
+@pytest.mark.slow
+def test_a_sweep_whose_dask_scheduler_ends_goes_on_with_the_next_one(small_sweep, monkeypatch):
+    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, dashboard_address=None, protocol="tcp://"
+    )
+    dask = ("--executor", "dask", "--scheduler", cluster.scheduler_address)
+    kept = Cache.put
+
+    def ending(*arguments):
+        kept(*arguments)
+        cluster.close()
+
+    monkeypatch.setattr(Cache, "put", ending)
+    code, _, error = small_sweep(*dask)
+    assert code == 1
+    assert "with 1 of 2 cases to do; run again to resume from the cache" in error
+    assert "Traceback" not in error
+    monkeypatch.undo()
+    assert small_sweep()[0] == 0

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
@@ -210,10 +210,10 @@ def test_shards_make_the_whole(beam, serial, tmp_path):
 
 
 class DyingPool(Executor):
-    """Finishes its first task and loses its worker with the second."""
+    """Finishes its first task, and loses its worker or its scheduler with the second."""
 
-    def __init__(self):
-        self.tasks = 0
+    def __init__(self, error):
+        self.tasks, self.error = 0, error
 
     def submit(self, function, /, *arguments, **options):
         future = Future()
@@ -221,13 +221,21 @@ class DyingPool(Executor):
         if self.tasks == 1:
             future.set_result(function(*arguments, **options))
         else:
-            future.set_exception(BrokenProcessPool("a worker died"))
+            future.set_exception(self.error)
         return future
 
 
-def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path):
-    with pytest.raises(SimulationError, match="a worker process died .* run again to resume"):
-        sweep(beam, **SMALL, **COARSE, cache=tmp_path, executor=DyingPool())
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (BrokenProcessPool("a worker died"), "a worker process died"),
+        # Of Dask's client, whose scheduler is gone.
+        (CancelledError(), "the executor gave its cases up, as a Dask scheduler does that ends,"),
+    ],
+)
+def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error, said):
+    with pytest.raises(SimulationError, match=f"{said} with . of 4 cases to do; run again"):
+        sweep(beam, **SMALL, **COARSE, cache=tmp_path, executor=DyingPool(error))
     kept = {path: path.stat().st_mtime_ns for path in tmp_path.glob("*.nc")}
     assert len(kept) <= 1
     again = sweep(beam, **SMALL, **COARSE, cache=tmp_path, jobs=1, history=True)

@@ -1,11 +1,14 @@
 """The shipped truth against what is computed anew, and the truth of what is not shipped."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
 from rotbeam_exu.verification.references import reference
@@ -198,6 +201,50 @@ def test_what_is_not_asked_is_refused():
         reference(CASES["S1"]).history(-1.0)
     with pytest.raises(ValueError, match="case B has several speeds: say which"):
         reference(CASES["B"]).frequency_at(0.1)
+
+
+def other_data(tmp_path, monkeypatch, content):
+    """Let other bytes be the shipped file, and return what is said of them."""
+    path = tmp_path / "references.nc"
+    path.write_bytes(content)
+    monkeypatch.setattr(room, "FILE", path)
+    with pytest.raises(RuntimeError) as caught:
+        shipped.__wrapped__()
+    return str(caught.value)
+
+
+def test_no_bit_of_the_data_is_another(tmp_path, monkeypatch):
+    """HDF5 notices 368 of 400; of the others one moved a sample by 153 s."""
+    raw = room.FILE.read_bytes()
+    for place in np.linspace(0, len(raw) - 1, 60).astype(int).tolist():
+        other = bytearray(raw)
+        other[place] ^= 1 << (place % 8)
+        said = other_data(tmp_path, monkeypatch, bytes(other))
+        assert "references.nc were damaged or changed (SHA-256 " in said
+        assert "install rotbeam-exu again, or make them by python -m" in said
+    assert "damaged or changed" in other_data(tmp_path, monkeypatch, raw[:-1])
+
+
+def test_no_verdict_stands_on_other_frequencies(tmp_path, monkeypatch):
+    """A whole file, in which ω_n is a hundredth larger."""
+    data = shipped().data.copy(deep=True)
+    data["first_frequency"] *= 1.01
+    data.to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    other = (tmp_path / "other.nc").read_bytes()
+    assert "damaged or changed" in other_data(tmp_path, monkeypatch, other)
+
+
+def test_data_made_anew_are_taken_with_the_digest_that_is_written(tmp_path, monkeypatch):
+    code, data = tmp_path / "shipped.py", shipped().data
+    code.write_text(Path(room.__file__).read_text("utf-8"), "utf-8")
+    monkeypatch.setattr(room, "__file__", str(code))
+    for one in (room, regenerate):
+        monkeypatch.setattr(one, "FILE", tmp_path / "references.nc")
+    regenerate.write(data.assign_attrs(commit="another"))
+    found = re.search(r'^DIGEST = "([0-9a-f]{64})"$', code.read_text("utf-8"), re.MULTILINE)[1]
+    assert found != room.DIGEST
+    monkeypatch.setattr(room, "DIGEST", found)
+    assert shipped.__wrapped__().source.endswith("made at commit another")
 
 
 def test_missing_data_say_how_to_make_them(tmp_path, monkeypatch):

@@ -27,8 +27,9 @@ from analytic.input_checks import positive, whole_number
 
 from ..cases import CASES, Asked, Case
 from . import runs
-from .faults import Fault, MalformedSubmissionError
-from .tables import shown, text_of
+from .content import LARGEST_TOML, content_of, text_of
+from .faults import Faults, MalformedSubmissionError
+from .tables import shown
 
 FILE = "run.toml"
 _REQUIRED = ("command", "cases", "meshes", "steps")
@@ -82,18 +83,19 @@ class Command:
 
 def command_of(folder: Path, *, cases: Mapping[str, Case] = CASES) -> Command:
     """Return what run.toml says; MalformedSubmissionError with all that is wrong with it."""
-    faults: list[Fault] = []
-    text = text_of(folder, FILE, faults)
+    faults = Faults()
+    text = text_of(folder, FILE, faults, LARGEST_TOML)
     document: dict[str, Any] = {}
     try:
         document = tomllib.loads(text or "")
     except (RecursionError, ValueError) as error:
-        faults.append(Fault(file=FILE, said=f"is not valid TOML: {error}"))
+        faults.add(FILE, f"is not valid TOML: {error}")
     if not faults:
         histories = tuple(name for name, case in cases.items() if case.asked is Asked.HISTORY)
-        faults = [Fault(file=FILE, said=said) for said in _wrong_with(document, histories)]
+        for said in _wrong_with(document, histories):
+            faults.add(FILE, said)
     if faults:
-        raise MalformedSubmissionError(faults)
+        raise MalformedSubmissionError(faults.told())
     return Command(
         words=tuple(shlex.split(document["command"])),
         cases=tuple(document["cases"]),
@@ -122,18 +124,18 @@ def run_what_is_missing(folder: str | os.PathLike[str]) -> Iterator[str]:
         wall, cpu, failure = _run(root, command, case, elements, step)
         if failure or file not in _listed(root):
             row = [file, elements, repr(step), "", f"{wall:.6g}", f"{cpu:.6g}", failure, ""]
-            _append(root / runs.FILE, row)
+            _append(root, row)
         yield f"{file}: {'failed, ' + failure if failure else f'{wall:.3g} s'}"
 
 
 def _listed(root: Path) -> set[str]:
     """Return the files that runs.csv has a row for; it may be wrong otherwise."""
-    if not (root / runs.FILE).is_file():
+    if not os.path.lexists(root / runs.FILE):
         return set()
-    faults: list[Fault] = []
+    faults = Faults()
     found = {one.file for one in runs.listed_runs(root, CASES, faults)}
     if faults:
-        raise MalformedSubmissionError(faults)
+        raise MalformedSubmissionError(faults.told())
     return found
 
 
@@ -168,12 +170,12 @@ def _run(
     return clock.perf_counter() - wall, cpu, failure
 
 
-def _append(path: Path, row: list[Any]) -> None:
+def _append(root: Path, row: list[Any]) -> None:
     """Add a row to runs.csv in the order of its own header, which a new one gets."""
-    columns = (*runs.REQUIRED, *runs.OPTIONAL)
-    if not path.exists():
+    path, columns = root / runs.FILE, (*runs.REQUIRED, *runs.OPTIONAL)
+    if not os.path.lexists(path):
         path.write_text(",".join(columns) + "\n", encoding="utf-8", newline="\n")
-    text = path.read_text(encoding="utf-8-sig")
+    text = content_of(root, runs.FILE).decode("utf-8-sig")
     names = next(line for line in text.splitlines() if line.strip() and line[0] != "#").split(",")
     names = [name.strip(' "') for name in names]
     cells = dict(zip(columns, row, strict=True))

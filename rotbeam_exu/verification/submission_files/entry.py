@@ -16,8 +16,9 @@ from analytic.input_checks import finite_number, positive
 from ..cases import VERSION
 from ..submission import Declaration
 from ..theory import BERNOULLI_EULER, Theory
-from .faults import Fault
-from .tables import shown, text_of
+from .content import LARGEST_TOML, text_of
+from .faults import Faults
+from .tables import shown
 
 FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")
@@ -27,23 +28,23 @@ _KEYS = (*_TEXTS, "authors", *_ORDERS, "tags", "shear")
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
 
 
-def declaration_of(folder: Path, faults: list[Fault]) -> Declaration | None:
+def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
     """Return what entry.toml declares; None if something is wrong with it."""
-    text = text_of(folder, FILE, faults)
+    text = text_of(folder, FILE, faults, LARGEST_TOML)
     if text is None:
         return None
     try:
         document = tomllib.loads(text)
     except RecursionError:
-        faults.append(Fault(file=FILE, said="is nested too deeply: keep to the keys of the kit"))
+        faults.add(FILE, "is nested too deeply: keep to the keys of the kit")
         return None
     except ValueError as error:  # of TOML, or of an integer with too many digits
         place = re.search(r"at line (\d+)", str(error))
-        line = int(place[1]) if place else None
-        faults.append(Fault(file=FILE, line=line, said=f"is not valid TOML: {error}"))
+        faults.add(FILE, f"is not valid TOML: {error}", int(place[1]) if place else None)
         return None
     said = list(_wrong_with(document))
-    faults += [Fault(file=FILE, line=_line_of(key, text), said=why) for key, why in said]
+    for key, why in said:
+        faults.add(FILE, why, _line_of(key, text))
     if said:
         return None
     tags = document.get("tags", [])
@@ -98,7 +99,7 @@ def _wrong_with(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
         if not isinstance(document.get(key, ""), str):
             yield key, f"{key} must be text in quotes, got {shown(str(document[key]))}"
     for key in ("benchmark", "code"):
-        if key not in document or document[key] in ("", " "):
+        if not str(document.get(key, "")).strip():
             example = VERSION if key == "benchmark" else "name of your code"
             yield key, f'there is no {key}: write {key} = "{example}"'
     version = document.get("benchmark", VERSION)

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+_VARIES = re.compile(
+    r"'(?:\\.|[^'\\])*'|\"(?:\\.|[^\"\\])*\"|[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?"
+)
+"""In sentences of one kind: what a file says, in quotes, and numbers."""
+
+_MOST_FILES = 10
+"""In which a fault of one kind is told for each; those in others are counted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,20 +39,56 @@ class Fault:
         return f"{place}: {self.said}"
 
 
+class Faults:
+    """Faults as they are found: the first of a kind in a file, and how many more there are.
+
+    Of a kind are sentences that differ in numbers and in what they quote.
+    """
+
+    def __init__(self) -> None:
+        self._first: dict[tuple[str, str], Fault] = {}
+        self._count: Counter[tuple[str, str]] = Counter()
+        self._files: dict[str, list[str]] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self._first)
+
+    def add(self, file: str, said: str, line: int | None = None) -> None:
+        """Keep a fault, or count it."""
+        kind = _VARIES.sub("#", said)
+        files = self._files.setdefault(kind, [])
+        if file not in files and len(files) < _MOST_FILES:
+            files.append(file)
+        key = kind, file if file in files else files[-1]
+        self._first.setdefault(key, Fault(file=file, said=said, line=line))
+        self._count[key] += 1
+
+    def of(self, file: str) -> bool:
+        """Return whether a file has one."""
+        return any(fault.file == file for fault in self._first.values())
+
+    def told(self) -> tuple[Fault, ...]:
+        """Return the first of each kind, in the order found, with the count of those alike."""
+        return tuple(
+            replace(fault, said=fault.said + several(self._count[key]))
+            for key, fault in self._first.items()
+        )
+
+
 class MalformedSubmissionError(ValueError):
     """A submission that cannot be judged before its files are mended.
 
     Attributes
     ----------
     faults : tuple of Fault
-        All that were found, in the order of the files.
+        One of each kind in a file, with the count of those alike, in the order of the files.
     """
 
-    def __init__(self, faults: Sequence[Fault]) -> None:
+    def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults = tuple(faults)
         super().__init__("\n".join(map(str, self.faults)))
 
 
 def several(count: int) -> str:
     """Return the end of a sentence on the first of `count` places that have the same fault."""
-    return "" if count == 1 else f" (and so in {count - 1} more)"
+    return "" if count == 1 else f" (and so in {count - 1:,} more)"

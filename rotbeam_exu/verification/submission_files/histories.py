@@ -9,7 +9,7 @@ import numpy as np
 from analytic.arrays import FloatArray
 
 from ..cases import Case
-from .faults import Fault, several
+from .faults import Faults, several
 from .tables import Sheet, columns_fault, digits, number_fault, sheet_of
 
 FARTHEST = 0.02
@@ -26,9 +26,7 @@ RATE = {"q_dot": "m/s"}
 _SLACK = 1e-6
 
 
-def history_of(
-    folder: Path, file: str, case: Case, faults: list[Fault]
-) -> dict[str, FloatArray] | None:
+def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str, FloatArray] | None:
     """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong."""
     sheet = sheet_of(folder, file, UNITS, RATE, faults)
     if sheet is None:
@@ -39,14 +37,15 @@ def history_of(
     columns = dict(zip(sheet.names, numbers.T, strict=True))
     with np.errstate(over="ignore", invalid="ignore"):
         unfit = _unfit(sheet, columns, case)
+    for said, row in unfit:
+        faults.add(file, said, None if row is None else sheet.lines[row])
     if unfit:
-        faults += unfit
         return None
     within = columns["time"] <= case.duration
     return {name: values[within] for name, values in columns.items()}
 
 
-def _numbers(sheet: Sheet, faults: list[Fault]) -> FloatArray | None:
+def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
     """Return all numbers, (rows, columns)."""
     try:
         numbers = np.loadtxt(sheet.rows, delimiter=",", ndmin=2, comments=None)
@@ -54,44 +53,34 @@ def _numbers(sheet: Sheet, faults: list[Fault]) -> FloatArray | None:
         numbers, why = np.empty((0, 0)), str(error)
     if numbers.shape == (len(sheet.rows), len(sheet.names)) and np.isfinite(numbers).all():
         return numbers
-    found = _faulty_rows(sheet)
-    faults += found or [Fault(file=sheet.file, said=f"cannot be read as numbers: {why}")]
+    if not _tell_faulty_rows(sheet, faults):
+        faults.add(sheet.file, f"cannot be read as numbers: {why}")
     return None
 
 
-def _faulty_rows(sheet: Sheet) -> list[Fault]:
-    """Return one fault for each kind of faulty row, the first of it; slow, for it looks at all."""
-    first: dict[str, tuple[int, str]] = {}
-    count: dict[str, int] = {}
+def _tell_faulty_rows(sheet: Sheet, faults: Faults) -> bool:
+    """Add what is wrong with each row, and return whether something is; slow, for it takes all."""
+    found = False
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         cells = [cell.strip() for cell in row.split(",")]
         if len(cells) != len(sheet.names):
-            kind, said = "columns", columns_fault(row, len(cells), len(sheet.names))
+            said = columns_fault(row, len(cells), len(sheet.names))
         else:
-            wrong = ((n, why) for n, cell in enumerate(cells) if (why := number_fault(cell)))
-            place, said = next(wrong, (0, ""))
-            if not said:
-                continue
-            kind = f"number in {place}"
-        first.setdefault(kind, (line, said))
-        count[kind] = count.get(kind, 0) + 1
-    return [
-        Fault(file=sheet.file, line=line, said=said + several(count[kind]))
-        for kind, (line, said) in first.items()
-    ]
+            said = next(filter(None, map(number_fault, cells)), "")
+        if said:
+            found = True
+            faults.add(sheet.file, said, line)
+    return found
 
 
-def _unfit(sheet: Sheet, columns: dict[str, FloatArray], case: Case) -> list[Fault]:
-    """Return what keeps finite numbers from being the history of a case."""
+def _unfit(
+    sheet: Sheet, columns: dict[str, FloatArray], case: Case
+) -> list[tuple[str, int | None]]:
+    """Return what keeps finite numbers from being the history of a case, and in which row."""
     time = columns["time"]
-
-    def fault(said: str, row: int | None = None) -> Fault:
-        line = None if row is None else sheet.lines[row]
-        return Fault(file=sheet.file, line=line, said=said)
-
     gaps = np.diff(time)
-    found = [
-        fault(f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g")
+    found: list[tuple[str, int | None]] = [
+        (f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g", None)
         for number, name in enumerate(sheet.names)
         if (most := _most_digits(sheet, number, columns[name])) < DIGITS
     ]
@@ -101,18 +90,18 @@ def _unfit(sheet: Sheet, columns: dict[str, FloatArray], case: Case) -> list[Fau
             f"q is {columns['q'][far[0]]:.3g} m, of a beam of {case.blade.length:g} m: a run that "
             "diverged has no file, but a sentence in the column failure of runs.csv"
         )
-        found.append(fault(said, int(far[0])))
+        found.append((said, int(far[0])))
     back = np.flatnonzero(gaps <= 0.0)
     if back.size:
         k = int(back[0]) + 1
         said = f"time must increase, but {time[k]:.10g} s follows {time[k - 1]:.10g} s"
         remedy = ": sort the rows, keep one of each time, and write all digits"
-        return [*found, fault(said + several(back.size) + remedy, k)]
+        return [*found, (said + several(back.size) + remedy, k)]
     if time[0] < -_SLACK or time[0] > FARTHEST:
-        found.append(fault(f"begins at {time[0]:.6g} s: begin at 0 s", 0))
+        found.append((f"begins at {time[0]:.6g} s: begin at 0 s", 0))
     if time[-1] < case.duration - FARTHEST:
         said = f"ends at {time[-1]:.6g} s, case {case.name} lasts {case.duration:g} s: run it whole"
-        found.append(fault(said, time.size - 1))
+        found.append((said, time.size - 1))
     wide = np.flatnonzero(gaps > FARTHEST * (1.0 + _SLACK))
     if wide.size:
         k = int(wide[0]) + 1
@@ -120,7 +109,7 @@ def _unfit(sheet: Sheet, columns: dict[str, FloatArray], case: Case) -> list[Fau
             f"samples are {1e3 * gaps[k - 1]:.4g} ms apart{several(wide.size)}, at most "
             f"{1e3 * FARTHEST:g} ms leave something to measure: sample more often"
         )
-        found.append(fault(said, k))
+        found.append((said, k))
     return found
 
 

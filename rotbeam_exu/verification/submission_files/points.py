@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..cases import Case
 from ..submission import BackbonePoint, Frequency
-from .faults import Fault
+from .faults import Faults
 from .histories import DIGITS
 from .tables import digits, number_fault, records, sheet_of
 
@@ -16,9 +16,7 @@ _SAME = 1e-6
 """Relative distance within which a speed or an amplitude is one that is asked for."""
 
 
-def frequencies_of(
-    folder: Path, file: str, case: Case, faults: list[Fault]
-) -> tuple[Frequency, ...]:
+def frequencies_of(folder: Path, file: str, case: Case, faults: Faults) -> tuple[Frequency, ...]:
     """Return the rows of L.csv: elements, speed, frequency and, if the code failed, failure."""
     required = {"elements": "", "speed": "rad/s", "frequency": "rad/s"}
     rows = _rows(folder, file, required, {"speed": case.speeds}, faults)
@@ -33,9 +31,7 @@ def frequencies_of(
     )
 
 
-def backbone_of(
-    folder: Path, file: str, case: Case, faults: list[Fault]
-) -> tuple[BackbonePoint, ...]:
+def backbone_of(folder: Path, file: str, case: Case, faults: Faults) -> tuple[BackbonePoint, ...]:
     """Return the rows of B.csv: elements, speed, amplitude, frequency."""
     required = {"elements": "", "speed": "rad/s", "amplitude": "", "frequency": "rad/s"}
     asked = {"speed": case.speeds, "amplitude": case.amplitudes}
@@ -57,7 +53,7 @@ def _rows(
     file: str,
     required: Mapping[str, str],
     asked: Mapping[str, tuple[float, ...]],
-    faults: list[Fault],
+    faults: Faults,
 ) -> list[tuple[dict[str, float], str]]:
     """Return the numbers of each row by column, and its failure; frequency NaN of a failed one."""
     sheet = sheet_of(folder, file, required, {"failure": ""}, faults)
@@ -71,13 +67,14 @@ def _rows(
         key = tuple(value for name, value in row.items() if name != "frequency")
         if not wrong and key in found:
             wrong = ["the same row stands above: keep one"]
-        faults += [Fault(file=file, line=line, said=said) for said in wrong]
+        for said in wrong:
+            faults.add(file, said, line)
         if not wrong:
             found[key] = row, failure
             written += [] if failure else [digits(cells["frequency"])]
     if written and max(written) < DIGITS:
         said = f"frequencies are written to {max(written)} digits, {DIGITS} are needed: write %.10g"
-        faults.append(Fault(file=file, said=said))
+        faults.add(file, said)
     return list(found.values())
 
 

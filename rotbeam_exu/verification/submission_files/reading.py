@@ -13,7 +13,8 @@ import numpy as np
 from ..cases import CASES, Asked, Case
 from ..submission import BackbonePoint, Frequency, Run, Submission
 from . import entry, runs
-from .faults import Fault, MalformedSubmissionError
+from .content import OUTSIDE, below, content_of
+from .faults import Faults, MalformedSubmissionError
 from .histories import history_of
 from .points import backbone_of, frequencies_of
 
@@ -56,7 +57,7 @@ def read_submission(
     root = Path(folder)
     if not root.is_dir():
         raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
-    faults: list[Fault] = []
+    faults = Faults()
     declaration = entry.declaration_of(root, faults)
     frequencies: tuple[Frequency, ...] = ()
     backbone: tuple[BackbonePoint, ...] = ()
@@ -67,12 +68,12 @@ def read_submission(
             else:
                 backbone = backbone_of(root, file, case, faults)
     histories = _histories(root, cases, faults)
-    faults += _strangers(root, cases)
+    _strangers(root, cases, faults)
     if not faults and not (frequencies or backbone or histories):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
-        faults.append(Fault(file=entry.FILE, said=said))
+        faults.add(entry.FILE, said)
     if faults or declaration is None:
-        raise MalformedSubmissionError(faults)
+        raise MalformedSubmissionError(faults.told())
     return Submission(
         declaration=declaration, frequencies=frequencies, backbone=backbone, runs=histories
     )
@@ -83,7 +84,7 @@ def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str,
     root = Path(folder)
     files = [entry.FILE, *_tables(CASES), runs.FILE, *(run.file for run in submission.runs)]
     return {
-        file: hashlib.sha256((root / file).read_bytes()).hexdigest()
+        file: hashlib.sha256(content_of(root, file)).hexdigest()
         for file in files
         if (root / file).is_file()
     }
@@ -94,7 +95,7 @@ def _tables(cases: Mapping[str, Case]) -> dict[str, Case]:
     return {f"{name}.csv": case for name, case in cases.items() if case.asked is not Asked.HISTORY}
 
 
-def _histories(root: Path, cases: Mapping[str, Case], faults: list[Fault]) -> tuple[Run, ...]:
+def _histories(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run, ...]:
     """Return the runs that runs.csv lists, those that failed without a history."""
     there = dict.fromkeys(_found_histories(root, cases))
     if not there and not os.path.lexists(root / runs.FILE):
@@ -118,29 +119,36 @@ def _histories(root: Path, cases: Mapping[str, Case], faults: list[Fault]) -> tu
                 remark=one.remark,
             )
         )  # fmt: skip
-    if not any(fault.file == runs.FILE for fault in faults):
+    if not faults.of(runs.FILE):
         known = {one.file for one in listed}
-        said = f"stands in no row of {runs.FILE}: add file, elements, step"
-        faults += [Fault(file=file, said=said) for file in there if file not in known]
+        for file in there:
+            if file not in known:
+                faults.add(file, f"stands in no row of {runs.FILE}: add file, elements, step")
     return tuple(found)
 
 
 def _found_histories(root: Path, cases: Mapping[str, Case]) -> Iterator[str]:
     for name, case in cases.items():
-        if case.asked is Asked.HISTORY and (root / name).is_dir():
+        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir():
             for path in sorted((root / name).glob("*.csv")):
                 yield f"{name}/{_printable(path.name)}"
 
 
-def _strangers(root: Path, cases: Mapping[str, Case]) -> Iterator[Fault]:
-    """Yield tables and folders of histories that belong to no case: misspelled, most likely."""
+def _strangers(root: Path, cases: Mapping[str, Case], faults: Faults) -> None:
+    """Add tables and folders of histories that belong to no case: misspelled, most likely.
+
+    A link out of the folder may have any name, and is looked into under none.
+    """
     tables = (*_tables(cases), runs.FILE)
     for path in sorted(root.iterdir()):
         name = _printable(path.name)
-        if path.is_dir() and path.name not in cases and any(path.glob("m*_h*.csv")):
-            yield Fault(file=name, said=f"is the folder of no case; {_near(name, tuple(cases))}")
+        if below(root, path.name) is None:
+            if path.name in cases:
+                faults.add(name, OUTSIDE)
+        elif path.is_dir() and path.name not in cases and any(path.glob("m*_h*.csv")):
+            faults.add(name, f"is the folder of no case; {_near(name, tuple(cases))}")
         elif path.suffix.lower() == ".csv" and path.name not in tables:
-            yield Fault(file=name, said=f"is a table that nobody asked for; {_near(name, tables)}")
+            faults.add(name, f"is a table that nobody asked for; {_near(name, tables)}")
 
 
 def _near(name: str, known: tuple[str, ...]) -> str:

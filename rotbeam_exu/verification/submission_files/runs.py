@@ -10,13 +10,13 @@ from decimal import Decimal
 from pathlib import Path
 
 from ..cases import Asked, Case
-from .faults import Fault
+from .faults import Faults
 from .tables import number_fault, records, sheet_of, shown
 
 FILE = "runs.csv"
 REQUIRED = {"file": "", "elements": "", "step": "s"}
 OPTIONAL = {"dof": "", "wall_s": "s", "cpu_s": "s", "failure": "", "remark": ""}
-NAME = re.compile(r"m([0-9]{1,9})_h([0-9]*\.?[0-9]+(?:e[-+]?[0-9]{1,3})?)\.csv")
+NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
 """Of a history's file: elements, and step [s]."""
 
 _ROUNDED = 1e-2
@@ -47,7 +47,7 @@ def file_of(case: str, elements: int, step: float) -> str:
     return f"{case}/m{elements:03d}_h{first}{'.' if rest else ''}{''.join(rest)}e{power}.csv"
 
 
-def listed_runs(folder: Path, cases: Mapping[str, Case], faults: list[Fault]) -> list[Listed]:
+def listed_runs(folder: Path, cases: Mapping[str, Case], faults: Faults) -> list[Listed]:
     """Return the rows of runs.csv that are right by themselves."""
     sheet = sheet_of(folder, FILE, REQUIRED, OPTIONAL, faults)
     if sheet is None:
@@ -65,7 +65,8 @@ def listed_runs(folder: Path, cases: Mapping[str, Case], faults: list[Fault]) ->
             else:
                 seen[key] = line
                 found.append(one)
-        faults += [Fault(file=FILE, line=line, said=said) for said in wrong]
+        for said in wrong:
+            faults.add(FILE, said, line)
     return found
 
 

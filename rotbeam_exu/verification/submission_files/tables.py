@@ -10,17 +10,20 @@ import csv
 import difflib
 import math
 import re
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .faults import Fault
+from .content import text_of
+from .faults import Faults
 
-LARGEST = 100_000_000
-"""Bytes of a file that is read; a history of a million samples has less."""
+MOST_LINES = 2_000_000
+LONGEST_LINE = 10_000
+"""Letters of a line, and lines of a table: beyond them is no history and no sentence."""
 
-_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
-_FORTRAN = re.compile(r"[-+]?[0-9]*\.?[0-9]*[dD][-+]?[0-9]+")
+_NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
+_FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
 _HEADER = re.compile(r"(?P<name>[^\[\]()]*?)\s*(?:[\[(](?P<unit>.*)[\])])?")
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
@@ -50,40 +53,12 @@ class Sheet:
     lines: list[int] = field(repr=False)
 
 
-def text_of(folder: Path, file: str, faults: list[Fault]) -> str | None:
-    """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
-    path = folder / file
-    try:
-        if path.is_dir():
-            raise ValueError("is a folder: put a file in its place")
-        if path.stat().st_size > LARGEST:
-            raise ValueError(
-                f"has {path.stat().st_size:,} bytes, more than {LARGEST:,}: sample less often"
-            )
-        # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
-        text = path.read_bytes().decode("utf-8-sig")
-        if "\0" in text:
-            raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
-    except UnicodeDecodeError as error:
-        said = f"is not text (byte {error.start} is no UTF-8): write it as UTF-8"
-    except FileNotFoundError:
-        said = "there is no such file"
-    except OSError as error:
-        said = f"cannot be read: {error.strerror or error}"
-    except ValueError as error:
-        said = str(error)
-    else:
-        return text.replace("\r\n", "\n").replace("\r", "\n")
-    faults.append(Fault(file=file, said=said))
-    return None
-
-
 def sheet_of(
     folder: Path,
     file: str,
     required: Mapping[str, str],
     optional: Mapping[str, str],
-    faults: list[Fault],
+    faults: Faults,
 ) -> Sheet | None:
     """Return the rows of a table; None where it has no header that can be used.
 
@@ -92,11 +67,14 @@ def sheet_of(
     folder, file
     required, optional : mapping
         The unit of each column by its name, "" without one.
-    faults : list of Fault
+    faults : Faults
         To which what is wrong is added.
     """
     text = text_of(folder, file, faults)
     if text is None:
+        return None
+    if text.count("\n") > MOST_LINES:
+        faults.add(file, f"has more than {MOST_LINES:,} lines: sample less often")
         return None
     numbered = [
         (number, line)
@@ -105,15 +83,20 @@ def sheet_of(
     ]
     wanted = ",".join(required)
     if not numbered:
-        faults.append(Fault(file=file, said=f"is empty: begin with the header {wanted}"))
+        faults.add(file, f"is empty: begin with the header {wanted}")
         return None
+    for number, line in numbered:
+        if len(line) > LONGEST_LINE:
+            said = f"has {len(line):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
+            faults.add(file, said, number)
+            return None
     header, title = numbered[0]
-    found = _header_faults(file, header, title, {**required, **optional}, tuple(required))
-    faults.extend(found)
-    if found:
-        return None
-    if len(numbered) == 1:
-        faults.append(Fault(file=file, line=header, said="has a header and no rows below it"))
+    wrong = _wrong_header(title, {**required, **optional}, tuple(required))
+    if not wrong and len(numbered) == 1:
+        wrong = ["has a header and no rows below it"]
+    for said in wrong:
+        faults.add(file, said, header)
+    if wrong:
         return None
     return Sheet(
         file=file,
@@ -130,56 +113,49 @@ def _cell_of_header(cell: str) -> tuple[str, str]:
     return (match["name"], (match["unit"] or "").strip()) if match else (cell, "")
 
 
-def _header_faults(
-    file: str, line: int, title: str, units: Mapping[str, str], required: tuple[str, ...]
-) -> list[Fault]:
+def _wrong_header(title: str, units: Mapping[str, str], required: tuple[str, ...]) -> list[str]:
     """Return what is wrong with a header row."""
-
-    def fault(said: str) -> Fault:
-        return Fault(file=file, line=line, said=said)
-
     wanted = ",".join(required)
     if "," not in title and len(required) > 1:
         other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in title.strip()]
         split = f"is split{other[0]}" if other else f"is {shown(title.strip())}"
-        return [fault(f"the header {split}: separate the columns by commas, {wanted}")]
+        return [f"the header {split}: separate the columns by commas, {wanted}"]
     cells = [_cell_of_header(cell) for cell in title.split(",")]
     names = [name for name, _ in cells]
     if all(_NUMBER.fullmatch(name) for name in names):
-        return [fault(f"there is no header, the first row holds numbers: begin with {wanted}")]
+        return [f"there is no header, the first row holds numbers: begin with {wanted}"]
     found = []
     for name, unit in cells:
         if name not in units:
             close = difflib.get_close_matches(name.lower(), list(units), n=1)
             hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(units)}"
-            found.append(fault(f"unknown column {shown(name)}; {hint}"))
+            found.append(f"unknown column {shown(name)}; {hint}")
         elif unit and unit != units[name]:
             due = f"[{units[name]}]" if units[name] else "no unit"
-            found.append(fault(f"column {name!r} is in {shown(unit)}: write it in {due}"))
+            found.append(f"column {name!r} is in {shown(unit)}: write it in {due}")
     missing = [name for name in required if name not in names]
     if missing:
-        found.append(fault(f"there is no column {', '.join(missing)}: the header is {wanted}"))
-    twice = sorted({name for name in names if names.count(name) > 1})
+        found.append(f"there is no column {', '.join(missing)}: the header is {wanted}")
+    twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
-        found.append(fault(f"column {shown(twice[0])} occurs twice: keep one"))
+        found.append(f"column {shown(twice[0])} occurs twice: keep one")
     return found
 
 
 _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 
 
-def records(sheet: Sheet, faults: list[Fault]) -> list[tuple[int, dict[str, str]]]:
+def records(sheet: Sheet, faults: Faults) -> list[tuple[int, dict[str, str]]]:
     """Return line number and cells by column of each row that has as many cells as the header."""
     found = []
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         try:
             cells = next(csv.reader([row], strict=True, skipinitialspace=True))
         except csv.Error as error:
-            faults.append(Fault(file=sheet.file, line=line, said=f"is no row of CSV: {error}"))
+            faults.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
         if len(cells) != len(sheet.names):
-            said = columns_fault(row, len(cells), len(sheet.names))
-            faults.append(Fault(file=sheet.file, line=line, said=said))
+            faults.add(sheet.file, columns_fault(row, len(cells), len(sheet.names)), line)
             continue
         found.append((line, dict(zip(sheet.names, map(str.strip, cells), strict=True))))
     return found
@@ -217,7 +193,7 @@ def number_fault(cell: str) -> str:
 def shown(text: str) -> str:
     """Return a text in quotes, what cannot be printed escaped, and not too much of it."""
     quoted = ascii(text) if not text.isprintable() else repr(text)
-    return quoted if len(quoted) <= _SHOWN else f"{quoted[:_SHOWN]}..."
+    return quoted if len(quoted) <= _SHOWN else f"{quoted[:_SHOWN]}...{quoted[0]}"
 
 
 def digits(cell: str) -> int:

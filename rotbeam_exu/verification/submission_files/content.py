@@ -1,0 +1,91 @@
+"""The content of a submission's files: of regular files below its folder alone, up to a limit.
+
+Who judges the folders of strangers has files of his own, to which links lead, and memory, which a
+pipe or a device fills. All files of a submission are read here.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from contextlib import ExitStack
+from pathlib import Path
+
+from .faults import Faults
+
+LARGEST = 100_000_000
+"""Bytes of a file that is read; a history of a million samples has less."""
+
+LARGEST_TOML = 32_000
+"""Bytes of entry.toml and run.toml."""
+
+OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
+_FLAGS = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
+"""No link is followed, and a pipe that nobody writes to is not waited for."""
+
+
+def below(folder: Path, file: str) -> Path | None:
+    """Return the place below the folder to which links lead; None where they lead out."""
+    root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
+    return real.relative_to(root) if real.is_relative_to(root) else None
+
+
+def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
+    """Return the bytes of a regular file below a folder.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or too large; the sentence goes on after the file's name.
+    OSError
+        If it cannot be read.
+    """
+    place = below(folder, file)
+    if place is None:
+        raise ValueError(OUTSIDE)
+    if (folder / file).is_dir():
+        raise ValueError("is a folder: put a file in its place")
+    with ExitStack() as opened:
+        handle = _opened(folder, place, opened)
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise ValueError("is no regular file but a pipe or a device: put a file in its place")
+        content = opened.enter_context(os.fdopen(handle, "rb", closefd=False)).read(largest + 1)
+    if len(content) > largest:
+        raise ValueError(
+            f"has more than {largest:,} bytes: hand in what the kit asks for, and sample less often"
+        )
+    return content
+
+
+def _opened(folder: Path, place: Path, opened: ExitStack) -> int:
+    """Return the handle of a file, opened step by step: no link is put in the way meanwhile."""
+    root = os.path.realpath(folder)
+    if os.open not in os.supports_dir_fd:  # Windows, where pipes are no files and links are rare
+        root, place = str(Path(root, place)), Path()
+    handle: int | None = None
+    for part in (root, *place.parts):
+        handle = os.open(part, _FLAGS, dir_fd=handle)
+        opened.callback(os.close, handle)
+    assert handle is not None
+    return handle
+
+
+def text_of(folder: Path, file: str, faults: Faults, largest: int = LARGEST) -> str | None:
+    """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
+    try:
+        # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
+        text = content_of(folder, file, largest).decode("utf-8-sig")
+        if "\0" in text:
+            raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
+    except UnicodeDecodeError as error:
+        said = f"is not text (byte {error.start} is no UTF-8): write it as UTF-8"
+    except FileNotFoundError:
+        said = "there is no such file"
+    except OSError as error:
+        said = f"cannot be read: {error.strerror or error}"
+    except ValueError as error:
+        said = str(error)
+    else:
+        return text.replace("\r\n", "\n").replace("\r", "\n")
+    faults.add(file, said)
+    return None

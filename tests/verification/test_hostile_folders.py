@@ -1,0 +1,218 @@
+"""The judge is handed the folders of strangers: no pipe, link or flood of faults gets through."""
+
+import os
+import signal
+
+import pytest
+
+from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
+from rotbeam_exu.verification.submission_files import commands, content
+from rotbeam_exu.verification.submission_files.content import LARGEST
+from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
+from rotbeam_exu.verification.submission_files.reading import digests, read_submission
+from rotbeam_exu.verification.submission_files.tables import number_fault
+from rotbeam_exu.verification.submission_files.writing import write_submission
+
+SECRET = "example.org,password,hunter2\n"
+ENTRY = 'benchmark = "1.0"\ncode = "mine"\n'
+TABLE = "elements,speed,frequency\n8,6.0,3.731123456\n"
+ROW = "S1/m008_h1e-3.csv,8,1e-3\n"
+
+
+@pytest.fixture(autouse=True)
+def in_time():
+    """Nothing here takes more than a few seconds; a pipe would be waited for without end."""
+
+    def late(*_):
+        pytest.fail("the judge hangs")
+
+    former = signal.signal(signal.SIGALRM, late)
+    signal.alarm(60)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, former)
+
+
+@pytest.fixture
+def mine(tmp_path):
+    """A submission of one frequency, beside which there is a file that is none of its business."""
+    (tmp_path / "secret").write_text(SECRET, "utf-8")
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside" / "m008_h1e-3.csv").write_text(SECRET, "utf-8")
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "entry.toml").write_text(ENTRY, "utf-8")
+    (folder / "L.csv").write_text(TABLE, "utf-8")
+    return folder
+
+
+def faults_of(folder):
+    with pytest.raises(MalformedSubmissionError) as caught:
+        read_submission(folder)
+    return list(map(str, caught.value.faults))
+
+
+def put(folder, file, kind):
+    """Put something in the place of a file that is no file of the folder."""
+    path = folder / file
+    path.unlink(missing_ok=True)
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "device":
+        path.symlink_to("/dev/zero")
+    elif kind == "link":
+        path.symlink_to(folder.parent / "secret")
+    else:
+        path.symlink_to("../../mine/../secret" if "/" in file else "../secret")
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "link", "relative link"])
+def test_only_regular_files_below_the_folder_are_read(mine, kind):
+    """Neither waited for nor read: a pipe never ends, and a link shows cells of other files."""
+    (mine / "S1").mkdir()
+    (mine / "runs.csv").write_text("file,elements,step\n" + ROW, "utf-8")
+    put(mine, "S1/m008_h1e-3.csv", kind)
+    said = {"pipe": "is no regular file but a pipe"}.get(kind, "is a link that leads out of the")
+    names = ["L.csv", "S1/m008_h1e-3.csv"]
+    put(mine, "L.csv", kind)
+    found = faults_of(mine)
+    assert [fault.partition(": ")[0] for fault in found] == names
+    assert all(said in fault for fault in found)
+    for file in ("entry.toml", "runs.csv"):
+        put(mine, file, kind)
+        names.append(file)
+    found = faults_of(mine)
+    assert {fault.partition(": ")[0] for fault in found} == set(names) - {"S1/m008_h1e-3.csv"}
+    assert not any(word in fault for fault in found for word in SECRET.strip().split(","))
+    put(mine, "run.toml", kind)
+    with pytest.raises(MalformedSubmissionError, match=said):
+        commands.command_of(mine)
+
+
+def test_a_folder_that_leads_out_is_not_looked_into(mine, tmp_path):
+    """Not even for the names of its files."""
+    (mine / "S1").symlink_to(tmp_path / "outside")
+    (mine / "data").symlink_to(tmp_path / "outside")  # belongs to no case, and is left alone
+    said = "S1: is a link that leads out of the folder: put what it names in its place"
+    assert faults_of(mine) == [said]
+    (mine / "runs.csv").write_text("file,elements,step\n" + ROW, "utf-8")
+    found = faults_of(mine)
+    assert found[0].startswith("S1/m008_h1e-3.csv: is a link that leads out")
+    assert not any(word in fault for fault in found for word in SECRET.strip().split(","))
+
+
+def test_a_link_within_the_folder_is_a_file_of_it(mine, tmp_path):
+    before = read_submission(mine)
+    (mine / "tables").mkdir()
+    (mine / "L.csv").rename(mine / "tables" / "L.txt")
+    (mine / "L.csv").symlink_to(mine / "tables" / "L.txt")
+    (tmp_path / "link").symlink_to(mine)  # nor is it held against the folder that it is one
+    found = read_submission(tmp_path / "link")
+    assert found.frequencies == before.frequencies
+    assert set(digests(mine, found)) == {"entry.toml", "L.csv"}
+
+
+@pytest.mark.parametrize("file", ["L.csv", "S1"])
+def test_a_link_that_is_put_in_the_way_while_it_is_read_is_not_followed(
+    mine, tmp_path, monkeypatch, file
+):
+    """Between the look at where a name leads and its opening there is time for another link."""
+    (mine / "S1").mkdir()
+    (mine / "S1" / "m008_h1e-3.csv").write_text("time,q\n", "utf-8")
+    (mine / "runs.csv").write_text("file,elements,step\n" + ROW, "utf-8")
+    looked = content.below
+
+    def slow(folder, name):
+        found = looked(folder, name)
+        if name.startswith(file):
+            (mine / file).rename(tmp_path / "aside")
+            (mine / file).symlink_to(tmp_path / ("outside" if file == "S1" else "secret"))
+        return found
+
+    monkeypatch.setattr(content, "below", slow)
+    assert any(f"{file}" in fault and ": cannot be read: " in fault for fault in faults_of(mine))
+
+
+def test_no_row_is_added_to_a_table_elsewhere(mine, tmp_path):
+    """Nor is one made where a link leads that leads nowhere yet."""
+    (mine / "run.toml").write_text(
+        'command = "false"\ncases = ["S1"]\nmeshes = [8]\nsteps = [1e-3]\n', "utf-8"
+    )
+    (mine / "runs.csv").symlink_to(tmp_path / "made")
+    with pytest.raises(MalformedSubmissionError, match=r"runs\.csv: is a link that leads out"):
+        list(commands.run_what_is_missing(mine))
+    assert not (tmp_path / "made").exists()
+
+
+def test_too_much_is_not_read(mine):
+    with (mine / "L.csv").open("wb") as file:
+        file.truncate(10**12)
+    assert faults_of(mine) == [
+        f"L.csv: has more than {LARGEST:,} bytes: hand in what the kit asks for, and sample less "
+        "often"
+    ]
+
+
+def long_row(text):
+    return TABLE + text + "\n"
+
+
+FLOODS = {
+    "rows": ("L.csv", TABLE + "x,y,z\n" * 50_000, r":3: elements: 'x' .* 49,999 more\)"),
+    "different rows": (
+        "L.csv",
+        TABLE + "".join(f"8,{k}.5,'{k:x}\"\n" for k in range(10_000)),
+        r":3: speed 0\.5 is not asked for: .*9,999 more\)",
+    ),
+    "short rows": ("L.csv", TABLE + "x\n" * 50_000, r":3: has 1 cell, .* 49,999 more\)"),
+    "no rows of CSV": ("L.csv", TABLE + 'a"b"c,"\n' * 50_000, r"no row of CSV.* 49,999 more\)"),
+    "columns": ("L.csv", ",".join(f"c{k}" for k in range(10**6)), r":1: has 7,888,889 letters"),
+    "alike columns": ("L.csv", TABLE.replace("\n", ",x" * 4000 + "\n"), r"column 'x' occurs twice"),
+    "blanks": ("L.csv", "elements" + " " * 10**6 + "x,speed,frequency\n", r":1: has .* letters"),
+    "cells": ("L.csv", long_row("1," * 10**6), r":3: has 2,000,000 letters, more than 10,000"),
+    "lines": ("L.csv", TABLE + "\n" * 10**7, r"more than 2,000,000 lines"),
+    "runs": ("runs.csv", "file,elements,step\n" + "x,y,z\n" * 20_000, r"'x' is no case.*19,999"),
+    "files": (
+        "runs.csv",
+        "file,elements,step\n" + "".join(f"S1/m{k}_h1e-3.csv,{k},1e-3\n" for k in range(1, 4000)),
+        r"S1/m10_h1e-3\.csv: there is no such file \(and so in 3,989 more\)",
+    ),
+    "keys": ("entry.toml", "".join(f"k{k} = 1\n" for k in range(10**5)), r"more than 32,000 bytes"),
+    "fewer keys": ("entry.toml", "".join(f"k{k}=1\n" for k in range(3000)), r"'k0'.* 2,999 more"),
+    "nesting": ("entry.toml", "a = " + "[" * 30_000, r"nested too deeply"),
+}
+
+
+@pytest.mark.parametrize(("file", "text", "said"), FLOODS.values(), ids=FLOODS)
+def test_floods_of_faults_are_a_few_sentences_in_seconds(mine, file, text, said):
+    (mine / file).write_text(text, "utf-8")
+    with pytest.raises(MalformedSubmissionError, match=said) as caught:
+        read_submission(mine)
+    assert len(caught.value.faults) <= 12
+    assert len(str(caught.value)) < 3000
+
+
+@pytest.mark.parametrize(
+    "cell", ["1" * 200_000 + "x", "." + "1" * 200_000 + "e", "1" * 10**5 + "d"]
+)
+def test_a_number_without_end_is_no_number_at_once(cell):
+    """Each digit was tried as the last one before the point, and after it: 2e10 ways."""
+    assert "is no number" in number_fault(cell)
+
+
+@pytest.mark.parametrize("code", ["", " ", "   ", "\\n", "\\t \\u3000"])
+def test_a_code_has_a_name(mine, code):
+    (mine / "entry.toml").write_text(f'benchmark = "1.0"\ncode = "{code}"\n', "utf-8")
+    (fault,) = faults_of(mine)
+    assert fault == 'entry.toml:2: there is no code: write code = "name of your code"'
+
+
+def test_a_fault_in_several_files_is_told_of_each(tmp_path):
+    """Up to ten; a kind is one sentence with other numbers and cells."""
+    frequency = Frequency(elements=8, speed=6.0, frequency=3.731123456)
+    submission = Submission(declaration=Declaration(code="a"), frequencies=(frequency,))
+    folder = write_submission(submission, tmp_path / "mine")
+    names = [f"S1/m{k:03d}_h1e-3.csv" for k in (8, 16, 32)]
+    rows = (f"{name},{int(name[4:7])},1e-3" for name in names)
+    (folder / "runs.csv").write_text("\n".join(["file,elements,step", *rows]), "utf-8")
+    assert faults_of(folder) == [f"{name}: there is no such file" for name in names]
