@@ -113,14 +113,28 @@ class Space:
         phi = axial_basis(self._a_panel, x, self.unit.panels).value
         return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
-    @cached_property
-    def twist_stiffness(self) -> FloatArray:
-        """∫ gEI φ'φ' of the twist, (functions, functions)."""
-        x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
-        turned = axial_basis(self._a_panel, x, self.unit.panels).slope
-        return np.asarray(
-            turned.T @ ((dx * self.g * evaluated(self.unit.bending, x))[:, None] * turned)
-        )
+    def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
+        """Return the stiffness of the twist of the straight blade in steady rotation.
+
+        ∫ (gEI + Nk²) φ'φ' + ιw̄² φφ, (functions, functions).
+        """
+        model, still = steady.model, np.zeros((1, steady.size))
+        tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
+        torsion, turning = self._held(model.points, tension, steady.rate)
+        phi = axial_basis(self._a_panel, model.points, self.unit.panels)
+        stiffness = _form(phi.slope, model.weights * torsion, phi.slope)
+        return np.asarray(stiffness[0] + _form(phi.value, model.weights * turning, phi.value))
+
+    def _held(
+        self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
+        r, unit = self.section.bending_ratio, self.unit
+        torsion = self.g * evaluated(unit.bending, x)
+        gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
+        trapeze = tension * self.blade.slenderness * (1.0 + r) * gyration
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
+        return torsion + trapeze, difference * np.square(spin)
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
@@ -140,7 +154,7 @@ class Space:
         LinAlgError
             If the twist has no inertia and buckles.
         """
-        model, g, r = planar.model, self.g, self.section.bending_ratio
+        model, r = planar.model, self.section.bending_ratio
         x, panels = model.points, self.unit.panels
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
@@ -158,10 +172,15 @@ class Space:
             mixed = (1.0 - r) * _form(bent, moment, twist)
             twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
+        spin = planar.rate + model.bent(q_dot)[0] @ model.integrals_at_points.T
+        torsion, turning = self._held(x, tension, spin)
+        torsion = model.weights * torsion
         phi = axial_basis(self._a_panel, x, panels)
-        straight += g * _form(angle, moment * kappa, angle)
-        mixed = g * _form(angle, moment, phi.slope) + (1.0 - r) * _form(bent, moment, phi.value)
-        twisted = self.twist_stiffness + (r - 1.0) * _form(phi.value, moment * kappa, phi.value)
+        straight += _form(angle, torsion * kappa**2, angle)
+        mixed = _form(angle, torsion * kappa, phi.slope)
+        mixed += (1.0 - r) * _form(bent, moment, phi.value)
+        twisted = _form(phi.slope, torsion, phi.slope)
+        twisted += _form(phi.value, model.weights * turning - (1.0 - r) * moment * kappa, phi.value)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
@@ -173,6 +192,13 @@ class Space:
             ),
             axis=1,
         )
+
+
+def with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
+    """Return the planar system on a basis whose points integrate so many functions."""
+    while planar.model.points.size < 2 * functions + 8 * planar.model.blade.panel_count:
+        planar = planar.refined()
+    return planar
 
 
 def _form(left: FloatArray, weights: FloatArray, right: FloatArray) -> FloatArray:
