@@ -14,7 +14,7 @@ from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..plotting import axes_or_new
-from .stability_limit import planar_note
+from .orbit_growth import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -48,9 +49,14 @@ class Growth(NamedTuple):
         """Whether it grows."""
         return self.exponent > GROWTH
 
+    @property
+    def per_radian(self) -> float:
+        """Growth exponent over the orbit's frequency [1/rad], zero if it is stable."""
+        return self.exponent / (2.0 * np.pi) if self.unstable else 0.0
+
     def rate(self, frequency: float) -> float:
         """Return the growth rate [1/s] at the orbit's frequency [rad/s], zero if it is stable."""
-        return self.exponent * frequency / (2.0 * np.pi) if self.unstable else 0.0
+        return self.per_radian * frequency
 
 
 def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
@@ -73,7 +79,7 @@ def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> 
 
 def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Growth:
     """Return what grows out of the plane over one period of an orbit."""
-    space = Space(blade, functions)
+    space = _space(blade, functions)
     orbit = orbit.on(with_points_for(orbit.system, space.functions))
     motion = OutOfPlaneMotion(orbit, space)
     try:
@@ -99,6 +105,11 @@ def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Grow
     return growth._replace(kind=kind, modes=modes)
 
 
+@lru_cache(maxsize=32)
+def _space(blade: AnyBlade, functions: int) -> Space:
+    return Space(blade, functions)
+
+
 def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
 
@@ -109,7 +120,7 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """
     before, functions = None, _FEWEST
     while functions <= _MOST:
-        space = Space(blade, functions)
+        space = _space(blade, functions)
         flap = _steady_modes(space, with_points_for(planar, space.functions))[0][:4]
         if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
             return functions - functions // 3

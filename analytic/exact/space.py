@@ -15,7 +15,7 @@ against g, and its shortening under the tension; at r = 1 the inertia of the twi
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -27,7 +27,8 @@ from ..blade import Blade
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated
-from ..quadrature import axial_basis, transverse_basis
+from ..quadrature import BasisValues, axial_basis, transverse_basis
+from .continuum import Continuum
 from .steady import BeamOrbit, SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
@@ -61,6 +62,17 @@ def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
             "section that does not twist"
         )
     return known
+
+
+@lru_cache(maxsize=32)
+def _bases(a_panel: int, model: Continuum) -> tuple[BasisValues, BasisValues, FloatArray]:
+    """Return the functions of w and of φ at the model's points, and its integrals up to them."""
+    x, panels = model.points, model.blade.panels
+    return (
+        transverse_basis(a_panel, x, panels),
+        axial_basis(a_panel, x, panels),
+        model.integrals_at_points,
+    )
 
 
 class Space:
@@ -121,7 +133,7 @@ class Space:
         model, still = steady.model, np.zeros((1, steady.size))
         tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
         torsion, turning = self._held(model.points, tension, steady.rate)
-        phi = axial_basis(self._a_panel, model.points, self.unit.panels)
+        phi = _bases(self._a_panel, model)[1]
         stiffness = _form(phi.slope, model.weights * torsion, phi.slope)
         return np.asarray(stiffness[0] + _form(phi.value, model.weights * turning, phi.value))
 
@@ -155,27 +167,24 @@ class Space:
             If the twist has no inertia and buckles.
         """
         model, r = planar.model, self.section.bending_ratio
-        x, panels = model.points, self.unit.panels
+        x, (w, phi, upto) = model.points, _bases(self._a_panel, model)
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
         moment = bending * kappa
-        w = transverse_basis(self._a_panel, x, panels)
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * w.slope
         bent = stretch[..., None] * w.curvature - (change * stretch**2)[..., None] * w.slope
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
-            upto = model.integrals_at_points
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
             mixed = (1.0 - r) * _form(bent, moment, twist)
             twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        spin = planar.rate + model.bent(q_dot)[0] @ model.integrals_at_points.T
+        spin = planar.rate + model.bent(q_dot)[0] @ upto.T
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
-        phi = axial_basis(self._a_panel, x, panels)
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, phi.slope)
         mixed += (1.0 - r) * _form(bent, moment, phi.value)
