@@ -9,7 +9,6 @@ from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
-from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
 from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
@@ -34,6 +33,7 @@ from .exact.stability_limit import stability_limit as stability_limit
 from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
+from .exact.tracking import Crossing as Crossing
 from .input_checks import RotbeamWarning as RotbeamWarning
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
