@@ -19,7 +19,7 @@ LARGEST = 0.6
 _NOTHING = 1e-3  # |q|/L from which is looked, if the smallest grows
 _STEP, _FINE, _LONG = 0.02, 0.0025, 0.05  # of the amplitude, from one to the next
 _STRONG = 10.0  # times the growth that counts, from which steps are long
-_NEAR = 0.85  # of the limit, from where on steps are fine
+_NEAR = 0.9  # of the limit, from where on steps are fine
 _BISECTED = 1e-4  # of the limit
 _CONVERGED = 0.01  # of the limit, as half as many functions and steps again tell it
 
@@ -105,9 +105,9 @@ class StabilityLimit:
             )
         doubt = "" if self.converged else ", not converged"
         return (
-            f"{at} leave their plane from a = {self.amplitude:.4g} on, by {self.growth:g} per "
-            f"radian and more{doubt}: {self.kind} of {' and '.join(self.modes)}"
-            + (f"; {tongues}" if tongues else "")
+            f"{at} leave their plane from a = {self.amplitude:.4g} on, up to the "
+            f"{self.searched:.4g} looked at, by {self.growth:g} per radian and more{doubt}: "
+            f"{self.kind} of {' and '.join(self.modes)}" + (f"; {tongues}" if tongues else "")
         )
 
 
@@ -126,7 +126,7 @@ def stability_limit(
     least unstable amplitude is no property of the blade, for without damping sum resonances of ever
     higher modes lie everywhere, ever narrower and slower. Those that were met below the limit are
     `tongues`. Amplitudes from 0.01 on are looked at in steps of 2 %, of 5 % where it grows ten
-    times as fast, of 0.25 % from 0.85 of the limit on; what is narrower may be passed over.
+    times as fast, of 0.25 % from 0.9 of the limit on; what is narrower may be passed over.
 
     Parameters
     ----------

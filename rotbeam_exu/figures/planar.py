@@ -101,7 +101,7 @@ def growth_out_of_plane(
 
 
 def stability_limits(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the least unstable amplitudes over height/width, a line for each speed.
+    """Draw the amplitudes from which on the plane is left over height/width, a line for each speed.
 
     Parameters
     ----------
