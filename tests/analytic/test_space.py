@@ -217,6 +217,24 @@ def test_a_bar_bent_by_a_force_at_its_tip_buckles_where_timoshenko_says():
     assert optimize.brentq(least, 3.0, 4.5) == pytest.approx(4.0126, abs=5e-5)
 
 
+def test_a_bar_on_edge_buckles_under_its_own_weight_where_timoshenko_says():
+    """W L²/√(EI_out GJ) = 12.85 of the whole weight W."""
+    small = 1e-8
+    blade = BEAM.with_section_out_of_plane(small, small, 0.0)
+    model = blade_continuum(blade.unit, 0.0, 8, 1, 0.0)
+    # ϑ' = W(1 - x)²/2 in Legendre's polynomials, the first three of which it is made of.
+    shape = np.zeros(model.size)
+    shape[:3] = 0.5 / np.array([3.0, -2.0 * math.sqrt(3.0), 6.0 * math.sqrt(5.0)])
+    still, straight = np.zeros((1, model.size)), SteadyBeam(model, 0.0)
+
+    def least(load):
+        bent = load * small * shape[None]
+        (K,) = Space(blade, 8).stiffness(straight, bent, still, still)
+        return np.linalg.eigvalsh(K / small)[0]
+
+    assert optimize.brentq(least, 10.0, 15.0) == pytest.approx(12.85, abs=0.01)
+
+
 @pytest.mark.parametrize("bending_ratio", [1.0, 1.0 + 1e-13])
 @pytest.mark.parametrize("torsion_ratio", [0.1, 1.0, RIGID])
 def test_at_rest_a_round_section_has_the_multiplier_one_twice_more(bending_ratio, torsion_ratio):
