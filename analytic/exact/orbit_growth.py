@@ -19,7 +19,7 @@ from .space import out_of_plane_of
 from .steady import BeamOrbit
 
 LEAST_GROWTH = 0.01
-"""Growth per radian of the orbit that counts unless told; 1 % of critical damping outweighs it."""
+"""Growth per radian of the orbit that counts unless told."""
 SMALLEST = 0.01
 """Peak |q|/L of the smallest orbits that are looked at."""
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())

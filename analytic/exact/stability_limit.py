@@ -137,8 +137,8 @@ def stability_limit(
     mode : int
         In-plane mode from which the orbits grow, from 1.
     growth : float
-        Growth exponent over the orbit's frequency [1/rad] that counts; a damping ratio of the
-        modes that grow, relative to that frequency, must be larger to keep the plane.
+        Growth exponent over the orbit's frequency [1/rad] that counts. Modes that decay faster,
+        by their damping ratio times their frequency over the orbit's, keep the plane.
     largest : float
         Largest |q|/L to look at.
     inextensible : bool
