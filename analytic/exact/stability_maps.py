@@ -36,7 +36,7 @@ def growth_map(
     --------
     >>> from analytic import Beam, growth_map
     >>> print(growth_map(Beam.reference().rectangle(), [4.0], [0.02, 0.1]).round(2))
-    [[ 0.   33.67]]
+    [[ 0.   33.42]]
     """
     require_out_of_plane(blade)
     speeds = finite_values("omegas", omegas, "rad/s")
