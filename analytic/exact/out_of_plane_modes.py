@@ -34,7 +34,7 @@ class TorsionModes:
         Rotation speed ω [rad/s].
     frequencies : ndarray (count,)
         [rad/s], ascending. Of a section that is free to warp: a clamp that holds the warping
-        raises them by a quarter of its depth over the length, 0.1 % of the paper's beam as a rectangle.
+        raises them by a quarter of its depth over the length, 0.1 % for the paper's rectangle.
 
     Examples
     --------

@@ -1,6 +1,8 @@
 """Which planar orbits leave their plane: the paper's beam as rectangles and as a tube."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,6 +27,7 @@ from analytic import (
 )
 from analytic.methods.continuation import Care
 
+ROOT = Path(__file__).parents[2]
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
 # The first unstable amplitude of the list, by ω [rad/s] and height over width; "-" has none.
 # Another code has 0.1 for 18.5 and none for 3 at 8 rad/s: with its eight functions ours has so too,
@@ -63,6 +66,20 @@ def test_where_rectangles_leave_the_plane(beam, omega, ratio, first):
 @pytest.mark.parametrize(("omega", "ratio", "first"), TABLE)
 def test_the_whole_table(beam, omega, ratio, first):
     assert first_unstable(beam, omega, ratio, STEPS) == first
+
+
+def test_the_pages_state_these_limits():
+    page = (ROOT / "docs" / "theory" / "planar.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([2468]) \|(.*)\|$", page, re.MULTILINE)
+    ratios = (2.0, 3.0, 6.0, 18.5)
+    for omega, cells in rows:
+        stated = [cell.split()[0] for cell in cells.split("|")[1:5]]
+        known = [math.inf if cell == "none" else float(cell) for cell in stated]
+        assert known == pytest.approx([LIMITS[float(omega), r] for r in ratios], rel=5e-3)
+    assert len(rows) == 4
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    low, high = (f"{LIMITS[omega, 18.5]:.3f}" for omega in (2.0, 8.0))
+    assert f"from {low} L at 2 rad/s to {high} L at 8 on every orbit does" in readme
 
 
 @pytest.mark.slow
