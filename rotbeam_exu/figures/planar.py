@@ -31,8 +31,6 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
     kinds, stable = data["kind"].to_numpy(), rate == 0.0
     with mpl.rc_context(STYLE):
-        growing = np.where(stable, np.nan, rate)
-        ax.plot(a, growing, color="0.7", lw=0.7, zorder=1)
         for (kind, mark), color in zip(_MARKS.items(), map(ink, (BLUE, RED, ORANGE)), strict=True):
             here = kinds == kind
             if here.any():

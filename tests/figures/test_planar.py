@@ -24,6 +24,8 @@ def test_growth_over_the_amplitude(beam):
         np.array([[0.3, found.growth_rate[1]]])
     )
     assert by_label["stays in plane"].get_xdata() == pytest.approx([0.25])
+    # No line joins orbits between which others may stay.
+    assert all(line.get_linestyle() == "None" for line in axes.lines)
 
 
 def test_what_stays_is_drawn_at_zero(beam):
