@@ -10,7 +10,6 @@ from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
 from .exact.branches import backbone_branch as backbone_branch
 from .exact.campbell import Campbell as Campbell
-from .exact.campbell import Crossing as Crossing
 from .exact.campbell import campbell as campbell
 from .exact.curve import backbone_curve as backbone_curve
 from .exact.damped import damping_ratios as damping_ratios
@@ -22,6 +21,7 @@ from .exact.forced_orbits import ResponsePoint as ResponsePoint
 from .exact.internal_resonance import Resonance as Resonance
 from .exact.modes import LinearModes as LinearModes
 from .exact.modes import linear_modes as linear_modes
+from .exact.orbit_growth import planar_note as planar_note
 from .exact.out_of_plane_modes import TorsionModes as TorsionModes
 from .exact.periodic import periodic_orbits as periodic_orbits
 from .exact.planarity import PlanarStability as PlanarStability
@@ -29,11 +29,12 @@ from .exact.planarity import planar_stability as planar_stability
 from .exact.response import SpinUpResponse as SpinUpResponse
 from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
-from .exact.stability_limit import planar_note as planar_note
+from .exact.stability_limit import Tongue as Tongue
 from .exact.stability_limit import stability_limit as stability_limit
 from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
+from .exact.tracking import Crossing as Crossing
 from .input_checks import RotbeamWarning as RotbeamWarning
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity

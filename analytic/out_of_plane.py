@@ -34,7 +34,9 @@ class OutOfPlane(Described):
         g = GJ/EI; infinite of a section that does not twist. None where it is not known.
     polar_inertia : float, optional
         ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None of a homogeneous section,
-        which has m (1 + r) EI/EA. Zero makes the twist follow without inertia.
+        which has m (1 + r) EI/EA. Its parts in the plane and across it, whose difference stiffens
+        the twist as the blade turns, are taken as 1 to r. Zero makes the twist follow without
+        inertia.
 
     Examples
     --------

@@ -7,7 +7,7 @@ pictures have the reader's own settings; figures of the house are in `rotbeam_ex
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from .arrays import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # noqa: PLC0414  (for the results)
+
+_DRAWN = 61  # amplitudes, besides the orbits' own
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -40,6 +42,25 @@ def apart(places: FloatArray, gap: float) -> FloatArray:
     for below, above in pairwise(order):
         moved[above] = max(moved[above], moved[below] + gap)
     return moved
+
+
+def backbone_drawn(
+    frequency: FloatArray, amplitude: FloatArray, slope: float | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """Return frequencies and amplitudes of a smooth curve through the orbits of a backbone.
+
+    A cubic spline in a², of which the frequency is a function; the first point is that of a = 0,
+    where it has the `slope` dω/d(a²) if that is known.
+    """
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415  (for pictures only)
+
+    square, first = np.unique(amplitude**2, return_index=True)
+    ends: Any = (
+        "not-a-knot" if slope is None else (1, slope),
+        "not-a-knot" if square.size > 2 else (2, 0.0),
+    )
+    a = np.union1d(np.linspace(0.0, amplitude.max(), _DRAWN), amplitude)
+    return CubicSpline(square, frequency[first], bc_type=ends)(a**2), a
 
 
 def free_place(omegas: FloatArray, frequencies: FloatArray, order: int, top: float) -> float:

@@ -25,8 +25,8 @@ first = next(c for c in diagram.crossings if (c.mode, c.order) == (1, 2))
 print(f"mode 1 meets 2ω at ω = {first.omega:.6f} rad/s")
 
 # %%
-# Where the section is known, flap, out of the plane, and torsion come along: here of the rectangle
-# that has the paper's A and I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is
+# Where the section is known, flap, out of the plane, and torsion come along: here of a rectangle
+# with the paper's A and I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is
 # as slow as its third lag.
 flat = campbell(Beam.reference().rectangle(), diagram.omegas, planes=("lag", "flap", "torsion"))
 _, ax = plt.subplots(figsize=(6, 4.5))

@@ -2,9 +2,9 @@ r"""
 Is it planar?
 =============
 
-How fast the planar orbits of the paper's beam leave the plane of rotation if its section is the
-rectangle with the paper's :math:`A` and :math:`I`; what is white stays. Circles are where spin-ups
-of the paper end. A thin tube with the same :math:`A` and :math:`I` stays.
+How fast the planar orbits of the paper's beam leave the plane of rotation if its section is
+a rectangle with the paper's :math:`A` and :math:`I`; what is white stays. Circles are where its
+spin-ups would end. A thin tube with the same :math:`A` and :math:`I` stays.
 """
 
 import matplotlib.pyplot as plt
@@ -23,7 +23,7 @@ figures.growth_out_of_plane(data, spin_ups=ends)
 plt.show()
 
 # %%
-# The least amplitude that leaves the plane, and the tube where a spin-up at 4 rad/s ends:
+# From where on all orbits leave the plane, and the tube where spin-ups to 4 rad/s end:
 limit = stability_limit(strip, 4.0, largest=0.1)
 round_one = planar_stability(tube, 4.0, ends[4.0])
 print(limit, round_one, sep="\n")

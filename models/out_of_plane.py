@@ -2,9 +2,9 @@
 The spin-up of a rectangle leaves its plane
 ===========================================
 
-The paper's beam as the rectangle with its A and I, 37 mm high and 2 mm wide, the tip 8 mm out of
-the plane at first: bent by a tenth of its length it buckles sideways, by w. A tube stays where it
-was. Sections are drawn as strips 0.4 m high; nothing else is exaggerated.
+A rectangle with the paper's A and I, 37 mm high and 2 mm wide, without gravity, the tip 8 mm out of
+the plane at first: bent by a tenth of its length, on the ramp, it buckles sideways, by w. A tube
+stays. Sections are drawn as strips 0.4 m high; nothing else is exaggerated.
 """
 
 import matplotlib.pyplot as plt

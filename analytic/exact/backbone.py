@@ -13,8 +13,8 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
-from ..plotting import axes_or_new
-from .stability_limit import planar_note
+from ..plotting import axes_or_new, backbone_drawn
+from .orbit_growth import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 
@@ -169,14 +169,14 @@ class Backbone:
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency, from ω_n on, and return the axes.
 
-        Dots are the orbits; what joins them is straight.
+        Dots are the orbits; between them is a cubic in a², which leaves ω_n by λ_ω.
 
         Parameters
         ----------
         ax : Axes, optional
             Drawn on these; otherwise on a new figure.
         **line
-            As for matplotlib's `Axes.plot`, such as color and label.
+            As for matplotlib's `Axes.plot`, such as color and label; a marker is the orbits'.
 
         Examples
         --------
@@ -184,15 +184,17 @@ class Backbone:
         >>> ax = periodic_orbits(Beam.reference(), 6.0, [0.1, 0.2, 0.3]).plot()
         """
         ax = axes_or_new(ax)
-        order = np.argsort(self.amplitude)
         mode = "" if self.mode == 1 else f", mode {self.mode}"
-        ax.plot(
-            np.append(self.omega_n, self.frequency[order]),
-            np.append(0.0, self.amplitude[order]),
-            **{"label": f"ω = {self.omega:g} rad/s{mode}", "marker": ".", **line},
+        frequency = np.append(self.omega_n, self.frequency)
+        amplitude = np.append(0.0, self.amplitude)
+        marker = line.pop("marker", ".")
+        (curve,) = ax.plot(
+            *backbone_drawn(frequency, amplitude, -self.lambda_omega * self.omega_n),
+            **{"label": f"ω = {self.omega:g} rad/s{mode}", **line},
         )
+        ax.plot(frequency, amplitude, ls="none", marker=marker, color=curve.get_color())
         ax.set(xlabel="frequency $ω_{NL}$ [rad/s]", ylabel="peak |q|/L")
-        ax.set_ylim(bottom=0.0)
+        ax.set_ylim(bottom=0.0, auto=None)  # a second backbone may be higher
         ax.legend()
         return ax
 

@@ -2,52 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy import optimize
+from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..plotting import apart, axes_or_new, cycled, free_place
-from .continuum import Continuum
-from .modes import LinearModes, Plane, linear_modes, modes_on
-from .out_of_plane_modes import flap_blade
+from .modes import Plane
+from .tracking import Crossing, family_of
 
 if TYPE_CHECKING:
     from ..plotting import Axes
 
-_SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
-
-
-@dataclass(frozen=True, kw_only=True)
-class Crossing:
-    """Where a mode's frequency is a multiple of the speed: `mode` meets the line kω.
-
-    Attributes
-    ----------
-    mode : int
-        Mode, from 1, in the order of its family's frequencies at the lowest speed.
-    order : int
-        Engine order k.
-    omega : float
-        Speed [rad/s].
-    frequency : float
-        Frequency kω [rad/s].
-    plane : str
-        Its family: "lag", "flap" or "torsion".
-    """
-
-    mode: int
-    order: int
-    omega: float
-    frequency: float
-    plane: Plane = "lag"
+_DRAWN = 41  # speeds that a picture's curves go through, besides their own: chords below a pixel
+_TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,14 +63,33 @@ class Campbell:
 
     @property
     def names(self) -> list[str]:
-        """The name of each column, as "flap 1"."""
-        return [
-            f"{plane} {self.planes[:column].count(plane) + 1}"
-            for column, plane in enumerate(self.planes)
-        ]
+        """The name of each column: as "flap 1", or "mode 1 at 45°" of a blade set at an angle.
+
+        Set at a right angle the blade's own plane of bending is that of flap.
+        """
+        numbers = [self.planes[:k].count(plane) + 1 for k, plane in enumerate(self.planes)]
+        across = abs(self.beam.unit.setting)
+        if "lag" not in self.planes or across > 1.0 - _TURNED:
+            return [f"{plane} {k}" for plane, k in zip(self.planes, numbers, strict=True)]
+        if across < _TURNED:
+            return [f"flap {k}" for k in numbers]
+        angle = math.degrees(math.acos(across))
+        return [f"mode {k} at {angle:.4g}°" for k in numbers]
+
+    @cached_property
+    def _curves(self) -> tuple[FloatArray, FloatArray]:
+        """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""
+        even = np.linspace(self.omegas[0], self.omegas[-1], _DRAWN)
+        apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.1 * (even[1] - even[0])
+        speeds = np.sort(np.concatenate((self.omegas, even[apart_])))
+        counts = {plane: self.planes.count(plane) for plane in self.planes}
+        families = [family_of(self.beam, speeds, count, 0, p) for p, count in counts.items()]
+        return speeds, np.hstack([family.frequencies for family in families])
 
     def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
         """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
+
+        The curves go through speeds of their own, as many as a smooth picture takes.
 
         Parameters
         ----------
@@ -111,27 +105,28 @@ class Campbell:
         """
         ax = axes_or_new(ax)
         low, high = float(self.omegas[0]), float(self.omegas[-1])
-        top = 1.05 * float(self.frequencies.max()) if highest is None else highest
+        omegas, curves = self._curves
+        top = 1.05 * float(curves.max()) if highest is None else highest
         met = [c for c in self.crossings if c.frequency <= top]
         last = max((c.order for c in met), default=1)
         for order in range(1, last + 1):
             ax.plot([low, high], [order * low, order * high], color="0.75", lw=0.6, zorder=0)
             # Where the line leaves the frame: above it, or at its right where no mode passes.
             above = order * high > top
-            at = top / order if above else free_place(self.omegas, self.frequencies, order, top)
+            at = top / order if above else free_place(omegas, curves, order, top)
             ax.text(
                 at, min(order * at, top), f"{order}ω", color="0.45", fontsize="small",
                 ha="center" if above and order < last else "right", va="bottom", clip_on=False,
             )  # fmt: skip
         families = list(dict.fromkeys(self.planes))
-        heights = apart(self.frequencies[-1], 0.045 * top)
+        heights = apart(curves[-1], 0.045 * top)
         for plane, name, row, height in zip(
-            self.planes, self.names, self.frequencies.T, heights, strict=True
+            self.planes, self.names, curves.T, heights, strict=True
         ):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
             family = families.index(plane)
-            (line,) = ax.plot(self.omegas, row, color=cycled(family), ls=("-", "--", "-.")[family])
+            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.")[family])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
@@ -190,12 +185,7 @@ def campbell(
     count, orders = whole_number("count", count), whole_number("orders", orders)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
-    families = [
-        _twisting(beam, speeds, count, orders)
-        if plane == "torsion"
-        else _bending(beam, speeds, count, orders, plane)
-        for plane in planes
-    ]
+    families = [family_of(beam, speeds, count, orders, plane) for plane in planes]
     crossings = [
         replace(crossing, plane=plane)
         for plane, family in zip(planes, families, strict=True)
@@ -209,86 +199,3 @@ def campbell(
         crossings=tuple(crossings),
         planes=tuple(plane for plane in planes for _ in range(count)),
     )
-
-
-class _Family(NamedTuple):
-    frequencies: FloatArray
-    mac: FloatArray
-    crossings: list[Crossing]
-
-
-def _twisting(beam: AnyBlade, speeds: FloatArray, count: int, orders: int) -> _Family:
-    """Return the torsional modes, which know nothing of the speed."""
-    modes = linear_modes(beam, float(speeds[0]), count, plane="torsion")
-    crossings = [
-        Crossing(mode=mode, order=order, omega=frequency / order, frequency=frequency)
-        for mode, frequency in enumerate(modes.frequencies.tolist(), start=1)
-        for order in range(1, orders + 1)
-        if speeds[0] <= frequency / order <= speeds[-1]
-    ]
-    ones = np.ones((speeds.size, count))
-    return _Family(ones * modes.frequencies, ones[1:], crossings)
-
-
-def _bending(
-    beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Literal["lag", "flap"]
-) -> _Family:
-    wanted = count + _SPARE_MODES
-
-    def modes_at(omega: float) -> LinearModes:
-        return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
-
-    bent = flap_blade(beam) if plane == "flap" else beam
-    here = modes_at(float(speeds[0]))
-    tracked = np.arange(count)
-    frequencies, assurances = [here.frequencies[:count]], []
-    crossings: list[Crossing] = []
-    for low, high in pairwise(speeds.tolist()):
-        there = modes_at(high)
-        assurance = _assurance(here, there)[tracked]
-        following = _followed(assurance)
-        frequencies.append(there.frequencies[following])
-        assurances.append(assurance[np.arange(count), following])
-
-        # What resolves the modes at both ends does so between them.
-        finer = max(here.model, there.model, key=lambda model: model.bending)
-
-        def detuning(
-            omega: float,
-            mode: int,
-            order: int,
-            start: LinearModes = here,
-            rows: NDArray[np.intp] = tracked,
-            model: Continuum = finer,
-        ) -> float:
-            modes = modes_on(model, bent, omega, wanted)
-            same = _followed(_assurance(start, modes)[rows])[mode]
-            return float(modes.frequencies[same] - order * omega)
-
-        for column in range(count):
-            for order in range(1, orders + 1):
-                before = frequencies[-2][column] - order * low
-                after = frequencies[-1][column] - order * high
-                if before > 0.0 >= after or before < 0.0 <= after:
-                    omega = optimize.brentq(
-                        detuning, low, high, args=(column, order), xtol=1e-13 * high, rtol=1e-13
-                    )
-                    crossings.append(
-                        Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
-                    )
-        here, tracked = there, following
-    return _Family(np.array(frequencies), np.array(assurances).reshape(-1, count), crossings)
-
-
-def _followed(assurance: FloatArray) -> NDArray[np.intp]:
-    """Return the mode that continues each tracked one, all of them different."""
-    return np.asarray(optimize.linear_sum_assignment(-assurance)[1])
-
-
-def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
-    """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
-    larger = max(one.model, other.model, key=lambda model: model.bending)
-    a, b = (modes.model.padded(modes.coordinates, larger) for modes in (one, other))
-    a = a / np.linalg.norm(a, axis=1, keepdims=True)
-    b = b / np.linalg.norm(b, axis=1, keepdims=True)
-    return np.asarray((a @ b.T) ** 2)

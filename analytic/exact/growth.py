@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy import linalg
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..methods.floquet import reversible_monodromy
-from .space import OutOfPlaneMotion, Space
+from .space import OutOfPlaneMotion, Space, with_points_for
 from .steady import BeamOrbit, SteadyBeam
 
 GROWTH = 1e-5
@@ -48,9 +49,14 @@ class Growth(NamedTuple):
         """Whether it grows."""
         return self.exponent > GROWTH
 
+    @property
+    def per_radian(self) -> float:
+        """Growth exponent over the orbit's frequency [1/rad], zero if it is stable."""
+        return self.exponent / (2.0 * np.pi) if self.unstable else 0.0
+
     def rate(self, frequency: float) -> float:
         """Return the growth rate [1/s] at the orbit's frequency [rad/s], zero if it is stable."""
-        return self.exponent * frequency / (2.0 * np.pi) if self.unstable else 0.0
+        return self.per_radian * frequency
 
 
 def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
@@ -73,8 +79,8 @@ def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> 
 
 def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Growth:
     """Return what grows out of the plane over one period of an orbit."""
-    space = Space(blade, functions)
-    orbit = orbit.on(_with_points_for(orbit.system, space.functions))
+    space = _space(blade, functions)
+    orbit = orbit.on(with_points_for(orbit.system, space.functions))
     motion = OutOfPlaneMotion(orbit, space)
     try:
         matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
@@ -99,6 +105,11 @@ def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Grow
     return growth._replace(kind=kind, modes=modes)
 
 
+@lru_cache(maxsize=32)
+def _space(blade: AnyBlade, functions: int) -> Space:
+    return Space(blade, functions)
+
+
 def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
 
@@ -109,8 +120,8 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """
     before, functions = None, _FEWEST
     while functions <= _MOST:
-        space = Space(blade, functions)
-        flap = _steady_modes(space, _with_points_for(planar, space.functions))[0][:4]
+        space = _space(blade, functions)
+        flap = _steady_modes(space, with_points_for(planar, space.functions))[0][:4]
         if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
             return functions - functions // 3
         before, functions = flap, functions + functions // 2
@@ -118,13 +129,6 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
         f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_MOST} functions "
         "do not resolve: rotate slower"
     )
-
-
-def _with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
-    """Return the planar system on a basis whose points integrate so many functions."""
-    while planar.model.points.size < 2 * functions + 8 * planar.model.blade.panel_count:
-        planar = planar.refined()
-    return planar
 
 
 def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:

@@ -17,7 +17,7 @@ from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
 from ..ramps import AnyRamp, fastest, require_ramp
 from .discretization import blade_continuum
-from .stability_limit import planar_note
+from .orbit_growth import planar_note
 from .steady import checked_share, section_inertia, steady_rate
 from .transient import Motion, grid_of, integrated
 

@@ -15,7 +15,7 @@ against g, and its shortening under the tension; at r = 1 the inertia of the twi
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -27,7 +27,8 @@ from ..blade import Blade
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated
-from ..quadrature import axial_basis, transverse_basis
+from ..quadrature import BasisValues, axial_basis, transverse_basis
+from .continuum import Continuum
 from .steady import BeamOrbit, SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
@@ -61,6 +62,17 @@ def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
             "section that does not twist"
         )
     return known
+
+
+@lru_cache(maxsize=32)
+def _bases(a_panel: int, model: Continuum) -> tuple[BasisValues, BasisValues, FloatArray]:
+    """Return the functions of w and of φ at the model's points, and its integrals up to them."""
+    x, panels = model.points, model.blade.panels
+    return (
+        transverse_basis(a_panel, x, panels),
+        axial_basis(a_panel, x, panels),
+        model.integrals_at_points,
+    )
 
 
 class Space:
@@ -113,14 +125,28 @@ class Space:
         phi = axial_basis(self._a_panel, x, self.unit.panels).value
         return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
-    @cached_property
-    def twist_stiffness(self) -> FloatArray:
-        """∫ gEI φ'φ' of the twist, (functions, functions)."""
-        x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
-        turned = axial_basis(self._a_panel, x, self.unit.panels).slope
-        return np.asarray(
-            turned.T @ ((dx * self.g * evaluated(self.unit.bending, x))[:, None] * turned)
-        )
+    def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
+        """Return the stiffness of the twist of the straight blade in steady rotation.
+
+        ∫ (gEI + Nk²) φ'φ' + ιw̄² φφ, (functions, functions).
+        """
+        model, still = steady.model, np.zeros((1, steady.size))
+        tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
+        torsion, turning = self._held(model.points, tension, steady.rate)
+        phi = _bases(self._a_panel, model)[1]
+        stiffness = _form(phi.slope, model.weights * torsion, phi.slope)
+        return np.asarray(stiffness[0] + _form(phi.value, model.weights * turning, phi.value))
+
+    def _held(
+        self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
+        r, unit = self.section.bending_ratio, self.unit
+        torsion = self.g * evaluated(unit.bending, x)
+        gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
+        trapeze = tension * self.blade.slenderness * (1.0 + r) * gyration
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
+        return torsion + trapeze, difference * np.square(spin)
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
@@ -140,28 +166,30 @@ class Space:
         LinAlgError
             If the twist has no inertia and buckles.
         """
-        model, g, r = planar.model, self.g, self.section.bending_ratio
-        x, panels = model.points, self.unit.panels
+        model, r = planar.model, self.section.bending_ratio
+        x, (w, phi, upto) = model.points, _bases(self._a_panel, model)
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
         moment = bending * kappa
-        w = transverse_basis(self._a_panel, x, panels)
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * w.slope
         bent = stretch[..., None] * w.curvature - (change * stretch**2)[..., None] * w.slope
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
-            upto = model.integrals_at_points
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
             mixed = (1.0 - r) * _form(bent, moment, twist)
             twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        phi = axial_basis(self._a_panel, x, panels)
-        straight += g * _form(angle, moment * kappa, angle)
-        mixed = g * _form(angle, moment, phi.slope) + (1.0 - r) * _form(bent, moment, phi.value)
-        twisted = self.twist_stiffness + (r - 1.0) * _form(phi.value, moment * kappa, phi.value)
+        spin = planar.rate + model.bent(q_dot)[0] @ upto.T
+        torsion, turning = self._held(x, tension, spin)
+        torsion = model.weights * torsion
+        straight += _form(angle, torsion * kappa**2, angle)
+        mixed = _form(angle, torsion * kappa, phi.slope)
+        mixed += (1.0 - r) * _form(bent, moment, phi.value)
+        twisted = _form(phi.slope, torsion, phi.slope)
+        twisted += _form(phi.value, model.weights * turning - (1.0 - r) * moment * kappa, phi.value)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
@@ -173,6 +201,13 @@ class Space:
             ),
             axis=1,
         )
+
+
+def with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
+    """Return the planar system on a basis whose points integrate so many functions."""
+    while planar.model.points.size < 2 * functions + 8 * planar.model.blade.panel_count:
+        planar = planar.refined()
+    return planar
 
 
 def _form(left: FloatArray, weights: FloatArray, right: FloatArray) -> FloatArray:

@@ -1,37 +1,54 @@
-"""The least amplitude that leaves the plane, and what to say of results that do."""
+"""The amplitude from which on planar orbits leave their plane, and the tongues below it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
-
-import numpy as np
+from itertools import groupby
 
 from ..beam import AnyBlade, require_undamped
-from ..blade import Blade
 from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
-from .branch import AmplitudeNotReachedError, branch_of
-from .growth import STEPS, Growth, grown, settled_functions
-from .modes import resolved_model
-from .space import out_of_plane_of, require_out_of_plane
-from .steady import BeamOrbit
+from .growth import Growth
+from .orbit_growth import LEAST_GROWTH, SMALLEST, GrowthAt, growths
+from .space import require_out_of_plane
 
-_SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
-_FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
-_BISECTED = 1e-4  # of |q|/L
+_NOTHING = 1e-3  # |q|/L from which is looked, if the smallest grows
+_STEP, _FINE, _LONG = 0.02, 0.0025, 0.05  # of the amplitude, from one to the next
+_STRONG = 10.0  # times the growth that counts, from which steps are long
+_NEAR = 0.85  # of the limit, from where on steps are fine
+_BISECTED = 1e-4  # of the limit
 _CONVERGED = 0.01  # of the limit, as half as many functions and steps again tell it
 
-_GrowthAt = Callable[[float, int], Growth]
+
+@dataclass(frozen=True, kw_only=True)
+class Tongue:
+    """An interval of amplitudes below the limit whose orbits leave the plane.
+
+    Attributes
+    ----------
+    low, high : float
+        Least and largest |q|/L that were seen to grow.
+    growth : float
+        Largest growth exponent over the orbit's frequency [1/rad].
+    kind : str
+    modes : tuple of str
+        How the motion grows there and what, as in `PlanarStability`.
+    """
+
+    low: float
+    high: float
+    growth: float
+    kind: str
+    modes: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class StabilityLimit:
-    """The least amplitude at which the planar orbits leave their plane; see `stability_limit`.
+    """The amplitude from which on planar orbits leave their plane; see `stability_limit`.
 
     Attributes
     ----------
@@ -40,14 +57,19 @@ class StabilityLimit:
         Rotation speed ω [rad/s].
     mode : int
         Planar mode from which the orbits grow, from 1.
+    growth : float
+        Growth exponent over the orbit's frequency [1/rad] that counts.
     amplitude : float
-        Peak |q|/L; infinite where all orbits up to `searched` stay in the plane.
+        Peak |q|/L above which all orbits, up to `searched`, leave the plane by at least `growth`;
+        infinite where the largest orbit does not.
     searched : float
         Largest |q|/L that was looked at.
     kind : str
-        How the motion grows there, as in `PlanarStability`.
+        How the motion grows at the limit, as in `PlanarStability`.
     modes : tuple of str
         What grows there.
+    tongues : tuple of Tongue
+        Where smaller orbits leave the plane, however slowly, between others that stay.
     converged : bool
         Whether half as many functions and steps again tell the limit within 1 %.
     """
@@ -55,25 +77,37 @@ class StabilityLimit:
     blade: AnyBlade
     omega: float
     mode: int
+    growth: float
     amplitude: float
     searched: float
     kind: str
     modes: tuple[str, ...]
+    tongues: tuple[Tongue, ...]
     converged: bool
 
     def __float__(self) -> float:
         return self.amplitude
 
     def __str__(self) -> str:
-        if math.isinf(self.amplitude):
-            return (
-                f"At {self.omega:g} rad/s the planar orbits of this section stay in their plane, "
-                f"up to a = {self.searched:g}"
+        at = f"At {self.omega:g} rad/s the planar orbits of this section"
+        limited = math.isfinite(self.amplitude)
+        tongues = ""
+        if self.tongues:
+            count = "one tongue" if len(self.tongues) == 1 else f"{len(self.tongues)} tongues"
+            most = max(self.tongues, key=lambda tongue: tongue.growth)
+            tongues = (
+                f"{count}{' below' if limited else ''} from a = {self.tongues[0].low:.4g} on, at "
+                f"most {most.growth:.2g} per radian"
+            )
+        if not limited:
+            return f"{at} stay in their plane, up to a = {self.searched:.4g}" + (
+                f", but for {tongues}" if tongues else ""
             )
         doubt = "" if self.converged else ", not converged"
         return (
-            f"At {self.omega:g} rad/s the planar orbits of this section leave their plane from "
-            f"a = {self.amplitude:.4g} on{doubt}: {self.kind} of {' and '.join(self.modes)}"
+            f"{at} leave their plane from a = {self.amplitude:.4g} on, up to the "
+            f"{self.searched:.4g} looked at, by {self.growth:g} per radian and more{doubt}: "
+            f"{self.kind} of {' and '.join(self.modes)}" + (f"; {tongues}" if tongues else "")
         )
 
 
@@ -82,14 +116,17 @@ def stability_limit(
     omega: float,
     mode: int = 1,
     *,
+    growth: float = LEAST_GROWTH,
     largest: float = LARGEST,
     inextensible: bool = False,
 ) -> StabilityLimit:
-    """Return the least amplitude at which the planar orbits of a blade leave their plane.
+    """Return the amplitude from which on the planar orbits of a blade leave their plane.
 
-    Amplitudes 0.02, 0.035, 0.05, 0.08, 0.1, 0.15 ... are looked at, and the step between the last
-    stable and the first unstable one is bisected: a resonance that is narrower than a step may be
-    passed over, and beyond the limit orbits may be stable again.
+    From there up to `largest` all of them grow by at least `growth` per radian of the orbit: a
+    least unstable amplitude is no property of the blade, for without damping sum resonances of ever
+    higher modes lie everywhere, ever narrower and slower. Those that were met below the limit are
+    `tongues`. Amplitudes from 0.01 on are looked at in steps of 2 %, of 5 % where it grows ten
+    times as fast, of 0.25 % from 0.85 of the limit on; what is narrower may be passed over.
 
     Parameters
     ----------
@@ -99,6 +136,9 @@ def stability_limit(
         Rotation speed ω [rad/s].
     mode : int
         In-plane mode from which the orbits grow, from 1.
+    growth : float
+        Growth exponent over the orbit's frequency [1/rad] that counts. Modes that decay faster,
+        by their damping ratio times their frequency over the orbit's, keep the plane.
     largest : float
         Largest |q|/L to look at.
     inextensible : bool
@@ -114,137 +154,111 @@ def stability_limit(
     Examples
     --------
     >>> from analytic import Beam, stability_limit
-    >>> round(stability_limit(Beam.reference().rectangle(), omega=4.0).amplitude, 4)
-    0.0545
+    >>> limit = stability_limit(Beam.reference().rectangle(), omega=4.0, largest=0.1)
+    >>> round(limit.amplitude, 3), round(limit.tongues[0].low, 3)
+    (0.059, 0.052)
     """
     require_out_of_plane(blade)
     require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    largest = positive("largest", largest)
+    growth, largest = positive("growth", growth), positive("largest", largest)
     if largest >= 1.0:
         raise ValueError(f"largest must be below 1, a share of the length, got {largest:g}")
-    return _limit(blade, omega, mode, largest, inextensible)
+    return _limit(blade, omega, mode, growth, largest, inextensible)
 
 
 @lru_cache(maxsize=256)
 def _limit(
-    blade: AnyBlade, omega: float, mode: int, largest: float, inextensible: bool
+    blade: AnyBlade, omega: float, mode: int, least: float, largest: float, inextensible: bool
 ) -> StabilityLimit:
-    growth = _growths(blade, omega, mode, inextensible)
-    stable, unstable = _bracket(growth, largest)
+    growth = growths(blade, omega, mode, inextensible)
+    seen = _scanned(growth, least, largest)
+    searched = max(seen)
     amplitude, what, agreed = math.inf, None, True
-    if math.isfinite(unstable):
-        amplitude = _bisected(growth, stable, unstable) if stable else unstable
+    if growth(searched, 2).per_radian >= least:
+        seen = _seen_finely(growth, seen, least)
+        low, high = _last_step(seen, least)
+        amplitude = _bisected(growth, low, high, least) if low else high
         what = growth(amplitude, 2)
-        agreed = growth(min((1.0 + _CONVERGED) * amplitude, unstable), 3).unstable
-        agreed = agreed and not growth((1.0 - _CONVERGED) * amplitude, 3).unstable
+        seen = {a: one for a, one in seen.items() if a < amplitude}
+        beyond = min((1.0 + _CONVERGED) * amplitude, searched)
+        below = [a for a in seen if seen[a].per_radian < least and a > _NEAR * amplitude]
+        agreed = growth(beyond, 3).per_radian >= least
+        agreed = agreed and growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
-        blade=blade, omega=omega, mode=mode, amplitude=amplitude,
-        searched=unstable if what else stable, kind=what.kind if what else "",
-        modes=what.modes if what else (), converged=agreed,
+        blade=blade, omega=omega, mode=mode, growth=least, amplitude=amplitude, searched=searched,
+        kind=what.kind if what else "", modes=what.modes if what else (),
+        tongues=_tongues(seen), converged=agreed,
     )  # fmt: skip
 
 
-def _bracket(growth: _GrowthAt, largest: float) -> tuple[float, float]:
-    """Return the last stable and the first unstable one of the amplitudes that are looked at.
-
-    Zero and the first where that is unstable; infinite where none is that exists.
-    """
-    stable = 0.0
-    for a in [*(a for a in _SCANNED if a < largest), largest]:
-        ends = a == largest or not stable
+def _scanned(growth: GrowthAt, least: float, largest: float) -> dict[float, Growth]:
+    """Return what grows at amplitudes up to the largest that exists, at the first resolution."""
+    seen: dict[float, Growth] = {}
+    a = min(SMALLEST, largest)
+    while a >= _NOTHING and (now := growth(a, 1)).unstable:
+        seen[a] = now
+        a /= 1.0 + _LONG
+    a = min(SMALLEST, largest)
+    while True:
         try:
-            # What the first resolution finds, the finer one confirms.
-            if (ends or growth(a, 1).unstable) and growth(a, 2).unstable:
-                return stable, a
+            seen[a] = growth(a, 1)
         except NoOrbitError:
-            if not stable:
+            if not seen:
                 raise
             break
-        stable = a
-    return stable, math.inf
+        if a == largest:
+            break
+        strong = seen[a].per_radian > _STRONG * least
+        a = min(a * (1.0 + (_LONG if strong else _STEP)), largest)
+    return dict(sorted(seen.items()))
 
 
-def _bisected(growth: _GrowthAt, low: float, high: float) -> float:
-    while high - low > _BISECTED:
+def _seen_finely(growth: GrowthAt, seen: dict[float, Growth], least: float) -> dict[float, Growth]:
+    """Return the same with finer steps at twice the resolution near where growth begins to stay.
+
+    The first resolution finds the limit to a per cent or so.
+    """
+    rough, largest = _last_step(seen, least)[1], max(seen)
+    fine: dict[float, Growth] = {}
+    a = _NEAR * rough
+    while a < largest and (a < (1.0 + _STEP) * rough or fine[max(fine)].per_radian < least):
+        fine[a] = growth(a, 2)
+        a *= 1.0 + _FINE
+    others = {b: one for b, one in seen.items() if not min(fine) <= b <= max(fine)}
+    return dict(sorted({**others, **fine}.items()))
+
+
+def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
+    """Return the largest amplitude that does not grow so fast, and the next; zero if all do."""
+    amplitudes = list(seen)
+    last = max((k for k, a in enumerate(amplitudes) if seen[a].per_radian < least), default=-1)
+    last = min(last, len(amplitudes) - 2)  # the largest grows at twice the resolution
+    return (amplitudes[last] if last >= 0 else 0.0), amplitudes[last + 1]
+
+
+def _bisected(growth: GrowthAt, low: float, high: float, least: float) -> float:
+    while high > (1.0 + _BISECTED) * low:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if growth(middle, 2).unstable else (middle, high)
+        grows = growth(middle, 2).per_radian >= least
+        low, high = (low, middle) if grows else (middle, high)
     return high
 
 
-@lru_cache(maxsize=32)
-def _growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> _GrowthAt:
-    """Return what grows about an orbit, by its amplitude and the multiple of the resolution."""
-    orbit = planar_orbits(blade, omega, mode, inextensible)
-
-    @lru_cache(maxsize=256)
-    def growth(amplitude: float, finer: int) -> Growth:
-        at = orbit(amplitude)
-        functions = settled_functions(blade, at.system)
-        return grown(blade, at, finer * functions, finer * STEPS)
-
-    return growth
-
-
-def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
-) -> Callable[[float], BeamOrbit]:
-    """Return what finds the planar orbits of a mode by their amplitude, each once.
-
-    Sections that differ out of the plane share them.
-    """
-    if isinstance(blade, Blade):
-        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
-    return _orbits(blade, omega, mode, inextensible)
-
-
-@lru_cache(maxsize=32)
-def _orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool
-) -> Callable[[float], BeamOrbit]:
-    model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
-    return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
-
-
-def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
-    """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
-
-    It leaves where an orbit of that amplitude does, or a smaller one of those that
-    `stability_limit` looks at; that function tells from where on, which takes several times as
-    long. "" too of a blade of which nothing is known out of its plane, or that is damped.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    amplitude : float
-        Peak |q|/L of the motion, about that of an orbit of `mode`.
-    mode : int
-
-    Examples
-    --------
-    >>> from analytic import Beam, planar_note
-    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
-    ''
-    """
-    unit = blade.unit
-    if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
-        return ""
-    if not 0.0 < amplitude < 1.0:
-        return ""
-    try:
-        growth = _growths(blade, rotation_speed(omega), mode, False)
-        _, unstable = _bracket(growth, amplitude)
-    except ValueError as unknown:
-        return f"whether this motion stays in its plane is not known: {unknown}"
-    except (AmplitudeNotReachedError, NoOrbitError):
-        return ""
-    if math.isinf(unstable):
-        return ""
-    what = growth(unstable, 2)
-    return (
-        f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit of "
-        f"a = {unstable:.3g} is unstable out of it ({what.kind} of {' and '.join(what.modes)}), "
-        f"and this one has a = {amplitude:.3g}"
-    )
+def _tongues(seen: dict[float, Growth]) -> tuple[Tongue, ...]:
+    """Return the intervals that grow."""
+    found = []
+    for unstable, run in groupby(seen.items(), key=lambda item: item[1].unstable):
+        if unstable:
+            amplitudes, growths = zip(*run, strict=True)
+            most = max(growths, key=lambda one: one.exponent)
+            found.append(
+                Tongue(
+                    low=amplitudes[0],
+                    high=amplitudes[-1],
+                    growth=most.per_radian,
+                    kind=most.kind,
+                    modes=most.modes,
+                )
+            )
+    return tuple(found)

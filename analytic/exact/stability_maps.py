@@ -11,8 +11,9 @@ from ..input_checks import finite_values, rotation_speed
 from ..methods.harmonic_balance import NoOrbitError
 from ..out_of_plane import OutOfPlane
 from .growth import STEPS, grown, settled_functions
+from .orbit_growth import planar_orbits
 from .space import require_out_of_plane
-from .stability_limit import LARGEST, planar_orbits, stability_limit
+from .stability_limit import LARGEST, stability_limit
 
 
 def growth_map(
@@ -35,7 +36,7 @@ def growth_map(
     --------
     >>> from analytic import Beam, growth_map
     >>> print(growth_map(Beam.reference().rectangle(), [4.0], [0.02, 0.1]).round(2))
-    [[ 0.   33.67]]
+    [[ 0.   33.42]]
     """
     require_out_of_plane(blade)
     speeds = finite_values("omegas", omegas, "rad/s")
@@ -57,7 +58,7 @@ def growth_map(
 def limit_map(
     blade: AnyBlade, ratios: ArrayLike, omegas: ArrayLike, mode: int = 1, largest: float = LARGEST
 ) -> FloatArray:
-    """Return the least unstable amplitudes of rectangles, (ratios, speeds); infinite: none.
+    """Return the limits of stability of rectangles, (ratios, speeds); infinite: none.
 
     The blade keeps its EA, EI and m: material and size follow the ratio.
 

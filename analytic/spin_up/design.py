@@ -116,7 +116,9 @@ def design_ramp(
     Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Of those that
     leave nothing by the closed form, `residual_amplitude`, it is, within the limits, the closest to
     Eq. 1; what the exact transient then leaves is made the next target of the closed form, with its
-    sign changed, until each mode is left with less than 1e-6 of the length.
+    sign changed, until each mode is left with less than 1e-6 of the length. On the way the blade
+    swings, in short ramps as far as without a design, and the design knows the blade: in 2 s to 6
+    rad/s an error of 1 % in its frequency leaves 2.1e-2 of the length instead of 3e-6.
 
     Parameters
     ----------

@@ -60,8 +60,8 @@ GROUPS = (
     _group(
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
-        analytic="planar_stability PlanarStability stability_limit StabilityLimit limit_map "
-        "growth_map planar_note",
+        analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue "
+        "limit_map growth_map planar_note",
     ),
     _group(
         "Reduced models",

@@ -26,6 +26,7 @@ from .targets import Force, refuse_to_replace_unread
 
 _GIVEN = SectionShape()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
+_PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
 _SECONDS_PER_SPEED = 1e-3
 _SECONDS_PER_LINE = 5e-3
 """And per mode squared: what finds the crossings; both from below."""
@@ -112,43 +113,46 @@ def campbell(
 def _families(beam: AnyBlade) -> list[Plane]:
     """Return the families of modes of which the beam's section tells."""
     known = beam.section.out_of_plane if isinstance(beam, Blade) else None
-    if known is None:
+    if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
     return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
 
 
 def _print(diagram: Campbell, form: Format) -> None:
-    """Print frequencies over speed, and the crossings; ten digits in CSV."""
+    """Print frequencies over speed, and the crossings; ten digits in CSV.
+
+    A table has as many as are known: of torsion four, for the section may be kept from warping.
+    """
     csv = form == "csv"
     speed, number = ("{:.10g}", "{:.10g}") if csv else ("{:.4g}", "{:.6f}")
+    known = {plane: "{:#.4g}" if plane == "torsion" and not csv else number for plane in _PLANES}
     unit, omega = (" [rad/s]", "omega [rad/s]") if csv else ("", "ω [rad/s]")
-    in_space = len(set(diagram.planes)) > 1
-    names = diagram.names if in_space else [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)]
+    in_plane = set(diagram.planes) == {"lag"} and diagram.names[0] == "lag 1"
+    names = [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)] if in_plane else diagram.names
     print_columns(
         {
             omega: [speed.format(one) for one in diagram.omegas],
             **{
-                f"{name}{unit}": [number.format(frequency) for frequency in column]
-                for name, column in zip(names, diagram.frequencies.T, strict=True)
+                f"{name}{unit}": [known[plane].format(frequency) for frequency in column]
+                for name, plane, column in zip(
+                    names, diagram.planes, diagram.frequencies.T, strict=True
+                )
             },
         },
         form,
-        title=f"{'Frequencies' if in_space else 'In-plane frequencies'} [rad/s]",
+        title=f"{'In-plane frequencies' if in_plane else 'Frequencies'} [rad/s]",
     )
     if csv:
         sys.stdout.write("\n")
+    met = diagram.crossings
+    named = [names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
     print_columns(
         {
-            "mode": [
-                f"{crossing.plane} {crossing.mode}" if in_space else str(crossing.mode)
-                for crossing in diagram.crossings
-            ],
-            "k": [str(crossing.order) for crossing in diagram.crossings],
-            omega: [number.format(crossing.omega) for crossing in diagram.crossings],
-            "frequency [rad/s]": [
-                number.format(crossing.frequency) for crossing in diagram.crossings
-            ],
+            "mode": [name.removeprefix("mode ") for name in named] if in_plane else named,
+            "k": [str(one.order) for one in met],
+            omega: [known[one.plane].format(one.omega) for one in met],
+            "frequency [rad/s]": [known[one.plane].format(one.frequency) for one in met],
         },
         form,
         title="Crossings with the lines k ω",

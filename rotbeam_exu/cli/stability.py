@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import Beam, planar_stability, stability_limit
-from analytic.input_checks import whole_number
+from analytic import Beam, StabilityLimit, planar_stability, stability_limit
+from analytic.exact.orbit_growth import LEAST_GROWTH
+from analytic.input_checks import positive, whole_number
 
 from .. import comparison
 from ..files.beam_file import load_beam
@@ -33,22 +34,26 @@ def stability(
     shape: SectionShape = _GIVEN,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
+    growth: float = LEAST_GROWTH,
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
     """Tell whether motion in the plane of rotation stays in it.
 
-    A sentence, a table over the amplitude, netCDF, CSV and a figure.
+    A sentence on the amplitude from which on it does not, a table over the amplitude, one of the
+    narrow tongues below, netCDF, CSV and a figure.
 
     Parameters
     ----------
     omega
         Rotation speed [rad/s].
     amplitude
-        Amplitudes of the planar orbits over the length, one or several; the least unstable one is
-        looked for up to the largest.
+        Amplitudes of the planar orbits over the length, one or several; the limit is looked for up
+        to the largest.
     mode
         In-plane mode from which the orbits grow.
+    growth
+        Growth out of the plane per radian of the orbit above which all orbits are beyond the limit.
     config
         TOML file with the beam; without it, the paper's beam.
 
@@ -58,6 +63,7 @@ def stability(
     $ rotbeam stability --omega 6 --section tube
     """
     whole_number("mode", mode)
+    positive("growth", growth)
     require_affordable(
         f"{len(amplitude)} orbits",
         seconds=_SECONDS_PER_ORBIT * len(amplitude),
@@ -69,10 +75,11 @@ def stability(
     path = writable_folder(results.out) / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}"
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
+    inputs["growth"] = growth
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
     found = planar_stability(blade, omega, amplitudes, mode)
-    limit = stability_limit(blade, omega, mode, largest=amplitudes[-1])
+    limit = stability_limit(blade, omega, mode, growth=growth, largest=amplitudes[-1])
     data = comparison.planar_stability(found, limit).assign_attrs(inputs)
     written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 
@@ -99,4 +106,21 @@ def stability(
     )
     if not np.all(found.converged):
         print_text(console, "! not confirmed within 1 % by more functions and steps")
+    _print_tongues(limit)
     print_written(console, written)
+
+
+def _print_tongues(limit: StabilityLimit) -> None:
+    if not limit.tongues:
+        return
+    print_columns(
+        {
+            "from |q|/L": [f"{tongue.low:.4g}" for tongue in limit.tongues],
+            "to": [f"{tongue.high:.4g}" for tongue in limit.tongues],
+            "growth per radian": [f"{tongue.growth:.2g}" for tongue in limit.tongues],
+            "how": [tongue.kind for tongue in limit.tongues],
+            "what": [" and ".join(tongue.modes) for tongue in limit.tongues],
+        },
+        "table",
+        title="Tongues" + (" below the limit" if math.isfinite(limit.amplitude) else ""),
+    )

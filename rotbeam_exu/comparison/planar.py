@@ -17,6 +17,7 @@ from analytic import (
     limit_map,
     linear_modes,
 )
+from analytic.exact.stability_limit import LARGEST
 
 from ..paper import SPEEDS
 from ..verdict import beam_attributes
@@ -33,7 +34,8 @@ def planar_stability(found: PlanarStability, limit: StabilityLimit | None = None
     ----------
     found : PlanarStability
     limit : StabilityLimit, optional
-        The least unstable amplitude, as an attribute; infinite if there is none.
+        As attributes: the amplitude from which on the plane is left, infinite if there is none, and
+        the tongues below it.
 
     Returns
     -------
@@ -42,7 +44,11 @@ def planar_stability(found: PlanarStability, limit: StabilityLimit | None = None
         imaginary parts of the `multipliers`, over `a`.
     """
     known = {} if limit is None else {
-        "limit": limit.amplitude, "limit_converged": int(limit.converged), "sentence": str(limit)
+        "limit": limit.amplitude, "limit_converged": int(limit.converged), "sentence": str(limit),
+        "growth": limit.growth,
+        "tongues": "; ".join(
+            f"{one.low:.4g} to {one.high:.4g}: {one.growth:.2g}" for one in limit.tongues
+        ),
     }  # fmt: skip
     both = np.stack((found.multipliers.real, found.multipliers.imag), axis=-1)
     return xr.Dataset(
@@ -116,8 +122,9 @@ def stability_limits(
     *,
     ratios: Sequence[float] = (2.0, 3.0, 4.0, 6.0, 9.0, 13.0, 18.5),
     omegas: Sequence[float] = SPEEDS,
+    largest: float = LARGEST,
 ) -> xr.Dataset:
-    """Return the least unstable amplitudes of rectangles, over height/width and speed.
+    """Return the amplitudes from which on rectangles leave the plane, over height/width and speed.
 
     Parameters
     ----------
@@ -125,19 +132,21 @@ def stability_limits(
         By default the paper's; EA, EI and m are kept.
     ratios, omegas : sequence of float
         Height in the plane over width, and rotation speeds [rad/s].
+    largest : float
+        Largest |q|/L to look at.
 
     Returns
     -------
     Dataset
-        `limit` |q|/L over (ratio, omega), infinite where all orbits to 0.6 L stay in the plane.
+        `limit` |q|/L over (ratio, omega), infinite where the largest orbit stays in the plane.
     """
     beam = Beam.reference() if beam is None else beam
     return xr.Dataset(
         {
             "limit": (
                 ("ratio", "omega"),
-                limit_map(beam, ratios, omegas),
-                {"units": "1", "long_name": "least amplitude |q|/L that leaves the plane"},
+                limit_map(beam, ratios, omegas, largest=largest),
+                {"units": "1", "long_name": "amplitude |q|/L from which on the plane is left"},
             )
         },
         coords={

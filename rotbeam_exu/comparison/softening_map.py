@@ -65,7 +65,9 @@ def softening_by_plane(
     """Return λ_ω of FrM of lag alone and of flap alone, over the speed.
 
     Flap alone is the blade set at a right angle: it bends out of the plane of rotation only, whose
-    Coriolis force then does nothing and whose centrifugal force does not soften the deflection.
+    Coriolis force then does nothing and whose centrifugal force does not soften the deflection. It
+    is rigid in lag; the lag of a real blade is driven at twice the frequency, and λ_ω of its flap
+    has a pole where 2ω_flap = ω_lag.
 
     Parameters
     ----------

@@ -31,8 +31,6 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
     kinds, stable = data["kind"].to_numpy(), rate == 0.0
     with mpl.rc_context(STYLE):
-        growing = np.where(stable, np.nan, rate)
-        ax.plot(a, growing, color="0.7", lw=0.7, zorder=1)
         for (kind, mark), color in zip(_MARKS.items(), map(ink, (BLUE, RED, ORANGE)), strict=True):
             here = kinds == kind
             if here.any():
@@ -101,7 +99,7 @@ def growth_out_of_plane(
 
 
 def stability_limits(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the least unstable amplitudes over height/width, a line for each speed.
+    """Draw the amplitudes from which on the plane is left over height/width, a line for each speed.
 
     Parameters
     ----------

@@ -11,6 +11,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
 
+from analytic.plotting import backbone_drawn
+
 from .style import STYLE, column, cycle, label, new_figure
 
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
@@ -44,7 +46,8 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
             folds = curve.isel(point=(curve["mark"] == "fold").to_numpy())
             ax.plot(folds["frequency"], folds["amplitude"], mec=color, **_FOLD)
         if "backbone_frequency" in highest:
-            line = highest["backbone_frequency"], highest["backbone_amplitude"]
+            free = highest["backbone_frequency"].to_numpy()
+            line = backbone_drawn(free, highest["backbone_amplitude"].to_numpy())
             ax.plot(*line, color="0.3", lw=0.5, zorder=1, label="backbone")
             ax.set_title(f"ω = {highest.attrs['omega']:g} rad/s", loc="left")
         if any(not curve["stable"].all() for curve in curves):

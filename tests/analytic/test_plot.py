@@ -1,5 +1,6 @@
 """What results draw of themselves is what they hold."""
 
+import math
 import subprocess
 import sys
 
@@ -7,7 +8,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import Beam, Damping, SpeedRipple, campbell, forced_response, periodic_orbits
+from analytic import (
+    Beam,
+    Damping,
+    SpeedRipple,
+    backbone_curve,
+    campbell,
+    forced_response,
+    periodic_orbits,
+)
 from analytic.plotting import apart
 
 
@@ -21,16 +30,34 @@ def without_display(monkeypatch):
 def test_a_backbone_starts_at_the_linear_frequency(beam):
     found = periodic_orbits(beam, 6.0, [0.2, 0.1])
     ax = found.plot(color="k")
-    (line,) = ax.lines
-    # In the order of the amplitudes, whatever was asked for first.
-    np.testing.assert_array_equal(line.get_ydata(), [0.0, 0.1, 0.2])
-    np.testing.assert_array_equal(line.get_xdata(), [found.omega_n, *found.frequency[::-1]])
-    assert line.get_color() == "k"
+    curve, dots = ax.lines
+    np.testing.assert_array_equal(dots.get_ydata(), [0.0, 0.2, 0.1])
+    np.testing.assert_array_equal(dots.get_xdata(), [found.omega_n, *found.frequency])
+    assert curve.get_color() == dots.get_color() == "k"
     assert ax.get_legend().get_texts()[0].get_text() == "ω = 6 rad/s"
     # A second one goes on the same axes, and no figure is made.
     assert found.plot(ax, label="mine") is ax
     assert len(plt.get_fignums()) == 1
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["ω = 6 rad/s", "mine"]
+
+
+def test_a_backbone_is_drawn_as_a_curve_through_its_dots(beam):
+    """Against the series: the chord from 0.3 to 0.6 is 20 pixels of 400 off."""
+    found = periodic_orbits(beam, 6.0, [0.3, 0.6])
+    curve = found.plot().lines[0]
+    frequency, amplitude = curve.get_xdata(), curve.get_ydata()
+    exact = backbone_curve(beam, 6.0, up_to=0.6).frequency(amplitude)
+    pixel = np.ptp(exact) / 400.0
+    assert np.abs(frequency - exact).max() < pixel
+    # A higher one on the same axes is seen as well.
+    ax = periodic_orbits(beam, 6.0, [0.1]).plot()
+    found.plot(ax)
+    assert ax.get_ylim()[0] == 0.0
+    assert ax.get_ylim()[1] > 0.6
+    # Its chords, too, are nowhere a pixel from the curve.
+    middle = 0.5 * (amplitude[1:] + amplitude[:-1])
+    exact = backbone_curve(beam, 6.0, up_to=0.6).frequency(middle)
+    assert np.abs(0.5 * (frequency[1:] + frequency[:-1]) - exact).max() < pixel
 
 
 def test_a_campbell_diagram_names_its_modes_apart(beam):
@@ -41,15 +68,40 @@ def test_a_campbell_diagram_names_its_modes_apart(beam):
     assert {"lag 1", "lag 2", "lag 3", "1ω", "2ω"} <= set(texts)
     orders = max(crossing.order for crossing in diagram.crossings)
     curves = ax.lines[orders : orders + 3]
-    np.testing.assert_array_equal(
-        np.array([line.get_ydata() for line in curves]).T, diagram.frequencies
-    )
+    for line, column in zip(curves, diagram.frequencies.T, strict=True):
+        at = np.isin(line.get_xdata(), diagram.omegas)
+        np.testing.assert_allclose(line.get_ydata()[at], column, rtol=1e-9)
     dots = ax.lines[-1].get_xydata()
     np.testing.assert_array_equal(dots, [(c.omega, c.frequency) for c in diagram.crossings])
     # No two names overlap.
     ax.figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in texts.values()]
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_the_dots_of_a_campbell_diagram_lie_on_its_curves(beam):
+    """Also between speeds 6 rad/s apart, in all families: to a third of a pixel of 400."""
+    planes = ("lag", "flap", "torsion")
+    diagram = campbell(beam.rectangle(), [0.0, 6.0, 12.0], 1, 8, planes=planes)
+    ax = diagram.plot()
+    curves = dict(zip(planes, ax.lines[-4:-1], strict=True))
+    assert {one.plane for one in diagram.crossings} == set(planes)
+    for one in diagram.crossings:
+        curve = curves[one.plane]
+        drawn = np.interp(one.omega, curve.get_xdata(), curve.get_ydata())
+        assert drawn == pytest.approx(one.frequency, abs=ax.get_ylim()[1] / 1200.0)
+
+
+def test_a_blade_is_named_by_the_plane_that_it_bends_in(beam):
+    for angle, name in (
+        (0.0, "lag 1"),
+        (90.0, "flap 1"),
+        (-90.0, "flap 1"),
+        (45.0, "mode 1 at 45°"),
+    ):
+        diagram = campbell(beam.with_setting_angle(math.radians(angle)), [0.0, 4.0], 1)
+        assert diagram.names == [name]
+        assert name in {text.get_text() for text in diagram.plot().texts}
 
 
 def test_no_mode_crosses_the_name_of_a_line(beam):

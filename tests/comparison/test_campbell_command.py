@@ -63,9 +63,10 @@ def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tm
     blade = beam.with_out_of_plane(OutOfPlane.rectangle(18.5))
     frequencies = [linear_modes(blade, 8.0, 1, plane=p).frequencies[0] for p in PLANES]
     assert np.array(rows[3][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
-    # Torsion, which the rotation leaves alone, meets 9ω.
-    met = [row for row in rows[6:] if row[0] == "torsion 1"]
-    assert [float(row[2]) for row in met] == [pytest.approx(frequencies[2] / 9.0, rel=1e-9)]
+    # Torsion meets 9ω.
+    (met,) = [row for row in rows[6:] if row[0] == "torsion 1"]
+    there = linear_modes(blade, float(met[2]), 1, plane="torsion").frequencies[0]
+    assert there == pytest.approx(9.0 * float(met[2]), rel=1e-8)
     written = sorted(path.name for path in tmp_path.iterdir())
     assert written == ["campbell-rectangle-18.5.pdf", "campbell-rectangle-18.5.png"]
     assert written[0] in printed.err
@@ -86,3 +87,28 @@ def test_families_are_those_that_the_section_in_a_file_tells(torsion, families, 
     command(config=tmp_path / "blade.toml", points=2, omega_max=4.0, count=1, format="csv")
     head = capsys.readouterr().out.splitlines()[0].split(",")[1:]
     assert head == [f"{plane} 1 [rad/s]" for plane in families]
+
+
+def test_a_blade_set_at_a_right_angle_flaps(tmp_path, capsys):
+    file = tmp_path / "blade.toml"
+    blade = (
+        "[blade]\nlength = 8.0\nsetting_angle = {}\n[blade.section]\naxial_stiffness = 5.03e6\n"
+        "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
+        "[blade.section.out_of_plane]\nbending_ratio = 0.5\ntorsion_ratio = 0.1\n"
+    )
+    for angle, name in ((0.5 * np.pi, "flap 1"), (0.25 * np.pi, "mode 1 at 45°")):
+        file.write_text(blade.format(angle))
+        command(config=file, points=2, omega_max=6.0, count=1, orders=2)
+        printed = " ".join(capsys.readouterr().out.split())
+        assert name in printed
+        assert "In-plane" not in printed
+        assert "lag" not in printed
+
+
+def test_a_table_prints_torsion_to_the_digits_that_are_known(capsys):
+    """0.1 % is what a clamp that holds the warping changes: four digits, not eight."""
+    shape = SectionShape(section="rectangle")
+    command(omega_max=12.0, points=2, count=1, orders=7, shape=shape)
+    printed = capsys.readouterr().out
+    assert " 66.75 " in printed
+    assert "66.752" not in printed

@@ -11,7 +11,8 @@ import rotbeam_exu
 PLAIN = {
     "records that the example of what makes them shows": (
         "analytic.Crossing analytic.LinearResponse analytic.Resonance analytic.ResponsePoint "
-        "analytic.StabilityLimit rotbeam_exu.GrowthRate rotbeam_exu.fem.RotatingBeam"
+        "analytic.StabilityLimit analytic.Tongue rotbeam_exu.GrowthRate "
+        "rotbeam_exu.fem.RotatingBeam"
     ),
     "errors, which their message explains": (
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "

@@ -1,6 +1,7 @@
 """Numbers that stand on the pages in words, where no block computes them."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import ClassVar
@@ -8,12 +9,22 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
+from scipy import optimize
 
-from analytic import SpinUp, linear_modes, spin_up_response
-from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from analytic import (
+    Blade,
+    Section,
+    SpinUp,
+    design_ramp,
+    exact_residual,
+    linear_modes,
+    spin_up_response,
+)
+from rotbeam_exu import natural_frequencies, simulate, simulate_3d, steady_oscillation
 from rotbeam_exu.fem.elements import Cable, Chain
 
 DOCS = Path(__file__).parents[2] / "docs"
+_GRAVITY = 9.81  # [m/s²]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,3 +107,74 @@ def test_the_rotating_frame_has_the_smaller_step_error(beam, omega, ratio):
         coarse, fine = (steady_oscillation(run).frequency for run in runs)
         by_step[frame] = coarse - fine
     assert by_step["inertial"] / by_step["rotating"] == pytest.approx(ratio, rel=0.1)
+
+
+def test_gravity_would_bend_and_buckle_the_strip(beam):
+    """Both of its directions as cantilevers under their weight; 12.85 by another test."""
+    page = "theory/planar.md"
+    assert says(page, "without gravity")
+    assert says(page, "it sags by 0.22 $L$ in its stiff direction")
+    assert says(page, "length of 2.36 m it buckles under its own weight")
+    assert says(page, r"$I_y=I_z=8.2189\cdot10^{-9}$ m⁴: most likely a thin tube")
+    section = beam.rectangle().section.out_of_plane
+    weight = beam.mass_per_length * _GRAVITY
+    sag = weight * beam.length**3 / (8.0 * beam.bending_stiffness)  # over L
+    assert round(sag, 2) == 0.22
+    stiffness = math.sqrt(section.bending_ratio * section.torsion_ratio) * beam.bending_stiffness
+    assert round((12.85 * stiffness / weight) ** (1.0 / 3.0), 2) == 2.36
+    assert round(math.sqrt(2.0 * beam.second_moment / beam.area), 4) == 0.015
+    height, width = math.sqrt(12.0 * beam.second_moment / beam.area), 2.0e-3
+    assert says(page, "36.7 mm high and 2.0 mm thick")
+    assert round(height, 4) == 0.0367
+    assert beam.area / height == pytest.approx(width, rel=0.01)
+
+
+def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
+    page, readme = "theory/spin_up.md", "../README.md"
+    assert says(page, "the tip goes to $-0.71L$")
+    assert says(page, r"leaves $2.1\cdot10^{-2}L$, and 0.1 % leaves $2\cdot10^{-3}L$")
+    assert says("howto/quiet_spin_up.md", r"leaves $2.1\cdot10^{-2}L$ instead of $3\cdot10^{-6}L$")
+    assert says(readme, "3e-6 L. On the way the tip is at -0.71 L")
+    assert says(readme, "1 % in the blade's frequency leaves 2.1e-2 L")
+    ramp = design_ramp(beam, omega=6.0, duration=2.0)
+    assert exact_residual(beam, ramp) == pytest.approx(3e-6, rel=0.1)
+    way = spin_up_response(beam, ramp, np.linspace(0.0, 2.0, 201)).q / beam.length
+    assert round(way.min(), 2) == -0.71
+
+    def left(change):
+        other = replace(beam, youngs_modulus=beam.youngs_modulus * (1.0 + change) ** 2)
+        return exact_residual(other, ramp)
+
+    assert left(0.01) == pytest.approx(2.1e-2, rel=0.03)
+    assert left(-0.01) == pytest.approx(2.1e-2, rel=0.03)
+    assert left(1e-3) == pytest.approx(2e-3, rel=0.1)
+
+
+def test_where_twice_the_flap_frequency_is_that_of_lag():
+    assert says("theory/planar.md", r"at $\bar\omega=1.441$, with lag's $EI$, if it is a sixteenth")
+    section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
+    blade = Blade(length=1.0, section=section).with_section_out_of_plane(1.0 / 16.0, math.inf)
+
+    def apart(w_bar):
+        flap, lag = (
+            linear_modes(blade, w_bar, 1, plane=plane).frequencies[0] for plane in ("flap", "lag")
+        )
+        return 2.0 * flap - lag
+
+    assert optimize.brentq(apart, 1.0, 2.0, xtol=1e-6) == pytest.approx(1.441, abs=5e-4)
+    quarter = blade.with_section_out_of_plane(0.25, math.inf)
+    at_rest = [linear_modes(quarter, 0.0, 1, plane=p).frequencies[0] for p in ("flap", "lag")]
+    assert 2.0 * at_rest[0] == pytest.approx(at_rest[1], rel=1e-8)
+
+
+@pytest.mark.slow
+def test_the_strip_buckles_on_the_mildest_ramp_already(beam):
+    page = "theory/planar.md"
+    assert says(page, "2 rad/s in 3.375 s, it is twisted by 0.1 at 1.2 s, bent by 0.107 $L$")
+    motion = SpinUp(omega=2.0, ramp_time=3.375)
+    settings = {"kick": 1e-6, "duration": 3.4, "elements": 32, "step": 2.5e-4}
+    run = simulate_3d(beam.rectangle(), motion, **settings)
+    at = int((np.abs(run["twist"]) > 0.1).argmax("time"))
+    # Another code, a discrete rod, has 1.20 s and 0.106.
+    assert float(run["time"][at]) == pytest.approx(1.2, abs=0.01)
+    assert abs(float(run["q"][at])) / beam.length == pytest.approx(0.107, abs=2e-3)
