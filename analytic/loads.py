@@ -14,8 +14,9 @@ from .motion import Rippled, Rotation
 class Damping:
     """Viscous damping of a blade.
 
-    The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė), and the air takes
-    d ṙ per length, with the velocity relative to the turning frame.
+    The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė). External damping takes d ṙ
+    per length, with the velocity relative to the turning frame: it does not brake steady rotation
+    as drag would, and point masses have none.
 
     Parameters
     ----------
