@@ -33,10 +33,8 @@ test: $(VENV)/.dev  ## the default test suite
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site"
 
-# Libraries warn of each other's newer versions; our own warnings stay errors.
 test-oldest: $(OLDEST)/.made  ## the default suite on the lowest versions that pyproject.toml allows
-	$(subst $(VENV),$(OLDEST),$(BIN))/python -m pytest -n auto --dist worksteal \
-	  -m "not slow and not benchmarks and not site" -W ignore::DeprecationWarning
+	$(subst $(VENV),$(OLDEST),$(BIN))/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
 coverage: $(VENV)/.dev  ## which lines the default suite runs, in htmlcov/
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site" \
