@@ -14,7 +14,7 @@ from .output import new_console
 
 
 def doctor() -> None:
-    """Print versions, draw a figure, and run a short spin-up with its checks.
+    """Print versions, draw a figure, run a short spin-up.
 
     Examples
     --------
