@@ -3,11 +3,12 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
+OLDEST := .venv-oldest
 # Linear algebra here is small: threads would only get in each other's way.
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures images golden references test test-all coverage bench bench-peers lint docs check-site check clean
+.PHONY: run figures images golden references test test-all test-oldest coverage bench bench-peers lint docs check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -31,6 +32,9 @@ test: $(VENV)/.dev  ## the default test suite
 
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site"
+
+test-oldest: $(OLDEST)/.made  ## the default suite on the lowest versions that pyproject.toml allows
+	$(subst $(VENV),$(OLDEST),$(BIN))/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
 coverage: $(VENV)/.dev  ## which lines the default suite runs, in htmlcov/
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site" \
@@ -76,5 +80,11 @@ $(VENV)/.peers: $(VENV)/.dev
 	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev
 	touch $@
 
+$(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
+	$(PIP) install -c constraints.txt uv
+	$(BIN)/uv venv -q --clear --python 3.11 $(OLDEST)  # the lowest, too
+	$(BIN)/uv pip install -q --python $(OLDEST) --resolution lowest-direct -e . --group test
+	touch $@
+
 clean:
-	rm -rf $(VENV) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache

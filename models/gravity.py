@@ -2,10 +2,11 @@ r"""
 A beam that turns under its weight
 ==================================
 
-The paper's beam on earth, in a vertical plane of rotation, damped by the air, which takes
-:math:`d\,\dot{\mathbf r}` per length. Its weight goes around once a turn, and bends it with
-harmonics of all orders: the k-th is greatest about where :math:`\omega_n=k\omega`, dotted. Above is
-the greatest deflection, to whichever side, below are the harmonics.
+The paper's beam on earth, in a vertical plane of rotation, with an external damping of
+:math:`d\,\dot{\mathbf r}` per length, the velocity being that in the turning frame. Its weight goes
+around once a turn, and bends it with harmonics of all orders: the k-th is greatest about where
+:math:`\omega_n=k\omega`, dotted. Above is the greatest deflection, to whichever side, below are the
+harmonics.
 """
 
 import matplotlib.pyplot as plt

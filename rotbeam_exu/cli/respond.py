@@ -103,7 +103,8 @@ class Dampings:
     damping_ratio
         Of mode 1 at rest, by damping of the bending.
     external_damping
-        Force per length and velocity [kg/(m s)].
+        Force per length against the velocity in the turning frame [kg/(m s)]; point masses have
+        none.
     """
 
     damping_ratio: float | None = None

@@ -97,7 +97,7 @@ def _power(
     coordinates: FloatArray,
     relative: FloatArray,
 ) -> FloatArray:
-    """Return the power (samples,) that loads bring, and drag and viscosity take."""
+    """Return the power (samples,) that loads bring, and damping takes."""
     power = built.loading.power(time, angle, relative)
     if built.chain.dissipation is not None:
         power = power - built.chain.dissipation(coordinates, relative)

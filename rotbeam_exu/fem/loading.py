@@ -1,13 +1,14 @@
-"""Loads on a chain and the drag of the air, in either frame, and the power they bring.
+"""Loads on a chain and its external damping, in either frame, and the power they bring.
 
 As in `analytic.exact.loading` a load is a complex force in the frame of the clamp, its real part
 along the blade and its imaginary one across, times what it acts on: all that has mass (gravity),
-the length, or the tip. A ripple of the speed is no force but part of the clamp's rotation. Drag is
--d ṙ per length with the velocity relative to the clamp,
+the length, or the tip. A ripple of the speed is no force but part of the clamp's rotation. External
+damping is -d ṙ per length with the velocity relative to the clamp,
 
     f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
 
-where e' of the rotating frame is relative already; D is a mass matrix of constant density.
+where e' of the rotating frame is relative already; D is a mass matrix of constant density, without
+point masses.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from .solver import Frame
 
 
 class Loading:
-    """What acts on a chain besides its inertia: the consistent loads and the drag.
+    """What acts on a chain besides its inertia: the consistent loads and external damping.
 
     Parameters
     ----------
@@ -81,7 +82,7 @@ class Loading:
         return total
 
     def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:
-        """Return the power (samples,) that loads bring and drag takes.
+        """Return the power (samples,) that loads bring and external damping takes.
 
         Parameters
         ----------
@@ -93,7 +94,7 @@ class Loading:
         return np.asarray(np.sum((self.forces(t, angle) - v @ self._drag) * v, axis=1))
 
     def add(self, mbs: exudyn.MainSystem, chain: Chain, rotation: Rotation, frame: Frame) -> None:
-        """Put loads and drag on the chain, whose clamp follows `rotation`."""
+        """Put loads and external damping on the chain, whose clamp follows `rotation`."""
         inertial, n = frame == "inertial", self._drag.shape[0]
         turn = sparse.kron(sparse.eye_array(len(chain.nodes)), self._model.quarter_turn)
         turning = (self._drag @ turn).tocsr()
@@ -137,7 +138,7 @@ class Loading:
 def _of_unit_density(beam: AnyBlade) -> AnyBlade:
     """Return the same blade with a mass per length of one and no other mass."""
     if isinstance(beam, Beam):
-        # It has no drag, and a force that shifts its sections does not turn them.
+        # It is not damped, and a force that shifts its sections does not turn them.
         return replace(beam, density=1.0 / beam.area)
     section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
     return replace(beam, section=section, point_masses=())

@@ -40,7 +40,7 @@ class RotatingBeam:
     rotation : Rotation
         Of the clamp, ripples of its speed included.
     loading : Loading
-        Loads and drag.
+        Loads and external damping.
     """
 
     model: Formulation

@@ -26,7 +26,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
     and polar_inertia [kg m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
-    bending [s], axial [s] and external [kg/(m s)], each zero where it is not given.
+    bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not of point
+    masses, each zero where it is not given.
 
     Raises
     ------

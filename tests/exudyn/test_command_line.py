@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+from matplotlib.artist import Artist
 
 import rotbeam_exu.cli.run as run_job
 from rotbeam_exu import load
@@ -164,4 +165,15 @@ def test_interrupt_stops_the_solver_and_leaves_nothing(tmp_path, frame):
 
 def test_doctor(capsys):
     main(["doctor"])
-    assert "spin-up       passed" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "figure        drawn" in printed
+    assert "spin-up       passed" in printed
+
+
+def test_doctor_notices_a_matplotlib_that_cannot_draw(capsys, monkeypatch):
+    """As 3.9 was, whose figures have no root."""
+    monkeypatch.setattr(Artist, "get_figure", lambda self: self.figure)
+    code, error = refused(capsys, "doctor")
+    assert code == 1
+    assert "cannot draw a figure" in error
+    assert "--upgrade matplotlib" in error

@@ -1,0 +1,53 @@
+"""What a source distribution holds: enough to do what its README says."""
+
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import tomllib
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("source", ["Makefile", ".ci/run", "CONTRIBUTING.md", "README.md"])
+def test_it_holds_every_file_that_is_named(source):
+    included = PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    words = set(re.findall(r"[\w.][\w./-]*\w", (ROOT / source).read_text(encoding="utf-8")))
+    named = {word for word in words if (ROOT / word).is_file()} | {source}
+    always = {"pyproject.toml", ".gitignore"}  # hatchling's own rule
+    missing = {
+        name
+        for name in named - always
+        if not any(fnmatch(name, one) or name.startswith(f"{one}/") for one in included)
+    }
+    assert missing == set()
+
+
+@pytest.mark.slow
+def test_it_builds_and_runs_where_it_is_unpacked(tmp_path):
+    """The main job, by the Makefile in it, which makes an environment of its own."""
+    env = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+
+    def run(*words, cwd=tmp_path):
+        done = subprocess.run(
+            list(map(str, words)), cwd=cwd, env=env, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+
+    run(sys.executable, "-m", "venv", "builder")
+    python = tmp_path / "builder" / "bin" / "python"
+    run(python, "-m", "pip", "install", "-q", *PROJECT["build-system"]["requires"])
+    run(python, "-m", "hatchling", "build", "-t", "sdist", "-d", tmp_path, cwd=ROOT)
+    (packed,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(packed) as file:
+        file.extractall(tmp_path, filter="data")
+    unpacked = tmp_path / packed.name.removesuffix(".tar.gz")
+    run("make", "run", f"PYTHON={sys.executable}", cwd=unpacked)
+    written = {path.suffix for path in (unpacked / "results").rglob("*")}
+    assert {".nc", ".csv", ".png"} <= written
