@@ -27,7 +27,7 @@ from ..blade import Blade
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated
-from ..quadrature import axial_basis, transverse_basis
+from ..shape_functions import shape_functions
 from .steady import BeamOrbit, SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
@@ -64,7 +64,7 @@ def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
 
 
 class Space:
-    """Galerkin discretization of L2 by clamped polynomials for w and for φ.
+    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ class Space:
     def __init__(self, blade: AnyBlade, functions: int) -> None:
         section = require_out_of_plane(blade)
         self.blade, self.unit, self.section = blade, blade.unit, section
-        self._a_panel = -(-functions // self.unit.panel_count)
-        self.functions = self._a_panel * self.unit.panel_count
+        self.shapes = shape_functions(self.unit, functions)
+        self.functions = self.shapes.count
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
         # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
@@ -99,28 +99,22 @@ class Space:
     @cached_property
     def mass(self) -> FloatArray:
         """The constant mass matrix (n, n)."""
-        panels = self.unit.panels
-        count = self._a_panel + 3 + (self.unit.degree + 1) // 2
-        at, dm = self.unit.inertia(count)
-        w = transverse_basis(self._a_panel, at, panels).value
+        at, dm = self.unit.inertia(self.shapes.a_panel + 3)
+        w = self.shapes.twice(at)
         across = w.T @ (dm[:, None] * w)
         return linalg.block_diag(across, self.twist_mass) if self.twist == "inertial" else across
 
     @cached_property
     def twist_mass(self) -> FloatArray:
         """∫ j φφ of the twist, (functions, functions)."""
-        x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
-        phi = axial_basis(self._a_panel, x, self.unit.panels).value
+        x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
+        phi = self.shapes.once(x)
         return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
     @cached_property
     def twist_stiffness(self) -> FloatArray:
         """∫ gEI φ'φ' of the twist, (functions, functions)."""
-        x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
-        turned = axial_basis(self._a_panel, x, self.unit.panels).slope
-        return np.asarray(
-            turned.T @ ((dx * self.g * evaluated(self.unit.bending, x))[:, None] * turned)
-        )
+        return self.g * np.eye(self.functions)  # the functions are orthonormal in EI
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
@@ -141,15 +135,15 @@ class Space:
             If the twist has no inertia and buckles.
         """
         model, g, r = planar.model, self.g, self.section.bending_ratio
-        x, panels = model.points, self.unit.panels
+        x = model.points
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
         moment = bending * kappa
-        w = transverse_basis(self._a_panel, x, panels)
+        once, strain = self.shapes.once(x), self.shapes.strain(x)
         stretch = 1.0 / (1.0 + e)
-        angle = stretch[..., None] * w.slope
-        bent = stretch[..., None] * w.curvature - (change * stretch**2)[..., None] * w.slope
+        angle = stretch[..., None] * once
+        bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
@@ -158,10 +152,9 @@ class Space:
             mixed = (1.0 - r) * _form(bent, moment, twist)
             twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        phi = axial_basis(self._a_panel, x, panels)
         straight += g * _form(angle, moment * kappa, angle)
-        mixed = g * _form(angle, moment, phi.slope) + (1.0 - r) * _form(bent, moment, phi.value)
-        twisted = self.twist_stiffness + (r - 1.0) * _form(phi.value, moment * kappa, phi.value)
+        mixed = g * _form(angle, moment, strain) + (1.0 - r) * _form(bent, moment, once)
+        twisted = self.twist_stiffness + (r - 1.0) * _form(once, moment * kappa, once)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .fourier import Waves, fine_waves, half_period, packed
-from .system import System, Tangent
+from .system import System, Tangent, relative_defect
 
 _PHASE_STEP = 1e-4  # of the last step to the peak: after it the phase is wrong by its square
 
@@ -88,7 +88,7 @@ class PeriodicOrbit(Generic[S]):
 
     @cached_property
     def residual(self) -> float:
-        """Largest residual along the orbit, relative to the odd coordinates' own size.
+        """Largest residual along the orbit, relative to the odd coordinates, as `relative_defect`.
 
         At four times as many phases as harmonics and in the refined system, so that it also sees
         what both truncations left out.
@@ -96,8 +96,7 @@ class PeriodicOrbit(Generic[S]):
         finer = self.system.refined()
         q, q_dot, q_ddot = (self.system.lifted(c, finer) for c in self._finely)
         defect = finer.residual(q, q_dot, q_ddot)
-        size = np.linalg.norm(q[:, finer.odd], axis=-1).max()
-        return float(np.linalg.norm(defect, axis=-1).max() / size)
+        return relative_defect(defect, q, finer.odd)
 
     @cached_property
     def _energies(self) -> tuple[FloatArray, float]:
