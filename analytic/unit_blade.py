@@ -99,7 +99,7 @@ class UnitBlade:
         )
 
     def grid(self, count: int, more: int, most: int | None = None) -> Grid:
-        """Return Gauss points: `count` for each panel, as dense as Gauss's, and `more` on each cell.
+        """Return Gauss points: `count` for each panel, dense at its ends, and `more` on each cell.
 
         With `most`, so many cells at most: where there are more, their kinks are small.
         """

@@ -15,6 +15,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..plotting import apart, axes_or_new, cycled, free_place
+from ..threads import one_thread
 from .continuum import Continuum
 from .modes import LinearModes, Plane, linear_modes, modes_on
 from .out_of_plane_modes import flap_blade
@@ -145,6 +146,7 @@ class Campbell:
         return ax
 
 
+@one_thread
 def campbell(
     beam: AnyBlade,
     omegas: ArrayLike,

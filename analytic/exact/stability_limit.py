@@ -13,6 +13,7 @@ from ..beam import AnyBlade, require_undamped
 from ..blade import Blade
 from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
+from ..threads import one_thread
 from .branch import AmplitudeNotReachedError, branch_of
 from .growth import STEPS, Growth, grown, settled_functions
 from .modes import resolved_model
@@ -77,6 +78,7 @@ class StabilityLimit:
         )
 
 
+@one_thread
 def stability_limit(
     blade: AnyBlade,
     omega: float,

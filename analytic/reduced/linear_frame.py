@@ -23,6 +23,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam
 from ..ramps import AnyRamp, fastest, require_ramp
+from ..threads import one_thread
 from .blade_functions import blade_functions
 
 _FUNCTIONS, _MODES = 28, 5
@@ -56,6 +57,7 @@ class LinearResponse:
     axis: FloatArray = field(repr=False)
 
 
+@one_thread
 def linear_response(
     beam: AnyBlade,
     spin_up: AnyRamp,

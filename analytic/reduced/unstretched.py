@@ -24,6 +24,7 @@ from ..input_checks import rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from ..profiles import evaluated
 from ..shape_functions import shape_functions
+from ..threads import one_thread
 from ..unit_blade import UnitBlade
 
 _FEWEST, _MOST = 24, 96
@@ -31,6 +32,7 @@ _SETTLED = 1e-5
 """Relative change of the frequencies by half of the functions; of smooth blades it is 1e-9."""
 
 
+@one_thread
 def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     """Return natural frequencies [rad/s] as published of the unstretched beam, ascending (count,).
 
