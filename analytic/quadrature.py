@@ -115,28 +115,48 @@ class Grid:
     def _cells(self) -> zip[tuple[tuple[float, float], int]]:
         return zip(pairwise(self.ends.tolist()), self.counts.tolist(), strict=True)
 
+    @cached_property
+    def _first(self) -> NDArray[np.intp]:
+        """The first point of each cell."""
+        return np.concatenate(([0], np.cumsum(self.counts)[:-1]))
+
+    def _inside(
+        self, x: FloatArray
+    ) -> tuple[NDArray[np.intp], list[tuple[NDArray[np.intp], NDArray[np.intp], FloatArray]]]:
+        """Return the cell of each place, and what integrates from its start up to the place.
+
+        That is, for each number of points: which places, their cells' points and the matrix.
+        """
+        cell = np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.counts.size - 1)
+        width, parts = np.diff(self.ends), []
+        for count in np.unique(self.counts[cell]).tolist():
+            rows = np.flatnonzero(self.counts[cell] == count)
+            at = cell[rows]
+            part = integrals_from_clamp(count, (x[rows] - self.ends[at]) / width[at])
+            own = self._first[at][:, None] + np.arange(count)
+            parts.append((rows, own, width[at][:, None] * part))
+        return cell, parts
+
     def integrals(self, values: FloatArray, x: FloatArray) -> FloatArray:
         """Return the integrals from 0 to `x` (places,) of values (points, n): (places, n).
 
         Exact for what is on each cell a polynomial of a degree below its count.
         """
-        first = np.concatenate(([0], np.cumsum(self.counts)[:-1]))
-        on_cells = np.add.reduceat(self.weights[:, None] * values, first)
-        before = np.concatenate((np.zeros((1, values.shape[1])), np.cumsum(on_cells, axis=0)))
-        cell = np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.counts.size - 1)
-        result = before[cell]
-        width = np.diff(self.ends)
-        for count in np.unique(self.counts[cell]).tolist():
-            rows = np.flatnonzero(self.counts[cell] == count)
-            at = cell[rows]
-            inside = integrals_from_clamp(count, (x[rows] - self.ends[at]) / width[at])
-            here = values[first[at][:, None] + np.arange(count)]
-            result[rows] += np.einsum("xp,xpn->xn", width[at][:, None] * inside, here)
-        return result
+        cell, parts = self._inside(x)
+        on_cells = np.add.reduceat(self.weights[:, None] * values, self._first)
+        result = np.concatenate((np.zeros((1, values.shape[1])), np.cumsum(on_cells, axis=0)))[cell]
+        for rows, own, part in parts:
+            result[rows] += np.einsum("xp,xpn->xn", part, values[own])
+        return np.asarray(result)
 
     def integral(self, x: FloatArray) -> FloatArray:
         """Return the matrix (places, points) from values at the points to integrals up to `x`."""
-        return self.integrals(np.eye(self.points.size), x)
+        cell, parts = self._inside(x)
+        before = np.arange(self.points.size) < self._first[cell][:, None]
+        result = np.where(before, self.weights, 0.0)
+        for rows, own, part in parts:
+            result[rows[:, None], own] = part
+        return result
 
 
 def _legendre(count: int, x: FloatArray) -> FloatArray:

@@ -15,6 +15,7 @@ from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart
 _MOST_PANELS = 64  # masses that are closer are so small that functions may smooth their jumps
+_MOST_CELLS = 1000  # closer kinks are so small that Gauss points may smooth them
 _STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inverse is smooth
 
 
@@ -54,10 +55,7 @@ class UnitBlade:
     @cached_property
     def panels(self) -> FloatArray:
         """Ends of the panels between point masses, at which forces jump, 0 to 1."""
-        ends = _apart(position for position, _, _ in self.masses)
-        count = ends.size - 1
-        kept = np.linspace(0, count, min(count, _MOST_PANELS) + 1).round().astype(int)
-        return np.asarray(ends[kept])
+        return _some(_apart(position for position, _, _ in self.masses), _MOST_PANELS)
 
     @cached_property
     def cells(self) -> FloatArray:
@@ -65,6 +63,7 @@ class UnitBlade:
         profiles = (self.mass, self.bending, self.axial, self.rotary)
         kinks = [x for profile in profiles for x in stations(profile)]
         ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
+        ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
         return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])
 
     def _gentle(self, start: float, end: float) -> list[float]:
@@ -104,9 +103,8 @@ class UnitBlade:
         With `most`, so many cells at most: where there are more, their kinks are small.
         """
         ends = self.cells
-        if most is not None and ends.size > most + 1:
-            kept = np.linspace(0, ends.size - 1, most + 1).round().astype(int)
-            ends = np.union1d(ends[kept], self.panels)
+        if most is not None:
+            ends = np.union1d(_some(ends, most), self.panels)
         panel = np.searchsorted(self.panels, 0.5 * (ends[:-1] + ends[1:])) - 1
         start, width = self.panels[panel], np.diff(self.panels)[panel]
         # Polynomials vary the faster the nearer the ends of their panel.
@@ -141,6 +139,12 @@ def _apart(inner: Iterable[float]) -> FloatArray:
     """Return 0, 1 and what is in between, ascending; of neighbors that are the same, one."""
     ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
     return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
+
+
+def _some(ends: FloatArray, most: int) -> FloatArray:
+    """Return the ends of at most so many stretches, both outer ends among them."""
+    count = ends.size - 1
+    return np.asarray(ends[np.linspace(0, count, min(count, most) + 1).round().astype(int)])
 
 
 UNIFORM = UnitBlade()

@@ -12,7 +12,7 @@ from ..shape_functions import shape_functions
 from ..unit_blade import UnitBlade
 
 _MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
-_MOST_CELLS = 128  # closer kinks are so small that fields may smooth them
+_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
 
 
 class Kinematics:
