@@ -14,7 +14,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.linalg import eigh
 
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
@@ -22,15 +21,12 @@ from .description import Described
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
-from .profiles import Profile, evaluated, in_units
-from .quadrature import BasisValues, transverse_basis
+from .profiles import evaluated, in_units
 from .section import Section
+from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
 
-_FUNCTIONS = 24  # for scales: ω0 and the burst speed
-# Which of the transverse basis' values are displacements; along the blade its slopes are, which
-# are zero at the clamp and complete. The curvature strains both.
-_ACROSS, _ALONG = 0, 1
+_FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
 
 
@@ -206,10 +202,11 @@ class Blade(Described):
     @cached_property
     def frequencies_at_rest(self) -> FloatArray:
         """Frequencies of bending at rest [rad/s], 24 at least, of which half are resolved."""
-        at, _, inertia = np.array(self.unit.masses).reshape(-1, 3).T
-        slope = self._basis(at).slope
-        turning = slope.T @ (inertia[:, None] * slope)
-        return self.frequency_scale * self._at_rest(_ACROSS, self.unit.bending, turning)
+        across = shape_functions(self.unit, _FUNCTIONS)
+        (at, dm), (x, dj) = self.unit.inertia(_POINTS), self.unit.turning(_POINTS)
+        moved, turned = across.twice(at), across.once(x)
+        M = moved.T @ (dm[:, None] * moved) + turned.T @ (dj[:, None] * turned)
+        return np.asarray(self.frequency_scale / np.sqrt(np.linalg.eigvalsh(M)[::-1]))
 
     @cached_property
     def burst_speed(self) -> float:
@@ -217,21 +214,10 @@ class Blade(Described):
 
         That is its first axial frequency at rest: at it no stretched state exists any more.
         """
-        first = float(self._at_rest(_ALONG, self.unit.axial)[0])
-        return first * self.frequency_scale / math.sqrt(self.slenderness)
-
-    def _at_rest(self, moved: int, stiffness: Profile, more: Any = 0.0) -> FloatArray:
-        """Return the frequencies at rest [-], of motion across or along the blade."""
-        x, weights = self.unit.quadrature(_FUNCTIONS + 8)
-        at, dm = self.unit.inertia(_FUNCTIONS + 8)
-        strain, displacement = self._basis(x).curvature, self._basis(at)[moved]
-        M = displacement.T @ (dm[:, None] * displacement) + more
-        K = strain.T @ ((weights * evaluated(stiffness, x))[:, None] * strain)
-        return np.asarray(1.0 / np.sqrt(eigh(M, K, eigvals_only=True)[::-1]))
-
-    def _basis(self, x: FloatArray) -> BasisValues:
-        a_panel = math.ceil(_FUNCTIONS / self.unit.panel_count)
-        return transverse_basis(a_panel, x, self.unit.panels)
+        at, dm = self.unit.inertia(_POINTS)
+        moved = shape_functions(self.unit, _FUNCTIONS, "axial").once(at)
+        slowest = float(np.linalg.eigvalsh(moved.T @ (dm[:, None] * moved))[-1])
+        return self.frequency_scale / math.sqrt(slowest * self.slenderness)
 
     @cached_property
     def unit(self) -> UnitBlade:

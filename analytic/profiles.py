@@ -25,18 +25,24 @@ def evaluated(profile: Profile, x: FloatArray) -> FloatArray:
     return np.asarray(np.polynomial.polynomial.polyval(x, np.array(profile, dtype=float)))
 
 
+def slope_of(profile: Profile, x: FloatArray) -> FloatArray:
+    """Return the derivatives of a profile at `x`; at a station that of the stretch after it."""
+    at = stations(profile)
+    if at:
+        values = [pair[1] for pair in profile]  # type: ignore[index,union-attr]
+        stretch = np.clip(np.searchsorted(at, x, side="right") - 1, 0, len(at) - 2)
+        return np.asarray((np.diff(values) / np.diff(at))[stretch])
+    if not isinstance(profile, tuple):
+        return np.zeros_like(x)
+    polynomial = np.polynomial.Polynomial(np.array(profile, dtype=float))
+    return np.asarray(polynomial.deriv()(x))
+
+
 def stations(profile: Profile) -> list[float]:
     """Return where the stations are; none of a number or a polynomial."""
     if isinstance(profile, tuple) and profile and isinstance(profile[0], tuple):
         return [pair[0] for pair in profile]
     return []
-
-
-def degree_of(profile: Profile) -> int:
-    """Return the degree between stations."""
-    if not isinstance(profile, tuple):
-        return 0
-    return 1 if stations(profile) else len(profile) - 1
 
 
 def in_units(profile: Profile, length: float, root: float) -> Profile:

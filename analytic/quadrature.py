@@ -1,26 +1,23 @@
-"""Clamped polynomial bases on the unit interval: integrals of Legendre polynomials.
+"""Clamped polynomial bases on the unit interval, and integrals from the clamp on a cut one.
 
 Integrating P_k twice gives functions with φ(0) = φ'(0) = 0 whose second derivatives are
 orthogonal, so that the bending stiffness is diagonal; integrating once gives functions with
 ψ(0) = 0 whose slopes are orthogonal, so that the axial stiffness is. Both stay well conditioned
-at any degree in use. A blade with masses inside or kinks of its section is cut there into panels,
-on each of which its motion is smooth.
+at any degree in use. On a `Grid` of cells each cell is integrated by Gauss points of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
+from numpy.typing import NDArray
 
 from .arrays import FloatArray
-
-WHOLE = np.array([0.0, 1.0])
-"""The ends of the one panel that a smooth blade is."""
 
 
 class BasisValues(NamedTuple):
@@ -43,79 +40,123 @@ def gauss_points(count: int) -> tuple[FloatArray, FloatArray]:
     return points, weights
 
 
-def transverse_basis(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> BasisValues:
-    """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`.
+def transverse_basis(count: int, x: FloatArray) -> BasisValues:
+    """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`."""
+    curvature = _legendre(count + 2, x)
+    slope = _integrated(curvature)
+    value = _integrated(slope)
+    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
 
-    On more than one panel there are `count` functions for each, by degree first, whose curvatures
-    are such polynomials on it and zero on all others; so a larger basis begins with a smaller one.
+
+def axial_basis(count: int, x: FloatArray) -> BasisValues:
+    """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`."""
+    slope = _legendre(count + 1, x)
+    value, curvature = _integrated(slope), _differentiated(slope)
+    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
+
+
+def polynomials_on(count: int, x: FloatArray, panels: FloatArray) -> BasisValues:
+    """Return polynomials and two derivatives at `x`: each (points, `count` for every panel).
+
+    On each panel they are Legendre's, and zero on all others. They are in the order of their
+    degree, so that a larger basis begins with a smaller one.
     """
-
-    def on_one(t: FloatArray) -> BasisValues:
-        curvature = _legendre(count + 2, t)
-        slope = _integrated(curvature)
-        value = _integrated(slope)
-        return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
-
-    return _on_panels(on_one, x, panels, order=2)
-
-
-def axial_basis(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> BasisValues:
-    """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`.
-
-    On more than one panel the slopes are such polynomials, as in `transverse_basis`.
-    """
-
-    def on_one(t: FloatArray) -> BasisValues:
-        slope = _legendre(count + 1, t)
-        value, curvature = _integrated(slope), _differentiated(slope)
-        return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
-
-    return _on_panels(on_one, x, panels, order=1)
-
-
-def _on_panels(
-    on_one: Callable[[FloatArray], BasisValues], x: FloatArray, panels: FloatArray, order: int
-) -> BasisValues:
-    """Return a basis of which the derivative of that order is orthonormal panel by panel."""
-    if panels.size == 2:
-        return on_one(x)
     parts = []
     for start, end in pairwise(panels.tolist()):
         h, last = end - start, end == panels[-1]
-        t = np.clip((x - start) / h, 0.0, 1.0)
         inside = ((x >= start) & ((x < end) | last))[:, None]
-        at, after = on_one(t), on_one(np.ones(1))
-        value, slope, curvature = (h ** (order - 0.5 - k) * part for k, part in enumerate(at))
-        if order == 2:
-            # Beyond its panel a curvature leaves a slope.
-            value = value + h**0.5 * after.slope * np.maximum(x - end, 0.0)[:, None]
-        else:
-            slope = slope * inside
-        parts.append((value, slope, curvature * inside))
-    # By degree first, so that more degrees come at the end.
-    size = (x.size, parts[0][0].shape[1] * len(parts))
+        value = _legendre(count, np.clip((x - start) / h, 0.0, 1.0))
+        slope = _differentiated(value)
+        kinds = (value, slope, _differentiated(slope))
+        parts.append(
+            [h ** (-0.5 - k) * _normalized(count, f) * inside for k, f in enumerate(kinds)]
+        )
+    size = (x.size, count * len(parts))
     return BasisValues(
         *(np.stack(kind, axis=-1).reshape(size) for kind in zip(*parts, strict=True))
     )
 
 
-def integrals_from_clamp(count: int, x: FloatArray, panels: FloatArray = WHOLE) -> FloatArray:
-    """Return the matrix from values at the Gauss points, `count` a panel, to integrals up to `x`.
+def integrals_from_clamp(count: int, x: FloatArray) -> FloatArray:
+    """Return the matrix from values at `count` Gauss points to integrals from 0 up to `x`.
 
-    Exact for polynomials of a degree below `count` on each panel.
+    Exact for polynomials of a degree below `count`.
     """
-    points, weights = gauss_points_on(count, panels)
-    legendre = axial_basis(count, points, panels).slope
-    return np.asarray(axial_basis(count, x, panels).value @ (legendre * weights[:, None]).T)
+    points, weights = gauss_points(count)
+    onto = axial_basis(count, points).slope * weights[:, None]
+    return np.asarray(axial_basis(count, x).value @ onto.T)
 
 
-def gauss_points_on(count: int, panels: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return Gauss-Legendre points and weights, `count` of each on every panel."""
-    if panels.size == 2:
-        return gauss_points(count)
-    x, weights = gauss_points(count)
-    width = np.diff(panels)[:, None]
-    return (panels[:-1, None] + width * x).ravel(), (width * weights).ravel()
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Gauss points on the cells of a cut interval.
+
+    Attributes
+    ----------
+    ends : ndarray (cells + 1,)
+        Ascending from 0 to 1.
+    counts : ndarray (cells,)
+        Number of Gauss points on each.
+    """
+
+    ends: FloatArray
+    counts: NDArray[np.intp]
+
+    @cached_property
+    def points(self) -> FloatArray:
+        """The Gauss points (points,), ascending."""
+        return np.concatenate([a + (b - a) * gauss_points(n)[0] for (a, b), n in self._cells()])
+
+    @cached_property
+    def weights(self) -> FloatArray:
+        """Their weights (points,)."""
+        return np.concatenate([(b - a) * gauss_points(n)[1] for (a, b), n in self._cells()])
+
+    def _cells(self) -> zip[tuple[tuple[float, float], int]]:
+        return zip(pairwise(self.ends.tolist()), self.counts.tolist(), strict=True)
+
+    @cached_property
+    def _first(self) -> NDArray[np.intp]:
+        """The first point of each cell."""
+        return np.concatenate(([0], np.cumsum(self.counts)[:-1]))
+
+    def _inside(
+        self, x: FloatArray
+    ) -> tuple[NDArray[np.intp], list[tuple[NDArray[np.intp], NDArray[np.intp], FloatArray]]]:
+        """Return the cell of each place, and what integrates from its start up to the place.
+
+        That is, for each number of points: which places, their cells' points and the matrix.
+        """
+        cell = np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.counts.size - 1)
+        width, parts = np.diff(self.ends), []
+        for count in np.unique(self.counts[cell]).tolist():
+            rows = np.flatnonzero(self.counts[cell] == count)
+            at = cell[rows]
+            part = integrals_from_clamp(count, (x[rows] - self.ends[at]) / width[at])
+            own = self._first[at][:, None] + np.arange(count)
+            parts.append((rows, own, width[at][:, None] * part))
+        return cell, parts
+
+    def integrals(self, values: FloatArray, x: FloatArray) -> FloatArray:
+        """Return the integrals from 0 to `x` (places,) of values (points, n): (places, n).
+
+        Exact for what is on each cell a polynomial of a degree below its count.
+        """
+        cell, parts = self._inside(x)
+        on_cells = np.add.reduceat(self.weights[:, None] * values, self._first)
+        result = np.concatenate((np.zeros((1, values.shape[1])), np.cumsum(on_cells, axis=0)))[cell]
+        for rows, own, part in parts:
+            result[rows] += np.einsum("xp,xpn->xn", part, values[own])
+        return np.asarray(result)
+
+    def integral(self, x: FloatArray) -> FloatArray:
+        """Return the matrix (places, points) from values at the points to integrals up to `x`."""
+        cell, parts = self._inside(x)
+        before = np.arange(self.points.size) < self._first[cell][:, None]
+        result = np.where(before, self.weights, 0.0)
+        for rows, own, part in parts:
+            result[rows[:, None], own] = part
+        return result
 
 
 def _legendre(count: int, x: FloatArray) -> FloatArray:
@@ -138,8 +179,11 @@ def _integrated(values: FloatArray) -> FloatArray:
 
 
 def _differentiated(values: FloatArray) -> FloatArray:
-    """Return the derivatives of P_k to x, P_k' = P_{k-2}' + (4k-2) P_{k-1}."""
+    """Return the derivatives to x of P_k or of their derivatives, as many.
+
+    P_k' = P_{k-2}' + (4k-2) P_{k-1}; and so again.
+    """
     slopes = np.zeros_like(values)
     for k in range(1, values.shape[-1]):
-        slopes[..., k] = slopes[..., max(k - 2, 0)] + (4.0 * k - 2.0) * values[..., k - 1]
+        slopes[..., k] = slopes[..., max(k - 2, 0)] * (k > 1) + (4.0 * k - 2.0) * values[..., k - 1]
     return slopes

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from .arrays import FloatArray
-from .profiles import Profile, degree_of, evaluated, stations
-from .quadrature import gauss_points_on
+from .profiles import Profile, evaluated, stations
+from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart
-_MOST_PANELS = 64  # closer kinks are so small that functions may smooth them
+_MOST_PANELS = 64  # masses that are closer are so small that functions may smooth their jumps
+_MOST_CELLS = 1000  # closer kinks are so small that Gauss points may smooth them
+_STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inverse is smooth
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,30 +53,32 @@ class UnitBlade:
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @cached_property
-    def kinks(self) -> FloatArray:
-        """Where a profile has a station or a mass is, with both ends, 0 to 1."""
-        profiles = (self.mass, self.bending, self.axial, self.rotary)
-        inner = {x for profile in profiles for x in stations(profile)}
-        inner |= {position for position, _, _ in self.masses}
-        ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
-        return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
+    def panels(self) -> FloatArray:
+        """Ends of the panels between point masses, at which forces jump, 0 to 1."""
+        return _some(_apart(position for position, _, _ in self.masses), _MOST_PANELS)
 
     @cached_property
-    def panels(self) -> FloatArray:
-        """Ends of the panels on which functions are smooth: the kinks, or some of very many."""
-        count = self.kinks.size - 1
-        kept = np.linspace(0, count, min(count, _MOST_PANELS) + 1).round().astype(int)
-        return np.asarray(self.kinks[kept])
+    def cells(self) -> FloatArray:
+        """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
+        profiles = (self.mass, self.bending, self.axial, self.rotary)
+        kinks = [x for profile in profiles for x in stations(profile)]
+        ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
+        ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
+        return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])
+
+    def _gentle(self, start: float, end: float) -> list[float]:
+        """Return the ends of the cells, after `start`, into which a smooth stretch is halved."""
+        at = np.linspace(start, end, 9)
+        values = [evaluated(profile, at) for profile in (self.bending, self.axial)]
+        if end - start < _SAME or all(v.max() <= _STEEPEST * v.min() for v in values):
+            return [end]
+        middle = 0.5 * (start + end)
+        return [*self._gentle(start, middle), *self._gentle(middle, end)]
 
     @property
     def panel_count(self) -> int:
         """How many panels there are."""
         return self.panels.size - 1
-
-    @property
-    def degree(self) -> int:
-        """Highest degree of a profile on a panel."""
-        return max(map(degree_of, (self.mass, self.bending, self.axial, self.rotary)))
 
     @property
     def differences(self) -> str:
@@ -91,16 +97,54 @@ class UnitBlade:
             if there
         )
 
+    def grid(self, count: int, more: int, most: int | None = None) -> Grid:
+        """Return Gauss points: `count` for each panel, dense at its ends, and `more` on each cell.
+
+        With `most`, so many cells at most: where there are more, their kinks are small.
+        """
+        ends = self.cells
+        if most is not None:
+            ends = np.union1d(_some(ends, most), self.panels)
+        panel = np.searchsorted(self.panels, 0.5 * (ends[:-1] + ends[1:])) - 1
+        start, width = self.panels[panel], np.diff(self.panels)[panel]
+        # Polynomials vary the faster the nearer the ends of their panel.
+        left, right = (
+            np.arccos(np.clip(1.0 - 2.0 * (at - start) / width, -1.0, 1.0)) / np.pi
+            for at in (ends[:-1], ends[1:])
+        )
+        return Grid(ends, np.ceil(count * (right - left) - _SAME).astype(np.intp) + more)
+
     def quadrature(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """Return points and weights on [0, 1], `count` Gauss points between two kinks."""
-        return gauss_points_on(count, self.kinks)
+        """Return points and weights on [0, 1] for polynomials of a degree up to 2 `count`."""
+        grid = self.grid(count, 4)
+        return grid.points, grid.weights
 
     def inertia(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """Return the measure dm: points and masses, the point masses' at the end."""
+        """Return points and their masses dm, the point masses' at the end."""
         x, weights = self.quadrature(count)
         at = np.array([position for position, _, _ in self.masses])
         lumped = np.array([mass for _, mass, _ in self.masses])
         return np.append(x, at), np.append(weights * evaluated(self.mass, x), lumped)
+
+    def turning(self, count: int, uniform: float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """Return the measure dj against rotation, as `inertia`; `uniform` is of every section."""
+        x, weights = self.quadrature(count)
+        at = np.array([position for position, _, _ in self.masses])
+        lumped = np.array([inertia for _, _, inertia in self.masses])
+        dj = weights * (uniform + evaluated(self.rotary, x))
+        return np.append(x, at), np.append(dj, lumped)
+
+
+def _apart(inner: Iterable[float]) -> FloatArray:
+    """Return 0, 1 and what is in between, ascending; of neighbors that are the same, one."""
+    ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
+    return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
+
+
+def _some(ends: FloatArray, most: int) -> FloatArray:
+    """Return the ends of at most so many stretches, both outer ends among them."""
+    count = ends.size - 1
+    return np.asarray(ends[np.linspace(0, count, min(count, most) + 1).round().astype(int)])
 
 
 UNIFORM = UnitBlade()

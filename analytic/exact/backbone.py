@@ -47,6 +47,8 @@ class Backbone:
         What the extrapolation to a = 0 changed: an upper estimate of its error.
     harmonics : ndarray (orbits, H)
         Sine coefficients 1 to H of q/L.
+    frequency_error : ndarray (orbits,)
+        Relative change of ω_NL under one more refinement; above 1e-9 only where refinement ended.
     residual : ndarray (orbits,)
         Largest residual of the equations of motion in the energy norm, relative to the bending.
     jacobi_drift : ndarray (orbits,)
@@ -71,6 +73,7 @@ class Backbone:
     lambda_omega: float
     lambda_omega_error: float
     harmonics: FloatArray = field(repr=False)
+    frequency_error: FloatArray = field(repr=False)
     residual: FloatArray = field(repr=False)
     jacobi_drift: FloatArray = field(repr=False)
     _orbits: tuple[BeamOrbit, ...] = field(repr=False)
@@ -204,5 +207,5 @@ class Backbone:
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
             f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"residual at most {self.residual.max():.1e}{note}"
+            f"frequency certain to {self.frequency_error.max():.0e}{note}"
         )

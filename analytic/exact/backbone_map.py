@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_array, positive, rotation_speed, whole_number
+from ..threads import one_thread
 from .backbone_series import BackboneCurve, in_powers, in_square
 from .branch import AmplitudeNotReachedError, branch_of
 from .curve import care_for, fitted_curve
@@ -161,6 +162,7 @@ def _between(
     return total
 
 
+@one_thread
 def backbone_map(
     beam: AnyBlade,
     omegas: tuple[float, float] = (0.0, 10.0),

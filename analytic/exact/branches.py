@@ -15,6 +15,7 @@ from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
+from ..threads import one_thread
 from .branch import Branch, branch_of
 from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
 from .modes import resolved_model
@@ -137,6 +138,7 @@ class BackboneBranch:
         )
 
 
+@one_thread
 def backbone_branch(
     beam: AnyBlade,
     omega: float,

@@ -15,6 +15,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
 from ..plotting import apart, axes_or_new, cycled, free_place
+from ..threads import one_thread
 from .modes import Plane
 from .tracking import Crossing, family_of
 
@@ -140,6 +141,7 @@ class Campbell:
         return ax
 
 
+@one_thread
 def campbell(
     beam: AnyBlade,
     omegas: ArrayLike,

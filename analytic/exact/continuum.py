@@ -34,7 +34,6 @@ from ..arrays import ComplexArray, FloatArray
 from ..methods.system import Tangent
 from ..unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
-from .own_basis import turning_inertia
 
 
 class _Fields(NamedTuple):
@@ -50,9 +49,9 @@ class _Fields(NamedTuple):
 
 
 class Continuum(Kinematics):
-    """Galerkin discretization of the exact beam in Legendre polynomials of θ, e and γ.
+    """Galerkin discretization of the exact beam in polynomials of its moment and forces.
 
-    The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal and
+    The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal in EI and
     φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
     first in every array.
 
@@ -91,18 +90,19 @@ class Continuum(Kinematics):
         super().__init__(slenderness, bending, axial, blade, shear_share)
         self.rotary = rotary_inertia
         # One point more integrates the square of the integrated interpolant exactly.
-        at, dm = blade.inertia(self._points_a_panel + 1 + (blade.degree + 1) // 2)
-        integral = self._integral(at)
+        count = 2 * self._across.a_panel + 1
+        at, dm = blade.inertia(count)
+        integral = self.grid.integral(at)
         self._green = integral.T @ (dm[:, None] * integral)
         outboard = integral.T @ dm
-        x, dj = turning_inertia(blade, rotary_inertia, self.points, self.weights)
-        phi = self._bases(x)[0]
+        x, dj = blade.turning(count, rotary_inertia)
+        phi = self._across.once(x)
         self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
         self._turns = bool(dj.any())
         bend, stretch, air = blade.damping
         self._viscosity = np.repeat([bend, stretch, 0.0], [bending, axial, self.shear])
-        along, dx = blade.quadrature(self._points_a_panel + 1)
-        integral = self._integral(along)
+        along, dx = blade.quadrature(count)
+        integral = self.grid.integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +18,12 @@ from numpy.polynomial import Chebyshev
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import RotbeamWarning, positive, rotation_speed, whole_number
-from ..methods.continuation import THOROUGH, Care
-from ..methods.harmonic_balance import NoOrbitError
+from ..methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
+from ..methods.harmonic_balance import NoOrbitError, frequency_change
+from ..threads import one_thread
 from .backbone_series import BackboneCurve
 from .branch import AmplitudeNotReachedError, Branch, branch_of
+from .discretization import finer_model
 from .internal_resonance import nearest_resonance
 from .modes import resolved_model
 from .steady import BeamOrbit
@@ -32,6 +35,7 @@ _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need mo
 _APART = 0.08  # orbits at which resonances are looked for
 
 
+@one_thread
 def backbone_curve(
     beam: AnyBlade,
     omega: float,
@@ -95,8 +99,15 @@ def backbone_curve(
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     model = resolved_model(beam, mode, inextensible, False, functions)
-    branch = branch_of(beam, omega, mode, model, care_for(tolerance))
-    curve = fitted_curve(branch, up_to, count, tolerance)
+    while True:
+        branch = branch_of(beam, omega, mode, model, care_for(tolerance))
+        curve = fitted_curve(branch, up_to, count, tolerance)
+        largest = [o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to][-1]
+        model = finer_model(largest.system.model)
+        change = frequency_change(largest, branch.path.tangent)
+        if change <= tolerance or model.bending > MOST_FUNCTIONS:
+            break
+    curve = replace(curve, error=max(curve.error, change))
     if curve.holds_up_to < up_to:
         below = _apart([o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to])
         warnings.warn(

@@ -7,12 +7,14 @@ import numpy as np
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..methods.gyroscopic import inverse_eigenvalues
+from ..threads import one_thread
 from .modes import linear_modes
 from .steady import steady_rotation
 
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 
+@one_thread
 def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     """Return the damping ratios ζ of the in-plane modes in steady rotation, (count,).
 

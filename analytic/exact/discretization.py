@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
+from ..shape_functions import shape_functions
 from ..unit_blade import UNIFORM, UnitBlade
 from .continuum import Continuum
 
@@ -35,13 +35,13 @@ def finer_model(model: Continuum) -> Continuum:
 
     def more(count: int) -> int:
         a_panel = count // panels
-        # The inextensible beam keeps its one.
-        return panels * (a_panel + max(a_panel // 2, int(model.slenderness > 0.0)))
+        # One more at least, on every panel: the same functions would confirm themselves.
+        return panels * (a_panel + max(a_panel // 2, 1))
 
     return continuum(
         model.slenderness,
         more(model.bending),
-        more(model.axial),
+        more(model.axial) if model.slenderness > 0.0 else model.axial,
         model.rotary,
         model.blade,
         model.shear_share,
@@ -57,6 +57,5 @@ def blade_continuum(
     shear_share: float | None = None,
 ) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
-    panels = blade.panel_count
-    bending, axial = (panels * math.ceil(count / panels) for count in (bending, axial))
+    bending, axial = (shape_functions(blade, count).count for count in (bending, axial))
     return continuum(slenderness, bending, axial, rotary_inertia, blade, shear_share)

@@ -14,6 +14,7 @@ from ..input_checks import finite_values, rotation_speed, whole_number
 from ..loads import Gravity, HarmonicLoad
 from ..methods.driven import DrivenOrbit
 from ..methods.response_curve import ResponseNotFollowedError, response_curve
+from ..threads import one_thread
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .loading import DrivenBeam, unit_load
 from .modes import linear_modes, resolved_model
@@ -22,6 +23,7 @@ from .steady import steady_rate
 _LARGEST = 0.95  # |q|/L to which a response is followed
 
 
+@one_thread
 def forced_response(
     beam: AnyBlade,
     omega: float,
@@ -91,6 +93,7 @@ def forced_response(
     return _followed(beam, load, system, asked, harmonics)
 
 
+@one_thread
 def gravity_response(
     beam: AnyBlade,
     omegas: Sequence[float] | FloatArray,

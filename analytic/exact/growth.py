@@ -124,7 +124,7 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
         flap = _steady_modes(space, with_points_for(planar, space.functions))[0][:4]
         if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
             return functions - functions // 3
-        before, functions = flap, functions + functions // 2
+        before, functions = flap, 3 * space.functions // 2
     raise ValueError(
         f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_MOST} functions "
         "do not resolve: rotate slower"

@@ -69,7 +69,7 @@ def frequency_ratios(
     count : int
         How many other modes, the lowest.
     """
-    others = [j for j in range(min(count + 1, modes.size)) if j != mode - 1]
+    others = _others(modes, mode, count)
     squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
     ratios = [modes[others] / modes[mode - 1]]
     for i, orbit in enumerate(orbits, start=1):
@@ -79,6 +79,11 @@ def frequency_ratios(
             expected = expected + slope * (squares[i] - squares[i - 1])
         ratios.append(_nearest(orbit, expected))
     return [j + 1 for j in others], np.array(ratios[1:])
+
+
+def _others(modes: FloatArray, mode: int, count: int = 4) -> list[int]:
+    """Return the places of the lowest other modes."""
+    return [j for j in range(min(count + 1, modes.size)) if j != mode - 1]
 
 
 def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
@@ -195,8 +200,9 @@ def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int)
     )
 
 
-def _outstanding(orbit: BeamOrbit, others: FloatArray) -> list[int]:
-    """Return the harmonics larger than the one before that may be near one of the modes."""
+def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
+    """Return the harmonics larger than the one before that may be near another mode."""
+    others = modes[_others(modes, mode)]
     sizes = np.linalg.norm(orbit.sines, axis=1)
     return [
         k + 1
@@ -210,14 +216,14 @@ def warn_of_resonances(
     orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
 ) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
-    others = [j for j in range(min(5, modes.size)) if j != mode - 1]
-    suspects = [(orbit, ks) for orbit in orbits if (ks := _outstanding(orbit, modes[others]))]
+    others = _others(modes, mode)
+    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(orbit, modes, mode))]
     # Multipliers cost more than an orbit does: of very many a few are looked at.
     looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
     warned: set[tuple[int, int]] = set()
-    for orbit, outstanding in [suspects[i] for i in looked.tolist()] if suspects else []:
+    for orbit, harmonics in [suspects[i] for i in looked.tolist()] if suspects else []:
         turns = _turns(orbit, len(others))
-        for k in outstanding:
+        for k in harmonics:
             # Of the modes whose linear frequency is not far, that whose multiplier is nearest 1.
             near = [
                 (float(t), j + 1)

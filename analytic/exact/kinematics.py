@@ -1,4 +1,4 @@
-"""The shapes of the blade: from coordinates of angle and strains to places, slopes and rates."""
+"""Shapes of the blade: from coordinates of angle and strains to places, slopes and rates."""
 
 from __future__ import annotations
 
@@ -8,17 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import ComplexArray, FloatArray
-from ..quadrature import axial_basis, gauss_points_on, integrals_from_clamp
+from ..shape_functions import shape_functions
 from ..unit_blade import UnitBlade
-from .own_basis import own_bases
+
+_MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
+_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
 
 
 class Kinematics:
-    """Polynomials of θ, e and γ, and what shape their coordinates q = (c, d) make.
+    """Functions for θ, e and γ, and the shape that their coordinates q = (c, d) make.
 
     θ = Σ c_k φ_k with φ_k(0) = 0, and the strains are e + iγ = Σ d_k Ψ_k, with √μ ψ_k for e and
-    then i√(μ/σ) ψ_k for γ: orthonormal in the blade's own stiffness. Samples in time come first in
-    every array.
+    then i√(μ/σ) ψ_k for γ: orthonormal in the blade's own stiffness, their moments and forces
+    polynomials. Samples in time come first in every array.
 
     Attributes
     ----------
@@ -31,7 +33,7 @@ class Kinematics:
         σ, shear over axial stiffness; None where sections stay normal to the axis.
     blade : UnitBlade
     points, weights : ndarray (points,)
-        The Gauss points at which fields are evaluated, and their weights; 2 bending on one panel.
+        The Gauss points at which fields are evaluated, and their weights; 2 bending on one cell.
     """
 
     def __init__(
@@ -49,19 +51,16 @@ class Kinematics:
         self.shear_share = shear_share
         self.size = bending + axial + self.shear
         self.blade = blade
-        self._panels, panels = blade.panels, blade.panel_count
-        if bending % panels or axial % panels:
-            raise ValueError(f"{bending} and {axial} functions do not go on {panels} panels")
-        self._a_panel = (bending // panels, axial // panels)
-        # Functions of low degree still make fields that are not: exp(iθ).
-        self._points_a_panel = 2 * self._a_panel[0] + (4 if panels > 1 else 0)
-        self.points, self.weights = gauss_points_on(self._points_a_panel, self._panels)
-        self._own = own_bases(blade, bending, axial)
+        self._across = shape_functions(blade, bending)
+        self._along = shape_functions(blade, axial, "axial")
+        if (self._across.count, self._along.count) != (bending, axial):
+            raise ValueError(
+                f"{bending} and {axial} functions do not go on {blade.panel_count} panels"
+            )
+        more = 0 if blade.cells.size == 2 else _MORE
+        self.grid = blade.grid(2 * self._across.a_panel, more, _MOST_CELLS)
+        self.points, self.weights = self.grid.points, self.grid.weights
         self._phi, self._psi = self._bases(self.points)
-
-    def _integral(self, x: FloatArray) -> FloatArray:
-        """Matrix from values at the Gauss points to the integral from the clamp to `x`."""
-        return integrals_from_clamp(self._points_a_panel, x, self._panels)
 
     @property
     def odd(self) -> NDArray[np.bool_]:
@@ -71,7 +70,7 @@ class Kinematics:
     @property
     def integrals_at_points(self) -> FloatArray:
         """Matrix from values at the Gauss points to the integrals from the clamp up to each."""
-        return self._integral(self.points)
+        return self.grid.integral(self.points)
 
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coordinates of θ and those of the strains, along the last axis."""
@@ -100,13 +99,10 @@ class Kinematics:
 
     def bent(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the curvature ϑ', e and e' at the Gauss points, each (samples, points)."""
-        bending, axial = self._a_panel
         theta, strains = self.split(q)
-        turned = axial_basis(bending, self.points, self._panels).slope
-        stretched = axial_basis(axial, self.points, self._panels).curvature
-        if self._own is not None:
-            turned, stretched = turned @ self._own[0], stretched @ self._own[1]
-        change = math.sqrt(self.slenderness) * (strains[..., : self.axial] @ stretched.T)
+        turned = self._across.strain(self.points)
+        stretched = math.sqrt(self.slenderness) * self._along.elongation_slope(self.points)
+        change = strains[..., : self.axial] @ stretched.T
         return theta @ turned.T, self._strain(q).real, change
 
     def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
@@ -141,19 +137,15 @@ class Kinematics:
 
     def _bases(self, x: FloatArray) -> tuple[FloatArray, FloatArray | ComplexArray]:
         """Return φ_k and Ψ_k at `x`, each (points, functions)."""
-        bending, axial = self._a_panel
-        phi = axial_basis(bending, x, self._panels).value
-        psi = axial_basis(axial, x, self._panels).slope
-        if self._own is not None:
-            phi, psi = phi @ self._own[0], psi @ self._own[1]
-        psi = math.sqrt(self.slenderness) * psi
+        phi = self._across.once(x)
+        psi = math.sqrt(self.slenderness) * self._along.strain(x)
         if self.shear_share is None:
             return phi, psi
         return phi, np.hstack([psi, 1j / math.sqrt(self.shear_share) * psi])
 
     def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:
         """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
-        return slope @ self._integral(x).T
+        return slope @ self.grid.integral(x).T
 
     def tip(self, q: FloatArray) -> ComplexArray:
         """Return the tip's position z(1), (samples,)."""

@@ -12,6 +12,7 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import points_of_beam, rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
+from ..threads import one_thread
 from .continuum import Continuum
 from .discretization import blade_continuum
 from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
@@ -96,6 +97,7 @@ def linear_modes(
 ) -> TorsionModes: ...
 
 
+@one_thread
 def linear_modes(
     beam: AnyBlade,
     omega: float,

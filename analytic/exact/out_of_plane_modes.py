@@ -14,7 +14,7 @@ from ..beam import AnyBlade
 from ..blade import Blade
 from ..input_checks import points_of_beam
 from ..profiles import in_units
-from ..quadrature import axial_basis
+from ..shape_functions import shape_functions
 from .discretization import blade_continuum
 from .space import Space, require_out_of_plane, with_points_for
 from .steady import SteadyBeam, steady_rotation
@@ -52,10 +52,9 @@ class TorsionModes:
     def shapes(self, x: ArrayLike) -> FloatArray:
         """Return the twists φ at `x` [m], (points, count), 1 at the tip."""
         at = points_of_beam("x", x, self.beam.length)
-        panels = self.beam.unit.panels
-        a_panel = len(self._coordinates) // self.beam.unit.panel_count
-        tip = axial_basis(a_panel, np.ones(1), panels).value @ self._coordinates
-        return np.asarray(axial_basis(a_panel, at, panels).value @ self._coordinates / tip)
+        twists = shape_functions(self.beam.unit, len(self._coordinates))
+        tip = twists.once(np.ones(1)) @ self._coordinates
+        return np.asarray(twists.once(at) @ self._coordinates / tip)
 
 
 def flap_blade(beam: AnyBlade) -> Blade:
@@ -111,7 +110,7 @@ def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> T
     steady = steady_rotation(beam, omega, model)
     before = _torsion(steady, beam, functions)
     while True:
-        functions += functions // 2
+        functions = 3 * len(before[1]) // 2
         found = _torsion(steady, beam, functions)
         ratio = found[0][:count] / before[0][:count] - 1.0
         if np.abs(ratio).max() <= _SETTLED:

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, rotation_speed, whole_number
+from ..methods.continuation import FREQUENCY_BOUND
 from ..methods.harmonic_balance import NoOrbitError
+from ..threads import one_thread
 from .backbone import Backbone
 from .branch import AmplitudeNotReachedError, Branch, branch_of
-from .internal_resonance import nearest_resonance, warn_of_resonances
+from .discretization import finer_model
+from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
 from .modes import resolved_model
 from .steady import BeamOrbit
 
+_RELAID = 3  # times, each on half as many functions again
 
+
+@one_thread
 def periodic_orbits(
     beam: AnyBlade,
     omega: float,
@@ -33,7 +41,9 @@ def periodic_orbits(
     Geometrically exact, extensible, undamped beam in steady rotation, which shears if it has a
     `shear_share`; harmonic balance in time on Legendre polynomials in space, continued in
     amplitude. The number of harmonics grows until the Jacobi integral is constant to 2e-11, that of
-    functions until the residual is at most 1e-4.
+    functions until half as many again change the frequency by at most 1e-9. Near an internal
+    resonance several orbits may have one amplitude: there the branch is laid again on more
+    functions, until it leads to the same orbit. `frequency_error` tells what is left.
 
     Parameters
     ----------
@@ -85,6 +95,7 @@ def periodic_orbits(
     branch = branch_of(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(branch, ascending)
+    found = _confirmed(branch, found)
     warn_of_resonances(list(found.values()), branch.modes, mode, beam.frequency_scale)
     kept = [found[a] for a in ascending[place].tolist() if a in found]
     backbone = _backbone(branch, kept) if kept else None
@@ -106,6 +117,32 @@ def _found(branch: Branch, ascending: FloatArray) -> tuple[dict[float, BeamOrbit
                 f"{_why(branch, a)}"
             )
     return found, refused
+
+
+def _confirmed(branch: Branch, found: dict[float, BeamOrbit]) -> dict[float, BeamOrbit]:
+    """Return the orbits; of those near a resonance, where several have one amplitude, confirmed.
+
+    The branch is laid again on more functions, which may lead into another orbit, until that
+    changes no frequency. What it changed last is the error.
+    """
+    for _ in range(_RELAID):
+        suspects = [a for a, o in found.items() if outstanding(o, branch.modes, branch.mode)]
+        if not suspects:
+            break
+        model = finer_model(branch.path.seed.system.model)
+        branch = branch_of(branch.beam, branch.omega, branch.mode, model)
+        finer, _ = _found(branch, np.sort(suspects))
+        changes = []
+        for a in suspects:
+            one = finer.get(a, found[a])
+            changes.append(
+                abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
+            )
+            error = max(one.frequency_error, changes[-1])
+            found[a] = replace(one, frequency_error=error)
+        if max(changes) <= FREQUENCY_BOUND:
+            break
+    return found
 
 
 def _why(branch: Branch, a: float) -> str:
@@ -142,6 +179,7 @@ def _backbone(branch: Branch, orbits: Sequence[BeamOrbit]) -> Backbone:
         lambda_omega=float((4.0 * near - far) / 3.0),
         lambda_omega_error=float(abs(near - far) / 3.0),
         harmonics=np.array([np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]),
+        frequency_error=np.array([orbit.frequency_error for orbit in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),
         jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
         _orbits=tuple(orbits),

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import whole_number
+from ..threads import one_thread
 from .growth import STEPS, grown_and_checked
 from .periodic import periodic_orbits
 from .space import require_out_of_plane
@@ -83,6 +84,7 @@ class PlanarStability:
         )
 
 
+@one_thread
 def planar_stability(
     blade: AnyBlade,
     omega: float,

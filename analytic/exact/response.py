@@ -16,6 +16,7 @@ from ..beam import AnyBlade, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam, positive
 from ..loads import Load, loads_in_time, rippled
 from ..ramps import AnyRamp, fastest, require_ramp
+from ..threads import one_thread
 from .discretization import blade_continuum
 from .orbit_growth import planar_note
 from .steady import checked_share, section_inertia, steady_rate
@@ -95,6 +96,7 @@ class SpinUpResponse:
         return planar_note(self.beam, self.spin_up.omega, size)
 
 
+@one_thread
 def spin_up_response(
     beam: AnyBlade,
     spin_up: AnyRamp,

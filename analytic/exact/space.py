@@ -27,7 +27,7 @@ from ..blade import Blade
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated
-from ..quadrature import BasisValues, axial_basis, transverse_basis
+from ..shape_functions import ShapeFunctions, shape_functions
 from .continuum import Continuum
 from .steady import BeamOrbit, SteadyBeam
 
@@ -65,18 +65,13 @@ def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
 
 
 @lru_cache(maxsize=32)
-def _bases(a_panel: int, model: Continuum) -> tuple[BasisValues, BasisValues, FloatArray]:
-    """Return the functions of w and of φ at the model's points, and its integrals up to them."""
-    x, panels = model.points, model.blade.panels
-    return (
-        transverse_basis(a_panel, x, panels),
-        axial_basis(a_panel, x, panels),
-        model.integrals_at_points,
-    )
+def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return w'' and w' (φ' and φ) of the functions at the model's points, and its integrals."""
+    return shapes.strain(model.points), shapes.once(model.points), model.integrals_at_points
 
 
 class Space:
-    """Galerkin discretization of L2 by clamped polynomials for w and for φ.
+    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
 
     Parameters
     ----------
@@ -96,8 +91,8 @@ class Space:
     def __init__(self, blade: AnyBlade, functions: int) -> None:
         section = require_out_of_plane(blade)
         self.blade, self.unit, self.section = blade, blade.unit, section
-        self._a_panel = -(-functions // self.unit.panel_count)
-        self.functions = self._a_panel * self.unit.panel_count
+        self.shapes = shape_functions(self.unit, functions)
+        self.functions = self.shapes.count
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
         # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
@@ -111,18 +106,16 @@ class Space:
     @cached_property
     def mass(self) -> FloatArray:
         """The constant mass matrix (n, n)."""
-        panels = self.unit.panels
-        count = self._a_panel + 3 + (self.unit.degree + 1) // 2
-        at, dm = self.unit.inertia(count)
-        w = transverse_basis(self._a_panel, at, panels).value
+        at, dm = self.unit.inertia(self.shapes.a_panel + 3)
+        w = self.shapes.twice(at)
         across = w.T @ (dm[:, None] * w)
         return linalg.block_diag(across, self.twist_mass) if self.twist == "inertial" else across
 
     @cached_property
     def twist_mass(self) -> FloatArray:
         """∫ j φφ of the twist, (functions, functions)."""
-        x, dx = self.unit.quadrature(self._a_panel + 8 + self.unit.degree)
-        phi = axial_basis(self._a_panel, x, self.unit.panels).value
+        x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
+        phi = self.shapes.once(x)
         return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
     def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
@@ -133,9 +126,9 @@ class Space:
         model, still = steady.model, np.zeros((1, steady.size))
         tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
         torsion, turning = self._held(model.points, tension, steady.rate)
-        phi = _bases(self._a_panel, model)[1]
-        stiffness = _form(phi.slope, model.weights * torsion, phi.slope)
-        return np.asarray(stiffness[0] + _form(phi.value, model.weights * turning, phi.value))
+        strain, once, _ = _bases(self.shapes, model)
+        stiffness = _form(strain, model.weights * torsion, strain)
+        return np.asarray(stiffness[0] + _form(once, model.weights * turning, once))
 
     def _held(
         self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
@@ -167,14 +160,14 @@ class Space:
             If the twist has no inertia and buckles.
         """
         model, r = planar.model, self.section.bending_ratio
-        x, (w, phi, upto) = model.points, _bases(self._a_panel, model)
+        x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
         moment = bending * kappa
         stretch = 1.0 / (1.0 + e)
-        angle = stretch[..., None] * w.slope
-        bent = stretch[..., None] * w.curvature - (change * stretch**2)[..., None] * w.slope
+        angle = stretch[..., None] * once
+        bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
@@ -186,10 +179,10 @@ class Space:
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
         straight += _form(angle, torsion * kappa**2, angle)
-        mixed = _form(angle, torsion * kappa, phi.slope)
-        mixed += (1.0 - r) * _form(bent, moment, phi.value)
-        twisted = _form(phi.slope, torsion, phi.slope)
-        twisted += _form(phi.value, model.weights * turning - (1.0 - r) * moment * kappa, phi.value)
+        mixed = _form(angle, torsion * kappa, strain)
+        mixed += (1.0 - r) * _form(bent, moment, once)
+        twisted = _form(strain, torsion, strain)
+        twisted += _form(once, model.weights * turning - (1.0 - r) * moment * kappa, once)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))

@@ -10,6 +10,7 @@ from itertools import groupby
 from ..beam import AnyBlade, require_undamped
 from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
+from ..threads import one_thread
 from .growth import Growth
 from .orbit_growth import LEAST_GROWTH, SMALLEST, GrowthAt, growths
 from .space import require_out_of_plane
@@ -111,6 +112,7 @@ class StabilityLimit:
         )
 
 
+@one_thread
 def stability_limit(
     blade: AnyBlade,
     omega: float,

@@ -10,12 +10,14 @@ from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed
 from ..methods.harmonic_balance import NoOrbitError
 from ..out_of_plane import OutOfPlane
+from ..threads import one_thread
 from .growth import STEPS, grown, settled_functions
 from .orbit_growth import planar_orbits
 from .space import require_out_of_plane
 from .stability_limit import LARGEST, stability_limit
 
 
+@one_thread
 def growth_map(
     blade: AnyBlade, omegas: ArrayLike, amplitudes: ArrayLike, mode: int = 1
 ) -> FloatArray:
@@ -55,6 +57,7 @@ def growth_map(
     return rates
 
 
+@one_thread
 def limit_map(
     blade: AnyBlade, ratios: ArrayLike, omegas: ArrayLike, mode: int = 1, largest: float = LARGEST
 ) -> FloatArray:

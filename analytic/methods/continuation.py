@@ -11,11 +11,14 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
-from .harmonic_balance import LastTangent, NoOrbitError, solve
+from .harmonic_balance import LastTangent, NoOrbitError, frequency_change, solve
 from .periodic_orbit import PeriodicOrbit, S
 
 RESIDUAL_BOUND = 1e-4
-"""Largest residual of an accepted orbit; its frequency is wrong by the order of the square."""
+"""Largest residual of an orbit on the way; away from resonances its frequency is good to 1e-8."""
+
+FREQUENCY_BOUND = 1e-9
+"""Relative change of an orbit's frequency under one more refinement, up to which it is settled."""
 
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
 _FEWEST_HARMONICS = 6
@@ -100,7 +103,7 @@ class Path(Generic[S]):
         self.nodes = [self.seed, self.double]
 
     def at(self, amplitude: float) -> PeriodicOrbit[S]:
-        """Return the orbit of the peak `amplitude`.
+        """Return the orbit of the peak `amplitude`, with the error of its frequency.
 
         Raises
         ------
@@ -113,7 +116,7 @@ class Path(Generic[S]):
         below = self.nodes[max(place - 1, 0)]
         for node in (below, *self.nodes[place : place + 1]):
             if abs(node.amplitude - amplitude) < _SAME_AMPLITUDE:
-                return replace(node, amplitude=amplitude)
+                return self._settled(replace(node, amplitude=amplitude))
         lower, upper = self.nodes[max(place - 3, 0) : max(place, 1)], self.nodes[place : place + 1]
         guesses = [_through(lower, amplitude), below]
         if upper and place:
@@ -121,7 +124,7 @@ class Path(Generic[S]):
         reasons = []
         for guess in guesses:
             try:
-                return self._resolved(guess.scaled(amplitude), amplitude)
+                return self._settled(self._resolved(guess.scaled(amplitude), amplitude))
             except NoOrbitError as reason:
                 reasons.append(str(reason))
         raise NoOrbitError(reasons[0], below)
@@ -136,7 +139,8 @@ class Path(Generic[S]):
         """
         while self.nodes[-1].amplitude < amplitude:
             self._extend(amplitude)
-        return self.at(amplitude)
+        last = self.nodes[-1]
+        return last if abs(last.amplitude - amplitude) < _SAME_AMPLITUDE else self.at(amplitude)
 
     def _extend(self, end: float = math.inf) -> None:
         """Add the next node, not beyond `end`."""
@@ -174,6 +178,29 @@ class Path(Generic[S]):
         while (larger := refined(orbit, self.care)) is not None:
             orbit = solve(larger, amplitude, self.tangent)
         return orbit
+
+    def _settled(self, orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+        """Return the orbit with its frequency's error, on as many functions as that needs."""
+        error, tangent = frequency_change(orbit, self.tangent), LastTangent()
+        while error > FREQUENCY_BOUND:
+            try:
+                orbit = solve(_on_more_functions(orbit), orbit.amplitude, tangent)
+            except NoOrbitError:
+                break
+            error = frequency_change(orbit, tangent)
+        if orbit.invariant_drift > self.care.drift + orbit.invariant_noise:
+            # The most harmonics were not enough.
+            error += _change_by_harmonics(orbit)
+        return replace(orbit, frequency_error=error)
+
+
+def _change_by_harmonics(orbit: PeriodicOrbit[Any]) -> float:
+    """Return the relative change of the frequency by a quarter more harmonics."""
+    try:
+        more = solve(_on_more_harmonics(orbit, 2 * orbit.harmonics), orbit.amplitude)
+    except NoOrbitError:
+        return math.inf
+    return abs(more.frequency / orbit.frequency - 1.0)
 
 
 def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOrbit[S]:

@@ -16,11 +16,10 @@ import numpy as np
 from ..arrays import FloatArray
 from .arclength import NoWayOnError
 from .fourier import full_period, full_waves
-from .system import DrivenSystem, Tangent
+from .system import DrivenSystem, Tangent, relative_defect
 
 D = TypeVar("D", bound=DrivenSystem)
 
-_MOVES = 1e-9  # of the coordinates; less is round-off of those that stand still
 _DIFFERENCE = 1e-6  # of the parameter, for derivatives to it
 _TRUNCATED = 5e-6  # residual of the harmonics left out, which leave 1e-6 of the amplitude
 _UNRESOLVED = 1e-4  # residual of the functions left out; the amplitude is off by its square
@@ -125,8 +124,7 @@ class DrivenOrbit(Generic[D]):
         phase = self._fine_phases
         q, q_dot, q_ddot = (self.system.lifted(c, system) for c in self.coordinates(phase))
         defect = system.residual(q, q_dot, q_ddot, phase, self.parameter)
-        moved = np.linalg.norm(q - q.mean(axis=0), axis=-1).max()
-        return float(np.linalg.norm(defect, axis=-1).max() / max(moved, _MOVES))
+        return relative_defect(defect, q, slice(None))
 
     @cached_property
     def truncation(self) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
+from ..threads import one_thread
 from .collocation import gauss
 from .system import Tangent
 
@@ -71,6 +72,7 @@ class Multipliers(NamedTuple):
         return bool(np.all(np.abs(self.values) < 1.0 + tolerance))
 
 
+@one_thread
 def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
     """Return the Floquet multipliers of the lowest `modes`, as far as there are so many."""
     shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))

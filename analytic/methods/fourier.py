@@ -38,9 +38,8 @@ class Waves:
         self, coefficients: FloatArray, odd: NDArray[np.bool_], frequency: float
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return q, dq/dτ, d²q/dτ² (phases, n) of the coefficients (H + 1, n), φ = Ωτ."""
-        q = np.empty((3, self.odd.shape[1], odd.size))
-        q[..., odd] = self.odd @ coefficients[1:, odd]
-        q[..., ~odd] = self.even @ coefficients[:, ~odd]
+        sines = np.where(odd, coefficients[1:], 0.0)
+        q = self.odd @ sines + self.even @ np.where(odd, 0.0, coefficients)
         return q[0], frequency * q[1], frequency**2 * q[2]
 
 
@@ -49,16 +48,16 @@ class HalfPeriod:
 
     Attributes
     ----------
-    phase : ndarray (2H + 2,)
+    phase : ndarray (count,)
+        2H + 2 of them, or more.
     spacing : float
         Between the phases.
     waves : Waves
-    onto_odd, onto_even : ndarray (H, 2H + 2), (H + 1, 2H + 2)
+    onto_odd, onto_even : ndarray (H, count), (H + 1, count)
         From samples to the coefficients of sin kφ and of cos kφ; exact for products of two waves.
     """
 
-    def __init__(self, harmonics: int) -> None:
-        count = 2 * harmonics + 2
+    def __init__(self, harmonics: int, count: int) -> None:
         self.spacing = math.pi / count
         self.phase = np.pi * (np.arange(count) + 0.5) / count
         self.waves = Waves(self.phase, harmonics)
@@ -67,7 +66,7 @@ class HalfPeriod:
         self.onto_even[0] *= 0.5
 
     def project(self, samples: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:
-        """Return the coefficients (unknowns,) of coordinates (2H + 2, n) given at the phases."""
+        """Return the coefficients (unknowns,) of coordinates (count, n) given at the phases."""
         return np.concatenate(
             ((self.onto_odd @ samples[:, odd]).ravel(), (self.onto_even @ samples[:, ~odd]).ravel())
         )
@@ -76,14 +75,13 @@ class HalfPeriod:
 @lru_cache(maxsize=64)
 def half_period(harmonics: int) -> HalfPeriod:
     """Return the half period for so many harmonics, made once."""
-    return HalfPeriod(harmonics)
+    return HalfPeriod(harmonics, 2 * harmonics + 2)
 
 
 @lru_cache(maxsize=64)
-def fine_waves(harmonics: int) -> Waves:
-    """Return the waves at 4H + 8 midpoints of half a period, which see what H harmonics leave."""
-    count = 4 * harmonics + 8
-    return Waves(np.pi * (np.arange(count) + 0.5) / count, harmonics)
+def fine_half_period(harmonics: int) -> HalfPeriod:
+    """Return 4H + 8 midpoints of half a period, which see what H harmonics leave."""
+    return HalfPeriod(harmonics, 4 * harmonics + 8)
 
 
 def packed(coefficients: FloatArray, odd: NDArray[np.bool_]) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Generic, TypeVar
@@ -9,8 +10,8 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from ..arrays import FloatArray
-from .fourier import Waves, fine_waves, half_period, packed
-from .system import System, Tangent
+from .fourier import Waves, fine_half_period, half_period, packed
+from .system import System, Tangent, relative_defect
 
 _PHASE_STEP = 1e-4  # of the last step to the peak: after it the phase is wrong by its square
 
@@ -32,6 +33,8 @@ class PeriodicOrbit(Generic[S]):
         Harmonics 0 to H: of sines for the odd coordinates, of cosines for the others.
     peak_phase : float
         Phase at which the gauge is greatest.
+    frequency_error : float
+        Relative change of Ω under one more refinement; NaN where it was not asked for.
     """
 
     system: S
@@ -39,6 +42,7 @@ class PeriodicOrbit(Generic[S]):
     frequency: float
     coefficients: FloatArray
     peak_phase: float = 0.5 * np.pi
+    frequency_error: float = math.nan
 
     @property
     def harmonics(self) -> int:
@@ -78,26 +82,28 @@ class PeriodicOrbit(Generic[S]):
     @cached_property
     def _finely(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The coordinates at four times as many phases of half a period as harmonics."""
-        return self.at_waves(fine_waves(self.harmonics))
+        return self.at_waves(fine_half_period(self.harmonics).waves)
 
     @cached_property
     def gauge_harmonics(self) -> FloatArray:
         """Sine coefficients 1 to H of the gauge, (H,)."""
-        sines = fine_waves(self.harmonics).odd[0]
+        sines = fine_half_period(self.harmonics).waves.odd[0]
         return np.asarray(2.0 / len(sines) * self.system.gauge(self._finely[0]) @ sines)
 
     @cached_property
+    def finer_defect(self) -> FloatArray:
+        """Residual in the refined system at the phases of `fine_half_period`, (phases, n)."""
+        finer = self.system.refined()
+        return finer.residual(*(self.system.lifted(c, finer) for c in self._finely))
+
+    @cached_property
     def residual(self) -> float:
-        """Largest residual along the orbit, relative to the odd coordinates' own size.
+        """Largest residual along the orbit, relative to the odd coordinates, as `relative_defect`.
 
         At four times as many phases as harmonics and in the refined system, so that it also sees
         what both truncations left out.
         """
-        finer = self.system.refined()
-        q, q_dot, q_ddot = (self.system.lifted(c, finer) for c in self._finely)
-        defect = finer.residual(q, q_dot, q_ddot)
-        size = np.linalg.norm(q[:, finer.odd], axis=-1).max()
-        return float(np.linalg.norm(defect, axis=-1).max() / size)
+        return relative_defect(self.finer_defect, self._finely[0], self.system.odd)
 
     @cached_property
     def _energies(self) -> tuple[FloatArray, float]:

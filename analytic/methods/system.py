@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
+
+_MOVES = 1e-9  # of the coordinates; less is round-off of those that stand still
 
 
 class Tangent(NamedTuple):
@@ -126,3 +128,22 @@ class System(Coordinates, Protocol):
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy, (samples,); by it changes of their sum are judged."""
         ...
+
+
+def relative_defect(defect: FloatArray, q: FloatArray, moving: Any) -> float:
+    """Return the largest residual (samples, n) along a motion q, without its unit.
+
+    The mean and the motion are each measured by their own size, or the residual of a steady
+    stretch would be told as that of a small motion about it.
+
+    Parameters
+    ----------
+    defect, q : ndarray (samples, n)
+    moving : index
+        Coordinates by which the motion is measured.
+    """
+    mean, motion = defect.mean(axis=0), q - q.mean(axis=0)
+    moved = max(np.linalg.norm(motion[:, moving], axis=-1).max(), _MOVES)
+    of_mean = np.linalg.norm(mean) / max(np.linalg.norm(q, axis=-1).max(), _MOVES)
+    of_motion = np.linalg.norm(defect - mean, axis=-1).max() / moved
+    return float(of_mean + of_motion)

@@ -23,9 +23,10 @@ from ..unit_blade import UnitBlade
 from .blade_functions import BladeFunctions, blade_functions
 from .oscillator import Oscillator
 
-_FEWEST, _MOST = 20, 80
+_FEWEST, _MORE, _STEPS = 20, 12, 5
 _SETTLED = 1e-9
 """Change of ω_n and λ from one basis to the next; those of smooth blades settle at once."""
+_ROUGHLY = 1e-5
 
 
 class BladeOscillator(NamedTuple):
@@ -43,27 +44,25 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
     Raises
     ------
     ValueError
-        If 80 functions do not settle it to 1e-9, as where a section changes in steps.
+        If 80 functions, more on many panels, do not settle it to 1e-5.
     """
-    count = _FEWEST
-    found = _with_functions(blade, w_bar, coriolis, count)
-    while True:
-        count += 12
-        finer = _with_functions(blade, w_bar, coriolis, count)
+    # More on every panel, or they would confirm themselves.
+    counts = [_FEWEST + k * max(_MORE, blade.panel_count) for k in range(_STEPS + 1)]
+    found = _with_functions(blade, w_bar, coriolis, counts[0])
+    for count in counts[1:]:
+        before, found = found, _with_functions(blade, w_bar, coriolis, count)
         change = max(
-            abs(finer.oscillator.w_n / found.oscillator.w_n - 1.0),
-            abs(finer.oscillator.lambda_omega - found.oscillator.lambda_omega),
+            abs(found.oscillator.w_n / before.oscillator.w_n - 1.0),
+            abs(found.oscillator.lambda_omega - before.oscillator.lambda_omega),
         )
         if change <= _SETTLED:
-            return finer
-        if count + 12 > _MOST:
-            if change < 1e-5:
-                return finer  # kinks of the section leave an algebraic tail, of this size
-            raise ValueError(
-                f"the first mode has not settled with {count} functions: twelve more change it "
-                f"by {change:.1e}; rotate slower, or smooth the section"
-            )
-        found = finer
+            return found
+    if change < _ROUGHLY:
+        return found  # kinks of the section leave an algebraic tail, of this size
+    raise ValueError(
+        f"the first mode has not settled with {count} functions: the last {count - counts[-2]} "
+        f"change it by {change:.1e}; rotate slower, or smooth the section"
+    )
 
 
 def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) -> BladeOscillator:

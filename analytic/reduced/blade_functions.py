@@ -15,7 +15,7 @@ from scipy.linalg import eigh
 
 from ..arrays import FloatArray
 from ..profiles import evaluated
-from ..quadrature import gauss_points_on, integrals_from_clamp, transverse_basis
+from ..shape_functions import ShapeFunctions, shape_functions
 from ..unit_blade import UnitBlade
 
 
@@ -34,6 +34,8 @@ class BladeFunctions:
     Attributes
     ----------
     blade : UnitBlade
+    across : ShapeFunctions
+        The functions themselves.
     at, dm : ndarray (masses,)
         The measure of the mass, and where it is.
     dj : ndarray (turning,)
@@ -55,6 +57,7 @@ class BladeFunctions:
     """
 
     blade: UnitBlade
+    across: ShapeFunctions
     at: FloatArray
     dm: FloatArray
     dj: FloatArray
@@ -90,39 +93,37 @@ class BladeFunctions:
 
 @lru_cache(maxsize=16)
 def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
-    """Return at least `count` functions of the blade, as many on every panel."""
-    a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
-    points = 2 * (a_panel + 4 + blade.degree)
+    """Return at least `count` functions of the blade."""
+    across = shape_functions(blade, count)
+    points = 2 * (across.a_panel + 4)
     x, dx = blade.quadrature(points)
     bent = dx * evaluated(blade.bending, x)
     at, dm = blade.inertia(points)
-    turning_at = np.append(x, [position for position, _, _ in blade.masses])
-    lumped = [inertia for _, _, inertia in blade.masses]
-    dj = np.append(dx * evaluated(blade.rotary, x), lumped)
-    inner, weights = gauss_points_on(points, panels)
+    turning_at, dj = blade.turning(points)
+    inner = blade.grid(points, 4)
     # Values at these points to integrals from the clamp to the masses: products of two slopes.
-    to_masses = integrals_from_clamp(points, at, panels)
+    to_masses = inner.integral(at)
 
-    phi = transverse_basis(a_panel, at, panels).value
-    slope_turning = transverse_basis(a_panel, turning_at, panels).slope
-    basis = transverse_basis(a_panel, x, panels)
+    phi, slope_turning = across.twice(at), across.once(turning_at)
+    curvature = across.strain(x)
     turning = slope_turning.T @ (dj[:, None] * slope_turning)
     return BladeFunctions(
         blade=blade,
+        across=across,
         at=at,
         dm=dm,
         dj=dj,
         bent=bent,
-        weights=weights,
+        weights=inner.weights,
         to_masses=to_masses,
         tension=((blade.hub + at) * dm) @ to_masses,
         deflection=phi,
-        slope=transverse_basis(a_panel, inner, panels).slope,
+        slope=across.once(inner.points),
         slope_turning=slope_turning,
-        slope_bent=basis.slope,
-        curvature=basis.curvature,
-        tip=transverse_basis(a_panel, np.ones(1), panels).value[0],
+        slope_bent=across.once(x),
+        curvature=curvature,
+        tip=across.twice(np.ones(1))[0],
         mass=phi.T @ (dm[:, None] * phi) + turning,
-        bending=basis.curvature.T @ (bent[:, None] * basis.curvature),
+        bending=curvature.T @ (bent[:, None] * curvature),
         turning=turning,
     )

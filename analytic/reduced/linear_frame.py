@@ -22,8 +22,8 @@ from scipy.linalg import eigh
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_values, points_of_beam
-from ..quadrature import transverse_basis
 from ..ramps import AnyRamp, fastest, require_ramp
+from ..threads import one_thread
 from .blade_functions import blade_functions
 
 _FUNCTIONS, _MODES = 28, 5
@@ -57,6 +57,7 @@ class LinearResponse:
     axis: FloatArray = field(repr=False)
 
 
+@one_thread
 def linear_response(
     beam: AnyBlade,
     spin_up: AnyRamp,
@@ -123,8 +124,7 @@ def linear_response(
         rotation=modes.T @ rotation @ modes,
         lever=blade.setting * lever @ modes,
     )  # fmt: skip
-    count = of.tip.size // blade.panel_count
-    across = coordinates @ (transverse_basis(count, along, blade.panels).value @ modes).T
+    across = coordinates @ (of.across.twice(along) @ modes).T
     axis = np.stack(np.broadcast_arrays(along, across), axis=-1)
     return LinearResponse(
         beam=beam, spin_up=spin_up, foreshortening=foreshortening, time=time,

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..input_checks import finite_array, finite_number, not_negative, rotation_speed, whole_number
+from ..threads import one_thread
 from ..unit_blade import UNIFORM
 from .any_blade import blade_oscillator
 from .model_range import amplitudes_within, warn_beyond_range
@@ -225,6 +226,7 @@ class ReducedModel:
         return amplitudes_within(a, largest, where, self.variant.order)
 
 
+@one_thread
 def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
     """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
 

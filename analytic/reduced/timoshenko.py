@@ -22,11 +22,13 @@ from ..beam import Beam, require_steady_state, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from ..quadrature import axial_basis, gauss_points, integrals_from_clamp
+from ..threads import one_thread
 
 _FEWEST, _MOST = 16, 128
 _SETTLED = 1e-9
 
 
+@one_thread
 def timoshenko_frequencies(
     beam: Beam,
     omega: float,

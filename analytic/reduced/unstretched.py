@@ -23,7 +23,8 @@ from ..beam import AnyBlade, require_steady_state, warn_if_rpm
 from ..input_checks import rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from ..profiles import evaluated
-from ..quadrature import axial_basis, gauss_points_on, integrals_from_clamp, transverse_basis
+from ..shape_functions import shape_functions
+from ..threads import one_thread
 from ..unit_blade import UnitBlade
 
 _FEWEST, _MOST = 24, 96
@@ -31,6 +32,7 @@ _SETTLED = 1e-5
 """Relative change of the frequencies by half of the functions; of smooth blades it is 1e-9."""
 
 
+@one_thread
 def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     """Return natural frequencies [rad/s] as published of the unstretched beam, ascending (count,).
 
@@ -88,23 +90,20 @@ def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int)
 
     With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric.
     """
-    a_panel, panels = math.ceil(count / blade.panel_count), blade.panels
-    count = a_panel * blade.panel_count
-    x, dx = blade.quadrature(a_panel + 4 + blade.degree)
-    at, dm = blade.inertia(a_panel + 4 + blade.degree)
-    across = transverse_basis(a_panel, at, panels).value
-    along = axial_basis(a_panel, at, panels).value
-    bent = transverse_basis(a_panel, x, panels).curvature
-    pulled = axial_basis(a_panel, x, panels).slope
+    functions, strains = shape_functions(blade, count), shape_functions(blade, count, "axial")
+    count, points = functions.count, functions.a_panel + 4
+    x, dx = blade.quadrature(points)
+    at, dm = blade.inertia(points)
+    across, along = functions.twice(at), strains.once(at)
+    bent, pulled = functions.strain(x), strains.strain(x)
 
     # ∫N f dx = ∫(δ + ξ) ∫_0^ξ f dx dm, for f the product of two slopes.
-    inner, _ = gauss_points_on(2 * a_panel + 3, panels)
+    inner = blade.grid(2 * functions.a_panel + 3, 4)
     lever = w_bar**2 * (blade.hub + at) * dm
-    tension = lever @ integrals_from_clamp(2 * a_panel + 3, at, panels)
-    slope = transverse_basis(a_panel, inner, panels).slope
-    turns = np.append(x, [one[0] for one in blade.masses])
-    turning = transverse_basis(a_panel, turns, panels).slope
-    dj = np.append(dx * evaluated(blade.rotary, x), [one[2] for one in blade.masses])
+    tension = lever @ inner.integral(at)
+    slope = functions.once(inner.points)
+    turns, dj = blade.turning(points)
+    turning = functions.once(turns)
 
     def product(left: FloatArray, measure: FloatArray, right: FloatArray) -> FloatArray:
         return np.asarray(left.T @ (measure[:, None] * right))

@@ -14,6 +14,7 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import positive, rotation_speed, whole_number
 from ..ramps import SmoothRamp
+from ..threads import one_thread
 from .modes import ModesOverSpeed
 from .quiet import exact_residuals
 from .residual import modes_for, residuals
@@ -101,6 +102,7 @@ class _Task:
         return np.stack(slopes, axis=1), here
 
 
+@one_thread
 def design_ramp(
     beam: AnyBlade,
     omega: float,

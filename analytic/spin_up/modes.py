@@ -14,7 +14,7 @@ from scipy.linalg import eigh
 
 from ..arrays import FloatArray
 from ..profiles import evaluated
-from ..quadrature import gauss_points_on, integrals_from_clamp, transverse_basis
+from ..shape_functions import shape_functions
 from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8
@@ -89,26 +89,24 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
 def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float], FloatArray]:
     """Return what finds the modes at one speed w̄, (quantities, modes) in the order of `ModesAt`."""
     functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
-    a_panel, panels = math.ceil(functions / blade.panel_count), blade.panels
-    points = 2 * (a_panel + 4 + blade.degree)
+    across = shape_functions(blade, functions)
+    points = 2 * (across.a_panel + 4)
     x, dx = blade.quadrature(points)
     at, dm = blade.inertia(points)
-    jx = np.append(x, [position for position, _, _ in blade.masses])
-    dj = np.append(dx * evaluated(blade.rotary, x), [inertia for *_, inertia in blade.masses])
+    jx, dj = blade.turning(points)
     lever = (blade.hub + at) * dm
-    inner, _ = gauss_points_on(points, panels)
-    tension = lever @ integrals_from_clamp(points, at, panels)  # over w̄², times the weights
+    inner = blade.grid(points, 4)
+    tension = lever @ inner.integral(at)  # over w̄², times the weights
 
-    phi, along = (transverse_basis(a_panel, place, panels) for place in (at, x))
-    slope, turn = (transverse_basis(a_panel, place, panels).slope for place in (inner, jx))
-    tip = transverse_basis(a_panel, np.ones(1), panels).value[0]
-    mass = phi.value.T @ (dm[:, None] * phi.value)
+    phi, along, curvature = across.twice(at), across.twice(x), across.strain(x)
+    slope, turn, tip = across.once(inner.points), across.once(jx), across.twice(np.ones(1))[0]
+    mass = phi.T @ (dm[:, None] * phi)
     M = mass + turn.T @ (dj[:, None] * turn)
-    bending = along.curvature.T @ ((dx * evaluated(blade.bending, x))[:, None] * along.curvature)
+    bending = curvature.T @ ((dx * evaluated(blade.bending, x))[:, None] * curvature)
     centrifugal = slope.T @ (tension[:, None] * slope) - blade.setting**2 * mass
-    euler = blade.setting * (lever @ phi.value + dj @ turn)
+    euler = blade.setting * (lever @ phi + dj @ turn)
     viscosity, _, air = blade.damping
-    damping = viscosity * bending + air * along.value.T @ (dx[:, None] * along.value)
+    damping = viscosity * bending + air * along.T @ (dx[:, None] * along)
 
     def solve(w: float) -> FloatArray:
         # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.

@@ -16,6 +16,7 @@ from ..exact.response import spin_up_response
 from ..input_checks import positive, rotation_speed
 from ..motion import SpinUp
 from ..ramps import AnyRamp, require_ramp
+from ..threads import one_thread
 from .modes import ModesOverSpeed
 from .residual import modes_for, residuals
 
@@ -57,6 +58,7 @@ class QuietRamps:
     linear: FloatArray
 
 
+@one_thread
 def quiet_ramp_times(
     beam: AnyBlade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
 ) -> QuietRamps:
@@ -171,6 +173,7 @@ def exact_residuals(
     return np.asarray(found[:count] + 1j * found[count + 1 : -1])
 
 
+@one_thread
 def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient.
 

@@ -23,6 +23,7 @@ from ..input_checks import finite_array, positive, whole_number
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..ramps import AnyRamp, Table, fastest, require_ramp
 from ..reduced.any_blade import blade_oscillator
+from ..threads import one_thread
 from .modes import ModesOverSpeed, modes_over_speed
 
 _POINTS = 24
@@ -44,6 +45,7 @@ def residual_amplitude(
     mode: int = 1,
     corrected: bool = False,
 ) -> FloatArray: ...
+@one_thread
 def residual_amplitude(
     beam: AnyBlade,
     spin_up: AnyRamp,

@@ -81,6 +81,7 @@ def test_two_resolutions_agree(backbone, beam, monkeypatch):
 
 def test_error_falls_spectrally_with_the_functions(beam, monkeypatch):
     monkeypatch.setattr("analytic.methods.continuation.RESIDUAL_BOUND", 1.0)
+    monkeypatch.setattr("analytic.methods.continuation.FREQUENCY_BOUND", 1.0)
     counts = np.array([6, 8, 10, 12])
     exact = periodic_orbits(beam, 8.0, [0.2], functions=20).frequency[0]
     errors = [

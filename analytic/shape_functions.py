@@ -1,0 +1,137 @@
+"""Shape functions of a blade: its strains under loads that are mass times polynomials.
+
+Where the section has a kink or a step, the curvature M/EI and the elongation N/EA have one too, and
+M'' and N' as the mass has; the acceleration is smoother. So M'' and N' are the mass per length
+times polynomials, of a uniform mass M and N are polynomials themselves. A blade then takes as many
+functions as its motion needs, however finely stations cut its section. Only point masses cut the
+polynomials, for M' and N jump there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Literal
+
+import numpy as np
+
+from .arrays import FloatArray
+from .profiles import evaluated, slope_of
+from .quadrature import BasisValues, Grid, polynomials_on
+from .unit_blade import UnitBlade
+
+_FEWEST = 3  # a panel
+_MORE = 14  # points on each cell, for the inverse of the stiffness
+
+Stiffness = Literal["bending", "axial"]
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeFunctions:
+    """Strains M/EI or N/EA, orthonormal in that stiffness, and their integrals.
+
+    Made by `shape_functions`. A larger set begins with a smaller one.
+
+    Attributes
+    ----------
+    blade : UnitBlade
+    a_panel : int
+        Functions on each panel between point masses.
+    stiffness : str
+        "bending" for M/EI, "axial" for N/EA.
+    """
+
+    blade: UnitBlade
+    a_panel: int
+    stiffness: Stiffness
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return self.a_panel * self.blade.panel_count
+
+    @cached_property
+    def _grid(self) -> Grid:
+        return self.blade.grid(self.a_panel, _MORE)
+
+    def _profile(self, x: FloatArray) -> FloatArray:
+        return evaluated(getattr(self.blade, self.stiffness), x)[:, None]
+
+    def _polynomials(self, x: FloatArray) -> BasisValues:
+        return polynomials_on(self.a_panel, x, self.blade.panels)
+
+    def _mass(self, x: FloatArray) -> FloatArray:
+        """Return the mass per length at `x`, over its mean on each panel, (places, count)."""
+        panels, grid = self.blade.panels, self._grid
+        masses = grid.integrals(evaluated(self.blade.mass, grid.points)[:, None], panels)[:, 0]
+        mean = np.tile(np.diff(masses) / np.diff(panels), self.a_panel)
+        return np.asarray(evaluated(self.blade.mass, x)[:, None] / mean)
+
+    @cached_property
+    def _shear(self) -> FloatArray:
+        """∫M'' dx from the clamp to the grid's points, (points, count)."""
+        x = self._grid.points
+        return self._grid.integrals(self._mass(x) * self._polynomials(x).curvature, x)
+
+    @cached_property
+    def _slope(self) -> FloatArray:
+        """N' at the grid's points, (points, count)."""
+        x = self._grid.points
+        return self._mass(x) * self._polynomials(x).slope
+
+    def _forces(self, x: FloatArray) -> FloatArray:
+        """Return M or N at `x`, (places, count), before they are made orthonormal."""
+        here = self._polynomials(x)
+        if self.blade.mass == 1.0:
+            return here.value
+        panels = self.blade.panels
+        first, slope, _ = (kind.sum(axis=0) for kind in self._polynomials(panels[:-1]))
+        inside = np.tile((x[:, None] >= panels[:-1]) & (x[:, None] < panels[1:]), self.a_panel)
+        inside[x == 1.0, -1 :: -self.blade.panel_count] = True
+        if self.stiffness == "axial":
+            return np.asarray(inside * (first + self._grid.integrals(self._slope, x)))
+        lever = x[:, None] - np.tile(panels[:-1], self.a_panel)
+        return np.asarray(inside * (first + slope * lever + self._grid.integrals(self._shear, x)))
+
+    @cached_property
+    def _own(self) -> FloatArray:
+        """The upper triangular matrix that makes the strains orthonormal."""
+        x, weights = self._grid.points, self._grid.weights[:, None]
+        factor = np.linalg.qr(np.sqrt(weights / self._profile(x)) * self._forces(x), mode="r")
+        return np.asarray(np.linalg.inv(factor) * np.sign(np.diag(factor)))
+
+    def strain(self, x: FloatArray) -> FloatArray:
+        """Return the strains at `x`, (places, count)."""
+        return np.asarray(self._forces(x) / self._profile(x) @ self._own)
+
+    def elongation_slope(self, x: FloatArray) -> FloatArray:
+        """Return the derivatives of N/EA at `x`, (places, count)."""
+        S, slopes = self._profile(x), self._mass(x) * self._polynomials(x).slope
+        bent = slope_of(self.blade.axial, x)[:, None] / S
+        return np.asarray((slopes - bent * self._forces(x)) / S @ self._own)
+
+    @cached_property
+    def _strains(self) -> FloatArray:
+        return self.strain(self._grid.points)
+
+    def once(self, x: FloatArray) -> FloatArray:
+        """Return their integrals from the clamp to `x`, (places, count)."""
+        return self._grid.integrals(self._strains, x)
+
+    @cached_property
+    def _onces(self) -> FloatArray:
+        return self.once(self._grid.points)
+
+    def twice(self, x: FloatArray) -> FloatArray:
+        """Return the integrals of these from the clamp to `x`, (places, count)."""
+        return self._grid.integrals(self._onces, x)
+
+
+@lru_cache(maxsize=64)
+def shape_functions(
+    blade: UnitBlade, count: int, stiffness: Stiffness = "bending"
+) -> ShapeFunctions:
+    """Return at least `count` functions, as many on every panel, and three of each at least."""
+    a_panel = max(_FEWEST if blade.panel_count > 1 else 1, math.ceil(count / blade.panel_count))
+    return ShapeFunctions(blade, a_panel, stiffness)

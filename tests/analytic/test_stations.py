@@ -1,0 +1,207 @@
+"""Blades given by stations: no answer depends on where a section is cut, and real ones are met."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from analytic import (
+    Blade,
+    Damping,
+    Section,
+    SpinUp,
+    TipForce,
+    damping_ratios,
+    forced_response,
+    gravity_response,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    residual_amplitude,
+    spin_up_response,
+    unstretched_frequencies,
+)
+from analytic.shape_functions import shape_functions
+from rotbeam_exu.files.beam_file import load_beam
+
+NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
+
+
+@pytest.fixture(scope="module")
+def nrel():
+    return load_beam(NREL)
+
+
+def blade_of(mass, bending, axial):
+    section = Section(axial_stiffness=axial, bending_stiffness=bending, mass_per_length=mass)
+    return Blade(length=1.0, section=section, hub_radius=0.3).with_point_mass(0.1, 0.6)
+
+
+def answers(blade):
+    """Numbers of as many public functions as take a blade, by name."""
+    w, time = 1.5 * blade.frequency_scale, np.linspace(0.0, 2.0, 5)
+    damped = blade.with_damping(Damping(external=0.5))
+    motion = SpinUp(omega=w, ramp_time=1.5)
+    yield "at rest", blade.frequencies_at_rest[:8]
+    yield "burst", blade.burst_speed
+    yield "mass", blade.mass
+    yield "modes", linear_modes(blade, w).frequencies
+    yield "inextensible modes", linear_modes(blade, w, inextensible=True).frequencies
+    yield "unstretched", unstretched_frequencies(blade, w)
+    yield "ratio", Damping.from_ratio(blade, 3, 0.01).bending
+    yield "ratios", damping_ratios(damped, w, 2)
+    for name in ("FrM", "FrC"):
+        yield name, [reduced_model(blade, w, name).omega_n, reduced_model(blade, w, name).g2]
+    orbits = periodic_orbits(blade, w, [0.1, 0.3])
+    yield "orbits", orbits.frequency
+    yield "λ", 1.0 + orbits.lambda_omega
+    yield "inextensible", periodic_orbits(blade, w, [0.2], inextensible=True).frequency
+    yield "forced", forced_response(damped, w, TipForce(amplitude=0.05), [2.0, 2.5]).amplitude[0]
+    yield "gravity", gravity_response(damped, [0.5 * w, 0.6 * w], 0.1).amplitude[0]
+    yield "spin-up", spin_up_response(blade, motion, time, tolerance=1e-6).q[-1]
+    yield "left", residual_amplitude(blade, motion, [1.5, 2.5])
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("count", [2, 7, 60, pytest.param(200, marks=pytest.mark.slow)])
+def test_no_answer_depends_on_where_the_section_is_cut(count):
+    """A random blade of polynomials, and the same with its mass at random stations."""
+    random = np.random.default_rng(count)
+    bending = (random.uniform(0.4, 1.6), *random.uniform(-0.15, 0.3, 2))
+    axial = (1e6 * random.uniform(0.4, 1.6), 2e5 * random.uniform(-1.0, 1.0))
+    root, tip = random.uniform(0.4, 1.6, 2)
+    x = np.concatenate(([0.0], np.sort(random.uniform(0.0, 1.0, count - 2)), [1.0]))
+    stations = tuple(zip(x.tolist(), (root + (tip - root) * x).tolist(), strict=True))
+    whole, cut = (blade_of(mass, bending, axial) for mass in ((root, tip - root), stations))
+    for (name, one), (_, other) in zip(answers(whole), answers(cut), strict=True):
+        assert other == pytest.approx(one, rel=1e-9), name
+
+
+@pytest.mark.parametrize("stations", [11, 21, 41, 10_000])
+def test_a_straight_taper_at_stations_is_the_polynomial(stations):
+    """As a hostile tester wrote it: 1e-3 off with 21 stations, at any number of functions."""
+    x = np.linspace(0.0, 1.0, stations)
+    straight, cut = (
+        blade_of(1.0, bending, 1e9)
+        for bending in ((1.0, -0.5), tuple(zip(x.tolist(), (1.0 - 0.5 * x).tolist(), strict=True)))
+    )
+    for inextensible in (False, True):
+        one, other = (
+            linear_modes(blade, 2.0, inextensible=inextensible).frequencies
+            for blade in (straight, cut)
+        )
+        assert other == pytest.approx(one, rel=1e-9)
+    assert cut.omega_0 == pytest.approx(straight.omega_0, rel=1e-12)
+
+
+def shot(blade, omega, guess):
+    """A frequency without extension by shooting: state v, v', M and V, stretch by stretch.
+
+    (EI v'')'' - (N v')' = m (Ω² + ω²) v, with the section's straight lines and N in closed form.
+    """
+    section, hub = blade.section, blade.hub_radius
+    stations, m = np.array(section.mass_per_length).T
+    EI = np.array(section.bending_stiffness)[:, 1]
+    lines = [(a, b, EI[i : i + 2], m[i : i + 2]) for i, (a, b) in enumerate(pairwise(stations))]
+    pulls = [  # from the tip inwards: ∫ (R + x) m dx of each stretch, by Simpson's exact rule
+        (b - a)
+        / 6.0
+        * ((hub + a) * mm[0] + 4 * (hub + (a + b) / 2) * mm.mean() + (hub + b) * mm[1])
+        for a, b, _, mm in lines
+    ]
+    beyond = np.concatenate((np.cumsum(pulls[::-1])[::-1], [0.0]))
+
+    def determinant(frequency):
+        state = np.eye(4)[:, 2:].ravel()
+        for (a, b, stiff, mass), start in zip(lines, beyond[:-1], strict=True):
+            slope = (mass[1] - mass[0]) / (b - a)
+
+            def change(x, y, a=a, b=b, stiff=stiff, mass=mass, start=start, slope=slope):
+                s = x - a
+                here = mass[0] + slope * s
+                moved = s * (
+                    (hub + a) * mass[0] + s * ((mass[0] + (hub + a) * slope) / 2 + s * slope / 3)
+                )
+                N = omega**2 * (start - moved)
+                v, turn, M, V = y.reshape(4, 2)
+                bent = M / (stiff[0] + (stiff[1] - stiff[0]) * s / (b - a))
+                return np.concatenate(
+                    (turn, bent, V + N * turn, here * (frequency**2 + omega**2) * v)
+                )
+
+            state = solve_ivp(change, (a, b), state, method="DOP853", rtol=1e-11, atol=1e-14).y[
+                :, -1
+            ]
+        return np.linalg.det(state.reshape(4, 2)[2:] / np.abs(state).max())
+
+    return brentq(determinant, guess * (1 - 1e-7), guess * (1 + 1e-7), xtol=1e-11 * guess)
+
+
+def test_a_real_blade_has_the_frequencies_that_shooting_finds(nrel):
+    found = linear_modes(nrel, 1.267, 2, inextensible=True).frequencies
+    for frequency in found.tolist():
+        # The bracket is 1e-7 wide, shooting integrates to 1e-11.
+        assert shot(nrel, 1.267, frequency) == pytest.approx(frequency, rel=2e-10)
+
+
+def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):
+    few, many = (
+        linear_modes(nrel, 1.267, inextensible=True, functions=n).frequencies for n in (12, 60)
+    )
+    assert few == pytest.approx(many, rel=1e-7)
+    # Half of 24 functions' frequencies, as the docstring promises.
+    uniform = linear_modes(nrel, 0.0, 12, inextensible=True, functions=60).frequencies
+    assert nrel.frequencies_at_rest[:12] == pytest.approx(uniform, rel=2e-3)
+    assert nrel.omega_0 == pytest.approx(uniform[0], rel=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore:FrM is inextensible:analytic.input_checks.RotbeamWarning")
+def test_a_real_blade_answers_to_every_kind_of_question(nrel):
+    """Respond asked for more damping in vain; an orbit took a minute."""
+    damped = nrel.with_damping(Damping(external=5.0))
+    sag = gravity_response(damped, [0.6, 1.0, 1.6])
+    # Slow against 6.9 rad/s: nearly the static deflection, and stiffened the more by rotation.
+    assert 0.005 < sag.amplitude[0] < 0.008
+    assert forced_response(damped, 1.267, TipForce(amplitude=1000.0), [6.0, 8.0]).peaks
+    orbits = periodic_orbits(nrel, 1.267, [0.1, 0.2])
+    assert orbits.frequency_error.max() < 1e-9
+    frm = reduced_model(nrel, 1.267, "FrM")
+    inextensible = periodic_orbits(nrel, 1.267, [0.02], inextensible=True)
+    assert frm.lambda_omega == pytest.approx(inextensible.lambda_omega, abs=1e-6)
+    motion = SpinUp(omega=1.267, ramp_time=3.0)
+    end = spin_up_response(nrel, motion, [2.0, 4.0], tolerance=1e-6)
+    assert end.error < 1e-6
+
+
+def test_functions_are_orthonormal_and_begin_with_the_smaller_set(nrel):
+    for stiffness in ("bending", "axial"):
+        small, large = (shape_functions(nrel.unit, n, stiffness) for n in (8, 13))
+        x, weights = nrel.unit.quadrature(40)
+        profile = np.interp(x, *np.array(getattr(nrel.unit, stiffness)).T)
+        strains = large.strain(x)
+        gram = strains.T @ ((weights * profile)[:, None] * strains)
+        assert gram == pytest.approx(np.eye(13), abs=1e-9)
+        assert small.strain(x) == pytest.approx(strains[:, :8], abs=1e-9)
+        # Integrals are those of the strains, and strains have the slopes that are told.
+        h = 1e-5
+        at = np.array([0.111, 0.43, 0.77, 0.97])
+        rate = (large.once(at + h) - large.once(at - h)) / (2.0 * h)
+        assert rate == pytest.approx(large.strain(at), rel=1e-4, abs=1e-4)
+        twice = (large.twice(at + h) - large.twice(at - h)) / (2.0 * h)
+        assert twice == pytest.approx(large.once(at), rel=1e-4, abs=1e-5)
+    slope = (large.strain(at + h) - large.strain(at - h)) / (2.0 * h)
+    assert large.elongation_slope(at) == pytest.approx(slope, rel=1e-4, abs=1e-3)
+
+
+def test_refinement_adds_functions_on_every_panel():
+    """With a mass in each twentieth refinement once added nothing, and so confirmed itself."""
+    blade = blade_of(1.0, 1.0, 1e9)
+    for k in range(1, 20):
+        blade = blade.with_point_mass(0.05, k / 20.0)
+    coarse, fine = (linear_modes(blade, 1.0, inextensible=True, functions=n) for n in (6, 120))
+    assert coarse.frequencies == pytest.approx(fine.frequencies, rel=1e-8)
+    at_rest = linear_modes(blade, 0.0, 1, inextensible=True).frequencies[0]
+    assert blade.omega_0 == pytest.approx(at_rest, rel=1e-7)
