@@ -9,7 +9,6 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from analytic import (
@@ -28,6 +27,8 @@ from analytic import (
 from analytic.blade import blade_from
 from analytic.loads import Load
 from analytic.ramps import AnyRamp
+
+from .lazily import xr
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""

@@ -10,7 +10,8 @@ from typing import Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
-from analytic import VARIANTS, AnyBlade
+import analytic
+from analytic import AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import ALIASES, FORMULATIONS, formulation
@@ -69,7 +70,7 @@ _ELEMENTS = (*FORMULATIONS, *ALIASES)
 Element = Annotated[str, Parameter(converter=spelled_as(_ELEMENTS))]
 """Name of a formulation; what is none is refused by `formulation`."""
 
-VariantName = Annotated[str, Parameter(converter=spelled_as(VARIANTS))]
+VariantName = Annotated[str, Parameter(converter=spelled_as(analytic.VARIANTS))]
 """Name of a variant; what is none is refused by `reduced_model`."""
 
 

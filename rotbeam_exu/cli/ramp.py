@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
+import analytic
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .. import comparison
@@ -109,7 +110,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
         {
             "T [s]": [f"{T:.4f}" for T in quiet],
             "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [f"{left:.2e}" for left in residual_amplitude(beam, one, quiet)],
+            "closed form": [
+                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
+            ],
         },
         "table",
         title="Quiet ramp times of Eq. 1",
@@ -128,9 +131,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     print_columns(
         {
             "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in residual_amplitude(beam, one, times)],
+            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
             "with the backbone": [
-                f"{a:#.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
+                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
             ],
             "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
             "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],

@@ -10,18 +10,8 @@ import numpy as np
 import xarray as xr
 from cyclopts import Parameter
 
-from analytic import (
-    AnyBlade,
-    Damping,
-    DistributedForce,
-    ForcedResponse,
-    Gravity,
-    ResponseNotReachedError,
-    SpeedRipple,
-    TipForce,
-    forced_response,
-    gravity_response,
-)
+import analytic
+from analytic import AnyBlade, Damping, DistributedForce, Gravity, SpeedRipple, TipForce
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
 from analytic.loads import HarmonicLoad
@@ -188,7 +178,7 @@ def respond(
         found = _response(
             beam, omega, load, frequencies, inextensible=inextensible, functions=functions
         )
-    except ResponseNotReachedError as error:
+    except analytic.ResponseNotReachedError as error:
         if error.response is None:
             raise
         part = comparison.forced_response(error.response).assign_attrs(
@@ -214,11 +204,11 @@ def _response(
     load: HarmonicLoad | Gravity,
     frequencies: FloatArray,
     **options: Any,
-) -> ForcedResponse:
+) -> analytic.ForcedResponse:
     if isinstance(load, Gravity):
-        return gravity_response(beam, frequencies, load.gravity, **options)
+        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
     assert omega is not None
-    return forced_response(beam, omega, load, frequencies, **options)
+    return analytic.forced_response(beam, omega, load, frequencies, **options)
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:

@@ -9,10 +9,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-import xarray as xr
-
 from analytic.input_checks import RotbeamWarning
 
+from ..lazily import xr
 from . import netcdf, table
 from .round_trip import difference, plain, same
 
@@ -102,8 +101,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> import xarray as xr
-    >>> from rotbeam_exu import load, save
+    >>>     >>> from rotbeam_exu import load, save
     >>> data = xr.Dataset({"q": ("time", [0.0, 0.1])}, {"time": [0.0, 1.0]}, {"omega": 6.0})
     >>> with TemporaryDirectory() as folder:
     ...     print(load(save(data, Path(folder) / "mine.csv")).q.values)

@@ -13,15 +13,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1
-from scipy import linalg, optimize
+import scipy
 
 from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 
+from ..lazily import exudyn, items
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
 from .hermite import HERMITE, scales
@@ -41,7 +40,7 @@ class _LinearFrames(SlopeNodes):
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
         nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=reference))
+            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=reference))
             for reference in row.reference.reshape(-1, 4)
         )
         add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
@@ -64,7 +63,7 @@ class _LinearFrames(SlopeNodes):
         lower = 0.5 * beam.omega_0
         while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
-        return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
+        return float(scipy.optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
 
     def _elements(self, nodes: int) -> int:
         return nodes - 1
@@ -223,7 +222,9 @@ class FrameRow:
             e[free] -= np.linalg.solve(effective[np.ix_(free, free)], residual[free])
         effective = self._tangent_matrix(e) - omega**2 * mass
         pick = np.ix_(free, free)
-        lowest = linalg.eigh(effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0])
+        lowest = scipy.linalg.eigh(
+            effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0]
+        )
         return float(lowest[0])
 
     def _tangent_matrix(self, e: FloatArray) -> FloatArray:
