@@ -15,10 +15,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy
 
 from .arrays import FloatArray
 from .input_checks import RotbeamWarning, finite_number, not_negative, positive
+from .lazily import linalg
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
@@ -239,7 +239,7 @@ class Blade:
         strain, displacement = self._basis(x).curvature, self._basis(at)[moved]
         M = displacement.T @ (dm[:, None] * displacement) + more
         K = strain.T @ ((weights * evaluated(stiffness, x))[:, None] * strain)
-        return np.asarray(1.0 / np.sqrt(scipy.linalg.eigh(M, K, eigvals_only=True)[::-1]))
+        return np.asarray(1.0 / np.sqrt(linalg.eigh(M, K, eigvals_only=True)[::-1]))
 
     def _basis(self, x: FloatArray) -> BasisValues:
         a_panel = math.ceil(_FUNCTIONS / self.unit.panel_count)

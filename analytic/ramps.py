@@ -10,10 +10,10 @@ from functools import cached_property
 from typing import Any, overload
 
 import numpy as np
-import scipy
 
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
+from .lazily import interpolate
 from .motion import SpinUp, SteadyRotation
 
 _MOST_WAVES = 100
@@ -256,8 +256,8 @@ class Table(SpeedChange):
         # Steady before and after, for which one more instant at each end makes the ends level.
         around = np.pad(t, 1), np.pad(speeds, 1, mode="edge")
         around[0][[0, -1]] = 2.0 * t[[0, -1]] - t[[1, -2]]
-        slopes = scipy.interpolate.PchipInterpolator(*around)(t, 1)
-        rate = scipy.interpolate.CubicHermiteSpline(t, speeds, slopes)
+        slopes = interpolate.PchipInterpolator(*around)(t, 1)
+        rate = interpolate.CubicHermiteSpline(t, speeds, slopes)
         return rate.antiderivative(), rate, rate.derivative()
 
     def _within(self, t: Any, derivative: int) -> Any:

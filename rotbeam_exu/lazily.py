@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-
-class Lazily:
-    """A library, imported when one of its names is first asked for; safe in threads."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(import_module(self._name), name)
-
+from analytic.lazily import Lazily
 
 if TYPE_CHECKING:
     import h5netcdf

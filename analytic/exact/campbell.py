@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_values, rotation_speed, whole_number
+from ..lazily import optimize
 from ..plotting import apart, axes_or_new, cycled, free_place
 from .continuum import Continuum
 from .modes import LinearModes, Plane, linear_modes, modes_on

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
+from ..lazily import linalg
 from ..methods.floquet import reversible_monodromy
 from .space import OutOfPlaneMotion, Space
 from .steady import BeamOrbit, SteadyBeam

@@ -19,11 +19,11 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..blade import Blade
+from ..lazily import linalg
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated

@@ -15,9 +15,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from .fourier import half_period, unpacked
 from .periodic_orbit import Crest, PeriodicOrbit, S, highest, peak_gradient
 

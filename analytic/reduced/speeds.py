@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..beam import Beam
+from ..lazily import optimize
 from .lagrangian import energy_coefficients
 from .model import model_at
 from .shapes import CantileverMode
@@ -41,7 +41,7 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     if turns.size == 0:
         return None
     first = turns[0]
-    ratio = brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
+    ratio = optimize.brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
     return float(ratio) * beam.omega_0
 
 

@@ -15,11 +15,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..arrays import FloatArray
 from ..beam import Beam, require_steady_state, warn_if_rpm
 from ..input_checks import positive, rotation_speed, whole_number
+from ..lazily import linalg
 from ..methods.gyroscopic import reciprocal_modes
 from ..quadrature import axial_basis, gauss_points, integrals_from_clamp
 
@@ -118,7 +118,7 @@ def _frequencies(
 
     # γ'γ and φ'φ' are the identity; N(2φv' - (1+e)φ²) = N(2φγ + (1+e)φ²).
     sheared = product(turning, np.hstack([gamma, none]), tension * dx)
-    K = block_diag(
+    K = linalg.block_diag(
         np.eye(2 * count)
         + sheared
         + sheared.T
@@ -126,7 +126,7 @@ def _frequencies(
         - w_bar**2 * product(across, across),
         np.eye(count) - w_bar**2 * product(along, along),
     )
-    M = block_diag(
+    M = linalg.block_diag(
         product(across, across) + rotary * product(turning, turning), product(along, along)
     )
     C = np.zeros_like(K)

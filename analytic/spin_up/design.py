@@ -7,12 +7,11 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.optimize import nnls
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import positive, rotation_speed, whole_number
+from ..lazily import linalg, optimize
 from ..ramps import SmoothRamp
 from .modes import ModesOverSpeed
 from .quiet import exact_residuals
@@ -229,13 +228,13 @@ def _closest(
     """
     Q, R = np.linalg.qr(rows)
     free = Q.T @ sides
-    slopes = solve_triangular(R, slopes.T, trans="T").T
+    slopes = linalg.solve_triangular(R, slopes.T, trans="T").T
     both = np.vstack((slopes.T, least - slopes @ free))
     unit = np.append(np.zeros(free.size), 1.0)
-    rest = both @ nnls(both, unit)[0] - unit
+    rest = both @ optimize.nnls(both, unit)[0] - unit
     if abs(rest[-1]) < _IMPOSSIBLE:
         return None
-    return np.asarray(solve_triangular(R, free - rest[:-1] / rest[-1]))
+    return np.asarray(linalg.solve_triangular(R, free - rest[:-1] / rest[-1]))
 
 
 def _too_short(task: _Task) -> str:

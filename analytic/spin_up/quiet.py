@@ -6,14 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize_scalar
-from scipy.signal import argrelmin
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..exact.modes import linear_modes
 from ..exact.response import spin_up_response
 from ..input_checks import positive, rotation_speed
+from ..lazily import optimize, signal
 from ..motion import SpinUp
 from ..ramps import AnyRamp, require_ramp
 from .modes import ModesOverSpeed
@@ -102,7 +101,10 @@ def quiet_ramp_times(
         )
     tried = np.arange(0.5 * period, longest + spacing, spacing)
     sizes = np.abs(residuals(beam, unit, modes, tried)[0])
-    found = [_refined(beam, unit, modes, tried[k], spacing, tolerance) for k in argrelmin(sizes)[0]]
+    found = [
+        _refined(beam, unit, modes, tried[k], spacing, tolerance)
+        for k in signal.argrelmin(sizes)[0]
+    ]
     ramp_times, left = np.array([one for one in found if one[0] <= longest]).reshape(-1, 2).T
     return QuietRamps(
         beam=beam,
@@ -136,7 +138,7 @@ def _refined(
     lack, aside = lacking(T), 0.5 * spacing
     slope = (lacking(T + aside) - lack) / aside
     for _ in range(_REFINEMENTS):
-        least = minimize_scalar(
+        least = optimize.minimize_scalar(
             left,
             args=(T, lack, slope),
             bounds=(T - 2.0 * spacing, T + 2.0 * spacing),

@@ -15,11 +15,11 @@ from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, positive, whole_number
+from ..lazily import interpolate
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..ramps import AnyRamp, Table, fastest, require_ramp
 from ..reduced.any_blade import blade_oscillator
@@ -146,4 +146,4 @@ def _on_the_backbone(beam: AnyBlade, omega: float, linear: FloatArray) -> FloatA
     oscillator = blade_oscillator(beam.unit, omega / beam.frequency_scale, True).oscillator
     a = np.linspace(0.0, min(_LARGEST, oscillator.largest_amplitude), 241)
     same = np.sqrt(2.0 * oscillator.action(a) / oscillator.w_n)
-    return np.asarray(PchipInterpolator(same, a, extrapolate=False)(linear))
+    return np.asarray(interpolate.PchipInterpolator(same, a, extrapolate=False)(linear))

@@ -10,7 +10,7 @@ import numpy as np
 from cyclopts import Parameter
 from rich.progress import Progress
 
-import analytic
+from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
@@ -97,8 +97,8 @@ def animate(
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("integrating", total=None)
         points = np.linspace(0.0, beam.length, 41)
-        response = analytic.spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
-        linear = analytic.linear_response(beam, spin_up, times, points=points) if beside else None
+        response = spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
+        linear = linear_response(beam, spin_up, times, points=points) if beside else None
         bar.update(task, description="drawing", total=times.size)
         with whole_file(target) as partial:
             animation.save_animation(

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, Beam
 
 from .. import comparison, paper
 from ..files.results import save, save_tables, writable_folder
+from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion

@@ -10,8 +10,7 @@ from typing import Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
-import analytic
-from analytic import AnyBlade
+from analytic import VARIANTS, AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import ALIASES, FORMULATIONS, formulation
@@ -70,7 +69,7 @@ _ELEMENTS = (*FORMULATIONS, *ALIASES)
 Element = Annotated[str, Parameter(converter=spelled_as(_ELEMENTS))]
 """Name of a formulation; what is none is refused by `formulation`."""
 
-VariantName = Annotated[str, Parameter(converter=spelled_as(analytic.VARIANTS))]
+VariantName = Annotated[str, Parameter(converter=spelled_as(VARIANTS))]
 """Name of a variant; what is none is refused by `reduced_model`."""
 
 

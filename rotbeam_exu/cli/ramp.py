@@ -5,16 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-import analytic
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .. import comparison
 from ..fem.elements import formulation
 from ..files.beam_file import load_beam
 from ..files.results import save, save_tables, writable_folder
+from ..lazily import xr
 from ..verdict import beam_attributes
 from .cost import require_affordable
 from .motion import chosen_speeds, chosen_times, refuse_rest
@@ -110,9 +109,7 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
         {
             "T [s]": [f"{T:.4f}" for T in quiet],
             "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [
-                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
-            ],
+            "closed form": [f"{left:.2e}" for left in residual_amplitude(beam, one, quiet)],
         },
         "table",
         title="Quiet ramp times of Eq. 1",
@@ -131,9 +128,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     print_columns(
         {
             "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
+            "closed form": [f"{a:#.4g}" for a in residual_amplitude(beam, one, times)],
             "with the backbone": [
-                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
+                f"{a:#.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
             ],
             "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
             "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-import analytic
+from analytic import spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..comparison.exact_spin_up import exact_spin_up
@@ -72,7 +72,7 @@ def reference(
     }  # fmt: skip
     refuse_to_replace(inputs, *files, force=results.force)
     times = np.linspace(0.0, motion.duration, samples)
-    response = analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
+    response = spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
     data = exact_spin_up(response).assign_attrs(tolerance=tolerance)
     written = [save(data, file) for file in files]
     console = new_console()

@@ -7,11 +7,20 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import xarray as xr
 from cyclopts import Parameter
 
-import analytic
-from analytic import AnyBlade, Damping, DistributedForce, Gravity, SpeedRipple, TipForce
+from analytic import (
+    AnyBlade,
+    Damping,
+    DistributedForce,
+    ForcedResponse,
+    Gravity,
+    ResponseNotReachedError,
+    SpeedRipple,
+    TipForce,
+    forced_response,
+    gravity_response,
+)
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
 from analytic.loads import HarmonicLoad
@@ -19,6 +28,7 @@ from analytic.loads import HarmonicLoad
 from .. import comparison
 from ..comparison.response import response_inputs
 from ..files.results import save, writable_folder
+from ..lazily import xr
 from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Flag, NoFigure, Results, Whole
@@ -178,7 +188,7 @@ def respond(
         found = _response(
             beam, omega, load, frequencies, inextensible=inextensible, functions=functions
         )
-    except analytic.ResponseNotReachedError as error:
+    except ResponseNotReachedError as error:
         if error.response is None:
             raise
         part = comparison.forced_response(error.response).assign_attrs(
@@ -204,11 +214,11 @@ def _response(
     load: HarmonicLoad | Gravity,
     frequencies: FloatArray,
     **options: Any,
-) -> analytic.ForcedResponse:
+) -> ForcedResponse:
     if isinstance(load, Gravity):
-        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
+        return gravity_response(beam, frequencies, load.gravity, **options)
     assert omega is not None
-    return analytic.forced_response(beam, omega, load, frequencies, **options)
+    return forced_response(beam, omega, load, frequencies, **options)
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:

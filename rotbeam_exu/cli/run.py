@@ -6,7 +6,6 @@ import warnings
 from pathlib import Path
 from typing import Annotated
 
-import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import Progress
@@ -16,6 +15,7 @@ from analytic.input_checks import RotbeamWarning
 from ..fem.case import Case
 from ..fem.simulation import run_case
 from ..files.results import save, writable_folder
+from ..lazily import xr
 from ..oscillation import SteadyOscillation, steady_oscillation
 from ..verdict import SimulationError
 from .assessment import assess

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-import analytic
-from analytic import Beam
+from analytic import Beam, planar_stability, stability_limit
 from analytic.input_checks import whole_number
 
 from .. import comparison
@@ -72,8 +71,8 @@ def stability(
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
-    found = analytic.planar_stability(blade, omega, amplitudes, mode)
-    limit = analytic.stability_limit(blade, omega, mode, largest=amplitudes[-1])
+    found = planar_stability(blade, omega, amplitudes, mode)
+    limit = stability_limit(blade, omega, mode, largest=amplitudes[-1])
     data = comparison.planar_stability(found, limit).assign_attrs(inputs)
     written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 
@@ -19,6 +18,7 @@ from analytic.input_checks import whole_number
 from .. import paper
 from ..files.results import save, writable_folder
 from ..files.run_file import RunFile
+from ..lazily import xr
 from ..sweeps.dask import dask_executor
 from ..sweeps.grid import failed_cases
 from ..sweeps.grid import sweep as run_sweep

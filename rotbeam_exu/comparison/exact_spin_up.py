@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 
-import xarray as xr
-
 from analytic import SpinUpResponse
 
 from ..fem.simulation import versions
+from ..lazily import xr
 from ..verdict import beam_attributes
 
 

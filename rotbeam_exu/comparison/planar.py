@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import (
     AnyBlade,
@@ -18,6 +17,7 @@ from analytic import (
     linear_modes,
 )
 
+from ..lazily import xr
 from ..paper import SPEEDS
 from ..verdict import beam_attributes
 

@@ -7,12 +7,12 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
 from analytic.loads import UNDAMPED, HarmonicLoad
 
 from ..fem.simulation import versions
+from ..lazily import xr
 from ..verdict import beam_attributes
 
 

@@ -12,9 +12,7 @@ from functools import partial
 from importlib import metadata
 from typing import Any
 
-import exudyn
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
@@ -26,11 +24,13 @@ from analytic.motion import Rotation
 from analytic.ramps import AnyRamp
 
 from .. import __version__
+from ..lazily import xr
 from ..verdict import SimulationError, check_run, remedy
 from .case import Case
 from .columns import columns
 from .elements import Chain, Formulation
 from .elements.formulation import spun
+from .lazily import exudyn
 from .linearization import round_off
 from .rotating_beam import RotatingBeam, add_rotating_beam
 from .solver import Frame, Sensors, solve, solver_settings

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import xarray as xr
-
 from analytic import Beam
 from analytic.input_checks import whole_number
 
+from ..lazily import xr
 from .elements.linear_frames import FloatingFrame, Substructures
 
 

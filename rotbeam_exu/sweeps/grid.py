@@ -12,7 +12,6 @@ from itertools import product
 from typing import Literal
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, SpinUp
 from analytic.input_checks import RotbeamWarning, finite_values, whole_number
@@ -20,6 +19,7 @@ from analytic.input_checks import RotbeamWarning, finite_values, whole_number
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
 from ..fem.solver import Frame
+from ..lazily import xr
 from ..verdict import SimulationError
 from .cache import Cache
 from .collected import collect

@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from analytic.arrays import FloatArray
+from analytic.lazily import sparse
 
 from ..lazily import exudyn, items
 
@@ -49,18 +49,18 @@ class Assembly:
         """Return (rows, columns, values), to be added up, of element matrices (elements, n, n)."""
         return np.column_stack([self._rows, self._columns, per_element.ravel()])
 
-    def matrix(self, per_element: FloatArray) -> scipy.sparse.csr_array:
+    def matrix(self, per_element: FloatArray) -> sparse.csr_array:
         """Add up element matrices (elements, n, n), or one for all, to one (size, size)."""
         shape = (*self.index.shape, self.index.shape[1])
         values = np.broadcast_to(per_element, shape).ravel()
         place: tuple[NDArray[np.int64], ...] = (self._rows, self._columns)
-        return scipy.sparse.coo_array((values, place), shape=(self.size, self.size)).tocsr()
+        return sparse.coo_array((values, place), shape=(self.size, self.size)).tocsr()
 
 
 def add_energy_body(
     mbs: exudyn.MainSystem,
     nodes: Sequence[exudyn.NodeIndex],
-    mass: scipy.sparse.csr_array,
+    mass: sparse.csr_array,
     force: Callable[[FloatArray], FloatArray],
     tangent: Callable[[FloatArray], FloatArray],
 ) -> None:
@@ -71,7 +71,7 @@ def add_energy_body(
     """
     reference = np.concatenate([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
     container = exudyn.MatrixContainer()
-    container.SetWithSparseMatrix(scipy.sparse.csr_matrix(mass))
+    container.SetWithSparseMatrix(sparse.csr_matrix(mass))
 
     def applied(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
         return -force(reference + np.asarray(q))

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
-import scipy
 
 from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
+from analytic.lazily import linalg, optimize
 
 from ..lazily import exudyn, items
 from .energy_body import Assembly, add_energy_body
@@ -63,7 +63,7 @@ class _LinearFrames(SlopeNodes):
         lower = 0.5 * beam.omega_0
         while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
-        return float(scipy.optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
+        return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
 
     def _elements(self, nodes: int) -> int:
         return nodes - 1
@@ -222,9 +222,7 @@ class FrameRow:
             e[free] -= np.linalg.solve(effective[np.ix_(free, free)], residual[free])
         effective = self._tangent_matrix(e) - omega**2 * mass
         pick = np.ix_(free, free)
-        lowest = scipy.linalg.eigh(
-            effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0]
-        )
+        lowest = linalg.eigh(effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0])
         return float(lowest[0])
 
     def _tangent_matrix(self, e: FloatArray) -> FloatArray:

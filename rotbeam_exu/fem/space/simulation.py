@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import xarray as xr
-
 from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_number
 
+from ...lazily import xr
 from ..case import Case
 from ..simulation import run_case
 from ..solver import Frame
