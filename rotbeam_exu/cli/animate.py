@@ -88,7 +88,7 @@ def animate(
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
     writable_folder(target.parent)
 
-    from ..figures import animation  # noqa: PLC0415  (matplotlib is the slowest import)
+    from ..figures import animation
 
     animation.check_format(target)
     refuse_to_replace_unread(target, force)

@@ -9,7 +9,7 @@ import numpy as np
 
 from analytic import AnyBlade, Beam
 
-from .. import comparison, paper
+from .. import paper
 from ..files.results import save, save_tables, writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
@@ -46,6 +46,8 @@ def compare(
     $ rotbeam compare --jobs 2
     $ rotbeam compare --config beam.toml --amplitude 0.2 -o mine
     """
+    from .. import comparison
+
     folder = writable_folder(results.out)
     console = new_console()
     beam = _uniform(configured(config).beam)

@@ -10,7 +10,6 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
-from ..explorer import EXACT_RAMP_TIMES, OMEGAS, explorer_page
 from ..files.results import whole_file, writable_folder
 from .configuration import configured
 from .motion import chosen_speeds, chosen_times, grid_motion
@@ -50,6 +49,8 @@ def explore(
     $ rotbeam explore --jobs 1
     $ rotbeam explore --config beam.toml --cache results/cache -o mine.html
     """
+    from ..explorer import explorer_page
+
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
@@ -74,6 +75,8 @@ def explore(
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:
     """Return the page's speeds, the points' grid, their end and step, scaled by ω_0."""
+    from ..explorer import EXACT_RAMP_TIMES, OMEGAS
+
     (interval,) = chosen_speeds(beam, OMEGAS[1])
     # Points are seen where the slider stops: on its grid, not beside it.
     omegas = [interval * round(omega / OMEGAS[1]) for omega in paper.SPEEDS]

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
+import analytic
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from .. import comparison
-from ..fem.elements import formulation
+from ..fem.lazily import require_exudyn
 from ..files.beam_file import load_beam
 from ..files.results import save, save_tables, writable_folder
 from ..lazily import xr
@@ -64,6 +64,9 @@ def ramp(
     --------
     $ rotbeam ramp --omega 6 --longest 10
     """
+    from .. import comparison
+    from ..fem.elements import formulation
+
     beam = Beam.reference() if config is None else load_beam(config)
     omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
     refuse_rest(omega)
@@ -80,6 +83,8 @@ def ramp(
         "finite_element_points": finite_element_points, "element": formulation(element).name,
         "elements": elements,
     }  # fmt: skip
+    if finite_element_points:
+        _require_exudyn()
     path = writable_folder(results.out) / f"ramp-omega-{omega:g}-longest-{longest:g}"
     whole = path.with_name(f"{path.name}.nc")
     refuse_to_replace(inputs, whole, force=results.force)
@@ -94,11 +99,19 @@ def ramp(
     tables = path.with_name(f"{path.name}.csv")
     written = [save(data, whole), *save_tables(data, tables)]
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+    from .. import figures
 
     written += figures.save_figure(figures.residual(data), path)
     _print(beam, data)
     print_written(console, written)
+
+
+def _require_exudyn() -> None:
+    """Say before the transients are computed that the runs cannot be, and what can."""
+    try:
+        require_exudyn()
+    except ImportError as error:
+        raise ImportError(f"{error}; take --finite-element-points 0") from error
 
 
 def _print(beam: AnyBlade, data: xr.Dataset) -> None:
@@ -109,7 +122,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
         {
             "T [s]": [f"{T:.4f}" for T in quiet],
             "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [f"{left:.2e}" for left in residual_amplitude(beam, one, quiet)],
+            "closed form": [
+                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
+            ],
         },
         "table",
         title="Quiet ramp times of Eq. 1",
@@ -128,9 +143,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     print_columns(
         {
             "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in residual_amplitude(beam, one, times)],
+            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
             "with the backbone": [
-                f"{a:#.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
+                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
             ],
             "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
             "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import Beam, planar_stability, stability_limit
+import analytic
+from analytic import Beam
 from analytic.input_checks import whole_number
 
-from .. import comparison
 from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
@@ -57,6 +57,8 @@ def stability(
     $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
     $ rotbeam stability --omega 6 --section tube
     """
+    from .. import comparison
+
     whole_number("mode", mode)
     require_affordable(
         f"{len(amplitude)} orbits",
@@ -71,12 +73,12 @@ def stability(
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
-    found = planar_stability(blade, omega, amplitudes, mode)
-    limit = stability_limit(blade, omega, mode, largest=amplitudes[-1])
+    found = analytic.planar_stability(blade, omega, amplitudes, mode)
+    limit = analytic.stability_limit(blade, omega, mode, largest=amplitudes[-1])
     data = comparison.planar_stability(found, limit).assign_attrs(inputs)
     written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+    from .. import figures
 
     written += figures.save_figure(figures.planar_stability(data), path)
     console = new_console()

@@ -9,7 +9,7 @@ import numpy as np
 
 from analytic import Beam, periodic_orbits, planar_note, reduced_model
 
-from ..fem.solver import Frame
+from ..fem.frame import Frame
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep

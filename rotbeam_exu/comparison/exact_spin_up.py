@@ -6,9 +6,9 @@ import json
 
 from analytic import SpinUpResponse
 
-from ..fem.simulation import versions
 from ..lazily import xr
 from ..verdict import beam_attributes
+from ..versions import versions
 
 
 def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:

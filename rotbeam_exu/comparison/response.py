@@ -11,9 +11,9 @@ import numpy as np
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
 from analytic.loads import UNDAMPED, HarmonicLoad
 
-from ..fem.simulation import versions
 from ..lazily import xr
 from ..verdict import beam_attributes
+from ..versions import versions
 
 
 def forced_response(response: ForcedResponse) -> xr.Dataset:

@@ -24,7 +24,7 @@ from ..verdict import (
     motion_of,
 )
 from .elements import Formulation, formulation, options_of, require_modeled
-from .solver import Frame, require_frame
+from .frame import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,10 +27,10 @@ from analytic.motion import Rotation
 from .drive import add_force, triplets
 from .elements import Chain, Formulation
 from .elements.formulation import turned_velocities
+from .frame import Frame
 from .lazily import exudyn
 from .linearization import mass_matrix
 from .mesh import Mesh
-from .solver import Frame
 
 _NO_INERTIA = 1e-30
 """Of a section: zero stands for that of a homogeneous one, which the air does not brake."""

@@ -13,10 +13,10 @@ from analytic.motion import Rotation
 
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
+from .frame import Frame, require_frame
 from .lazily import exudyn, items
 from .linearization import mass_matrix
 from .loading import Loading
-from .solver import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,31 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade
 from analytic.arrays import FloatArray
 
 from .elements import Chain
+from .frame import Frame
 from .lazily import exudyn, items
-
-Frame = Literal["inertial", "rotating"]
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
-
-
-def require_frame(beam: AnyBlade, frame: Frame) -> None:
-    """Refuse a frame that is not known, or in which the blade is not modeled."""
-    if frame not in ("inertial", "rotating"):
-        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
-    if frame == "inertial" and beam.unit.setting != 1.0:
-        raise ValueError(
-            "in the inertial frame the models turn in their plane of bending, and this blade has a "
-            f"setting angle with the cosine {beam.unit.setting:.4g}: take frame='rotating'"
-        )
 
 
 def solver_settings(

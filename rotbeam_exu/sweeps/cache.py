@@ -11,10 +11,10 @@ from typing import Any
 
 from analytic.input_checks import RotbeamWarning
 
-from ..fem.simulation import versions
 from ..files.results import read, save, whole_file, writable_folder
 from ..files.round_trip import plain
 from ..lazily import xr
+from ..versions import versions
 
 _FORMAT = 2
 _MARK = "rotbeam-cache.json"

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..fem.case import Case
-from ..fem.simulation import versions
 from ..lazily import xr
+from ..versions import versions
 from .measured import MEASURED
 
 

@@ -18,7 +18,7 @@ from analytic.input_checks import RotbeamWarning, finite_values, whole_number
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
-from ..fem.solver import Frame
+from ..fem.frame import Frame
 from ..lazily import xr
 from ..verdict import SimulationError
 from .cache import Cache

@@ -19,11 +19,11 @@ from ..elements import Chain, Formulation
 from ..elements.formulation import NoDivergence
 from ..elements.hermite import shapes
 from ..elements.section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
+from ..frame import Frame
 from ..kinetics import energy_and_momentum
 from ..lazily import exudyn, items
 from ..mesh import ElementSection, Mesh
 from ..rotating_beam import RotatingBeam
-from ..solver import Frame
 from .nodes import FrameNodes, SpaceSlopeNodes, directors, turning_rate
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))

@@ -10,8 +10,8 @@ from analytic.input_checks import finite_number
 
 from ...lazily import xr
 from ..case import Case
+from ..frame import Frame
 from ..simulation import run_case
-from ..solver import Frame
 from .columns import space_columns
 from .elements import SpaceFormulation, space_formulation
 from .state import SpaceState, kicked
