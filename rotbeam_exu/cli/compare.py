@@ -10,6 +10,7 @@ import numpy as np
 from analytic import AnyBlade, Beam
 
 from .. import paper
+from ..fem.lazily import require_exudyn
 from ..files.results import save, save_tables, writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
@@ -48,6 +49,7 @@ def compare(
     """
     from .. import comparison
 
+    require_exudyn()
     folder = writable_folder(results.out)
     console = new_console()
     beam = _uniform(configured(config).beam)

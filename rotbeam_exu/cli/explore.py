@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
+from ..fem.lazily import require_exudyn
 from ..files.results import whole_file, writable_folder
 from .configuration import configured
 from .motion import chosen_speeds, chosen_times, grid_motion
@@ -51,6 +52,7 @@ def explore(
     """
     from ..explorer import explorer_page
 
+    require_exudyn()
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
