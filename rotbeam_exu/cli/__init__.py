@@ -8,6 +8,9 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
+from types import NoneType
+from typing import get_args
 
 import cyclopts
 
@@ -18,6 +21,21 @@ from .documented import documented, epilogue
 from .messages import Messages
 from .output import spell_what_cannot_be_encoded
 
+
+def _refuse_none(
+    _: cyclopts.App, __: tuple[str, ...], arguments: cyclopts.ArgumentCollection
+) -> None:
+    """Refuse None and null, which a script writes for what it lacks: they would be the default."""
+    for argument in arguments:
+        if NoneType in get_args(argument.hint) and not {str, Path} & set(get_args(argument.hint)):
+            for token in argument.tokens:
+                if token.value.lower() in ("none", "null"):
+                    raise ValueError(
+                        f"{token.keyword} must have a value, got {token.value}: leave it out to "
+                        "have the default"
+                    )
+
+
 app = cyclopts.App(
     name="rotbeam",
     help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
@@ -26,6 +44,7 @@ app = cyclopts.App(
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
+    config=_refuse_none,
 )
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
