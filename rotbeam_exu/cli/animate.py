@@ -62,7 +62,8 @@ def animate(
         Show what a model that is linear in one floating frame makes of it beside the exact beam:
         above the first natural frequency at rest it flies apart.
     config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion], and duration in [numerics]; without
+        it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force
@@ -78,6 +79,8 @@ def animate(
     file = configured(config)
     beam = file.beam
     spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
+    if duration is None:
+        duration = file.numerics.get("duration")
     if duration is None:
         duration = max(chosen_times(beam, 12.0)[0], 2.0 * spin_up.ramp_time)
     duration = positive("duration", duration, "s")

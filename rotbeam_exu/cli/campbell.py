@@ -64,7 +64,7 @@ def campbell(
     orders
         Lines k ω up to this k.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam; without it, the paper's beam. Its [motion], one speed, is not used.
     format
         A table to read, or CSV.
     out

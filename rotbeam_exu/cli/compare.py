@@ -40,7 +40,8 @@ def compare(
     amplitude
         Amplitude over the length at which the models' budget is printed.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam; without it, the paper's beam. Its [motion] and [numerics] are not
+        used.
 
     Examples
     --------

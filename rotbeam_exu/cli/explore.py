@@ -37,7 +37,8 @@ def explore(
     out
         The page; explorer.html, or with a beam of one's own explorer- and its file's name.
     config
-        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's.
+        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's. Its
+        [motion] and [numerics] are not used.
     cache
         Folder that keeps the finite element runs, for the next time.
     jobs

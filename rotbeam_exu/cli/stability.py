@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 
 import analytic
-from analytic import Beam
 from analytic.input_checks import whole_number
 
-from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
+from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns, print_text, print_written
@@ -29,7 +28,7 @@ _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 def stability(
     *,
-    omega: float,
+    omega: float | None = None,
     shape: SectionShape = _GIVEN,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
@@ -43,14 +42,14 @@ def stability(
     Parameters
     ----------
     omega
-        Rotation speed [rad/s].
+        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes of the planar orbits over the length, one or several; the least unstable one is
         looked for up to the largest.
     mode
         In-plane mode from which the orbits grow.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
 
     Examples
     --------
@@ -65,8 +64,9 @@ def stability(
         seconds=_SECONDS_PER_ORBIT * len(amplitude),
         remedy="take fewer amplitudes",
     )
-    beam = Beam.reference() if config is None else load_beam(config)
-    blade = shape.required_of(beam)
+    file = configured(config)
+    omega = omega_of(file, omega)
+    blade = shape.required_of(file.beam)
     amplitudes = sorted(set(amplitude))
     path = writable_folder(results.out) / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}"
     asked = " ".join(f"{a:.17g}" for a in amplitudes)

@@ -57,8 +57,8 @@ def verify(
     error
         That error, of q(t) over max|q|.
     config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam. Speeds
-        and times that are not given follow its ω_0.
+        TOML file with the beam, and if it likes with [motion] and with step and duration in
+        [numerics]; without it, the paper's beam. What is not given follows its ω_0.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def verify(
     error = positive("error", error)
     file = configured(config)
     beam = file.beam
-    motion = motion_of(file)
+    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
     entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
     console = new_console()
     if cost:
