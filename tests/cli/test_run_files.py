@@ -206,7 +206,8 @@ def test_duration_and_step_of_the_file_reach_animate_and_verify(
     "line",
     [
         ("reference", "--omega", "None"), ("ramp", "--omega=None"),
-        ("sweep", "--omega", "6", "null"), ("sweep", "--duration", "None"), ("campbell", "--omega-max", "NONE"),
+        ("sweep", "--omega", "6", "null"), ("sweep", "--duration", "None"),
+        ("campbell", "--omega-max", "NONE"),
         ("run", "--elements", "none"), ("respond", "--from", "1", "--to", "2", "--ripple", "None"),
     ],
     ids=" ".join,
