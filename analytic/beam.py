@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass, fields
 
 from .blade import Blade
-from .input_checks import RotbeamWarning, positive
+from .input_checks import RotbeamWarning, positive, shown
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
@@ -238,6 +238,12 @@ AnyBlade = Beam | Blade
 """What theory and simulation take."""
 
 
+def require_blade(beam: object) -> None:
+    """Refuse what is neither a Beam nor a Blade."""
+    if not isinstance(beam, AnyBlade):
+        raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
+
+
 def undamped(beam: AnyBlade) -> AnyBlade:
     """Return the same without damping."""
     return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
@@ -245,6 +251,7 @@ def undamped(beam: AnyBlade) -> AnyBlade:
 
 def require_undamped(beam: AnyBlade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
+    require_blade(beam)
     if any(beam.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
@@ -264,6 +271,7 @@ def require_steady_state(beam: AnyBlade, omega: float) -> None:
 
 def warn_if_rpm(beam: AnyBlade, omega: float) -> None:
     """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""
+    require_blade(beam)
     ratio = omega / beam.omega_0
     if ratio > _RPM_SUSPECT:
         warnings.warn(

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
-from .input_checks import RotbeamWarning, finite_number, not_negative, positive
+from .input_checks import RotbeamWarning, finite_number, not_negative, positive, shown
 from .lazily import linalg
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
@@ -44,6 +44,12 @@ def blade_from(values: Mapping[str, Any]) -> Blade:
             "damping": Damping(**values.get("damping", {})),
         }
     )
+
+
+def _several(masses: object) -> tuple[PointMass, ...]:
+    if isinstance(masses, (list, tuple)) and all(isinstance(one, PointMass) for one in masses):
+        return tuple(masses)
+    raise TypeError(f"point_masses must be several, as (PointMass(...),), got {shown(masses)}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +94,7 @@ class Blade:
             ("length", positive("length", self.length, "m")),
             ("hub_radius", not_negative("hub_radius", self.hub_radius, "m")),
             ("setting_angle", finite_number("setting_angle", self.setting_angle, "rad")),
-            ("point_masses", tuple(self.point_masses)),
+            ("point_masses", _several(self.point_masses)),
         ):
             object.__setattr__(self, name, value)
         if abs(self.setting_angle) > 2.0 * math.pi:
@@ -98,6 +104,11 @@ class Blade:
                 RotbeamWarning,
                 stacklevel=3,
             )
+        for name, kind in (("section", Section), ("damping", Damping)):
+            if not isinstance(getattr(self, name), kind):
+                raise TypeError(
+                    f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
+                )
         self.section.require_along(self.length)
         self._require_masses()
 

@@ -7,6 +7,7 @@ the same everywhere: what, where, by how much, what to try.
 from __future__ import annotations
 
 import math
+import reprlib
 from numbers import Integral, Real
 from typing import Any
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from .arrays import FloatArray
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
+_FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
@@ -38,8 +40,9 @@ class RotbeamWarning(UserWarning):
 
 def _number(name: str, value: object, unit: str) -> float:
     value = _magnitude(name, value, unit)
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name} must be a number{_in(unit)}, got {value!r}")
+    # NumPy registers durations as numbers, and Python's float() takes none of them.
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
+        raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
     number = _float(name, value, unit)
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
@@ -88,6 +91,13 @@ def _in(unit: str) -> str:
     return f" in {unit}" if unit else ""
 
 
+def shown(value: object) -> str:
+    """Return a value as one would type it; of a long one, its beginning and its end."""
+    short = reprlib.Repr()
+    short.maxstring = short.maxother = 100
+    return short.repr(value)
+
+
 def positive(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number above zero."""
     number = _number(name, value, unit)
@@ -110,14 +120,32 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
     return _number(name, value, unit)
 
 
-def whole_number(name: str, value: object, least: int = 1) -> int:
-    """Return `value` as an int, refusing what is not a whole number of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, Integral):
-        raise TypeError(f"{name} must be a whole number, got {value!r}")
+def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
+    """Return `value` as an int, refusing what is not a whole number from `least` to `most`."""
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral):
+        raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
         raise ValueError(f"{name} must be at least {least}, got {number}")
+    if most is not None and number > most:
+        raise ValueError(f"{name} must be at most {most}, got {number}")
     return number
+
+
+def flag(name: str, value: object) -> bool:
+    """Return `value` as a bool, refusing what is neither True nor False, such as "no" or nan."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, got {shown(value)}")
+    return bool(value)
+
+
+def peak_deflection(name: str, value: object) -> float:
+    """Return the largest |q|/L of orbits asked for, refusing what none has or round-off hides."""
+    peak = positive(name, value)
+    if not _FAINTEST <= peak < 1.0:
+        bound = "below 1" if peak >= 1.0 else f"at least {_FAINTEST:g}"
+        raise ValueError(f"{name} must be {bound}, got {peak:g}: it is |q|/L of the tip")
+    return peak
 
 
 def rotation_speed(omega: object, name: str = "omega") -> float:
@@ -153,7 +181,7 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
         )
     array = _numeric(_bare(name, values, unit))
     if array is None:
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got {values!r}")
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
     if array.dtype.kind == "O":
         # Integers beyond 64 bits; each is small enough for a float, or named.
         array = np.reshape([_float(name, item, unit) for item in array.flat], array.shape)

@@ -14,7 +14,7 @@ import numpy as np
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
 from .lazily import interpolate
-from .motion import SpinUp, SteadyRotation
+from .motion import SpinUp, SteadyRotation, instants
 
 _MOST_WAVES = 100
 _ROUND_OFF = 1e-9
@@ -48,7 +48,7 @@ class SpeedChange(ABC):
     def angle(self, t: FloatArray) -> FloatArray: ...
     def angle(self, t: float | FloatArray) -> float | FloatArray:
         """Angle θ(t) [rad], zero at t = 0; `t` [s] scalar or array, result of the same shape."""
-        within = self._clipped(t)
+        within, t = self._clipped(t), instants(t)
         beyond = np.where(t > within, self.omega, self.start) * (t - within)
         angle: float | FloatArray = _like(t, self._within(within, 0) + beyond)
         return angle
@@ -72,7 +72,7 @@ class SpeedChange(ABC):
         return acceleration
 
     def _clipped(self, t: Any) -> Any:
-        return np.minimum(np.maximum(t, 0.0), self.ramp_time)
+        return np.minimum(np.maximum(instants(t), 0.0), self.ramp_time)
 
 
 def _like(t: Any, value: Any) -> Any:

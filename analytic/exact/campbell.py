@@ -22,6 +22,7 @@ from .out_of_plane_modes import flap_blade
 if TYPE_CHECKING:
     from ..plotting import Axes
 
+_MOST_ORDERS = 1000
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
 
@@ -187,7 +188,7 @@ def campbell(
         rotation_speed(float(speed), "omegas")
     if np.any(np.diff(speeds) <= 0.0):
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
-    count, orders = whole_number("count", count), whole_number("orders", orders)
+    count, orders = whole_number("count", count), whole_number("orders", orders, most=_MOST_ORDERS)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
     families = [

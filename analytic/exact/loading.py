@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..loads import DistributedForce, Gravity, Load, SpeedRipple, TipForce
 from ..methods.system import Tangent
 from .continuum import Continuum
@@ -49,6 +49,7 @@ def unit_loads(beam: AnyBlade, load: Load) -> UnitLoads:
     TypeError
         If it is none.
     """
+    require_blade(beam)
     L, EI = beam.length, beam.bending_stiffness
     if isinstance(load, Gravity):
         return UnitLoads(gravity=load.gravity * beam.mass_per_length * L**3 / EI)

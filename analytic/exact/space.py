@@ -21,7 +21,7 @@ from typing import Literal
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..blade import Blade
 from ..lazily import linalg
 from ..methods.system import Tangent
@@ -41,6 +41,7 @@ def out_of_plane_of(blade: AnyBlade) -> OutOfPlane | None:
 
 def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
     """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_blade(blade)
     known = out_of_plane_of(blade)
     if known is None:
         raise ValueError(

@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..beam import AnyBlade, require_undamped
+from ..beam import AnyBlade, require_blade, require_undamped
 from ..blade import Blade
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import flag, peak_deflection, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
 from .branch import AmplitudeNotReachedError, branch_of
 from .growth import STEPS, Growth, grown, settled_functions
@@ -120,10 +120,8 @@ def stability_limit(
     require_out_of_plane(blade)
     require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    largest = positive("largest", largest)
-    if largest >= 1.0:
-        raise ValueError(f"largest must be below 1, a share of the length, got {largest:g}")
-    return _limit(blade, omega, mode, largest, inextensible)
+    largest = peak_deflection("largest", largest)
+    return _limit(blade, omega, mode, largest, flag("inextensible", inextensible))
 
 
 @lru_cache(maxsize=256)
@@ -202,7 +200,7 @@ def planar_orbits(
 def _orbits(
     blade: AnyBlade, omega: float, mode: int, inextensible: bool
 ) -> Callable[[float], BeamOrbit]:
-    model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
+    model = resolved_model(blade, mode, inextensible, False, max(_FUNCTIONS, 2 * mode))
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
 
 
@@ -228,13 +226,15 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
     ''
     """
+    require_blade(blade)
     unit = blade.unit
     if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
         return ""
     if not 0.0 < amplitude < 1.0:
         return ""
+    omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        growth = _growths(blade, rotation_speed(omega), mode, False)
+        growth = _growths(blade, omega, mode, False)
         _, unstable = _bracket(growth, amplitude)
     except ValueError as unknown:
         return f"whether this motion stays in its plane is not known: {unknown}"

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import finite_values, points_of_beam
+from ..input_checks import finite_values, flag, points_of_beam
 from ..lazily import integrate, linalg
 from ..quadrature import transverse_basis
 from ..ramps import AnyRamp, fastest, require_ramp
@@ -99,6 +99,7 @@ def linear_response(
     1.673 m
     """
     require_ramp(spin_up)
+    foreshortening = flag("foreshortening", foreshortening)
     require_undamped(beam, "the linear frame has no damping")
     warn_if_rpm(beam, fastest(spin_up))
     time = finite_values("times", times, "s")

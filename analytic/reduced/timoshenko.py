@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..beam import Beam, require_steady_state, warn_if_rpm
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import flag, positive, rotation_speed, whole_number
 from ..lazily import linalg
 from ..methods.gyroscopic import reciprocal_modes
 from ..quadrature import axial_basis, gauss_points, integrals_from_clamp
@@ -74,7 +74,8 @@ def timoshenko_frequencies(
         raise ValueError(f"count must be at most {_MOST // 4}, got {count}: ask for less")
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    w_bar, rotary = omega / beam.frequency_scale, beam.slenderness if rotary_inertia else 0.0
+    w_bar = omega / beam.frequency_scale
+    rotary = beam.slenderness if flag("rotary_inertia", rotary_inertia) else 0.0
 
     def frequencies(functions: int) -> FloatArray:
         return _frequencies(beam.slenderness, w_bar, share, rotary, functions)[:count]

@@ -18,6 +18,7 @@ from .quiet import exact_residuals
 from .residual import modes_for, residuals
 
 _MORE_WAVES = 4
+_MOST_MODES = 20
 _NEWTON_STEPS, _SETTLED, _DIFFERENCE = 20, 1e-3, 1e-6
 _SOLVED = 1e-7  # of the length: what the closed form may leave
 _INSTANTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1.0, 120.0) / 120.0)  # denser at both ends
@@ -149,7 +150,8 @@ def design_ramp(
     True
     """
     omega, start = rotation_speed(omega), rotation_speed(start, "start")
-    duration, modes = positive("duration", duration, "s"), whole_number("modes", modes)
+    duration = positive("duration", duration, "s")
+    modes = whole_number("modes", modes, most=_MOST_MODES)
     higher = max(omega, start)
     if omega == start:
         raise ValueError(f"omega and start are both {omega:g} rad/s: there is nothing to change")

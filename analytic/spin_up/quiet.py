@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..exact.modes import linear_modes
 from ..exact.response import spin_up_response
 from ..input_checks import positive, rotation_speed
@@ -22,6 +22,7 @@ _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0
 _REFINEMENTS, _SETTLED = 6, 1e-4
 """And the share of a period by which the last one moves the minimum at most."""
+_FOUND = 1e-8 * _A_PERIOD  # of the spacing, of which a period has so many
 _MOST_RAMPS = 100_000
 
 
@@ -86,6 +87,7 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
+    require_blade(beam)
     omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
@@ -142,7 +144,7 @@ def _refined(
             left,
             args=(T, lack, slope),
             bounds=(T - 2.0 * spacing, T + 2.0 * spacing),
-            options={"xatol": 1e-8},
+            options={"xatol": _FOUND * spacing},
         )
         moved = float(least.x) - T
         if abs(moved) <= _SETTLED * _A_PERIOD * spacing:
@@ -161,7 +163,8 @@ def exact_residuals(
     with one mode more, whose share is so kept out of the others.
     """
     decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
-    omegas = linear_modes(beam, ramp.omega, count + 1).frequencies
+    functions = max(20, 2 * (count + 1))
+    omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
     during = np.linspace(0.0, ramp.ramp_time, 33)
     # The times before tell how large the motion is, of which the tolerance is a share.
     after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
-from ..input_checks import finite_array, positive, whole_number
+from ..beam import AnyBlade, require_blade
+from ..input_checks import finite_array, flag, positive, whole_number
 from ..lazily import interpolate
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..ramps import AnyRamp, Table, fastest, require_ramp
@@ -85,7 +85,7 @@ def residual_amplitude(
     3.5 s leaves 0.0797 L
     """
     mode = whole_number("mode", mode)
-    if corrected and mode != 1:
+    if flag("corrected", corrected) and mode != 1:
         raise ValueError(f"corrected=True knows the backbone of mode 1, got mode={mode}")
     require_ramp(spin_up)
     times = np.asarray(spin_up.ramp_time if ramp_times is None else ramp_times)
@@ -101,6 +101,7 @@ def residual_amplitude(
 
 def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
+    require_blade(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
     top = max(1.0, math.ceil(10.0 * fastest(spin_up) / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
