@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass, fields
 
 from .blade import Blade
-from .input_checks import RotbeamWarning, positive, shown
+from .input_checks import RotbeamWarning, positive, shown, warn_if_giga
 from .loads import UNDAMPED, Damping
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
@@ -64,6 +64,7 @@ class Beam:
                 self, field.name, positive(field.name, getattr(self, field.name), unit)
             )
         self._require_scales()
+        warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
 
     def _require_scales(self) -> None:
         """Refuse numbers whose products leave what a floating point number can hold."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import reprlib
+import warnings
 from numbers import Integral, Real
 from typing import Any
 
@@ -18,6 +19,7 @@ from .arrays import FloatArray
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
+_SLOWEST_SOUND = 1.0  # [m/s], of what may be a beam: E in GPa for Pa makes 5000 m/s 0.16 m/s
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
@@ -146,6 +148,22 @@ def peak_deflection(name: str, value: object) -> float:
         bound = "below 1" if peak >= 1.0 else f"at least {_FAINTEST:g}"
         raise ValueError(f"{name} must be {bound}, got {peak:g}: it is |q|/L of the tip")
     return peak
+
+
+def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None:
+    """Warn of a stiffness in GPa or GN, which takes the sound of all solids below a walk.
+
+    Only SI knows such a speed: the warning says how to read it in other units.
+    """
+    sound = math.sqrt(stiffness / inertia)
+    if sound < _SLOWEST_SOUND:
+        warnings.warn(
+            f"{name} = {stiffness:.4g} {unit} makes sound go along the beam at {sound:.3g} m/s, "
+            f"and in rubber it goes at 30 m/s: in G{unit}? {stiffness:.4g} G{unit} are "
+            f"{1e9 * stiffness:.4g} {unit}; in units other than SI this may be right",
+            RotbeamWarning,
+            stacklevel=4,
+        )
 
 
 def rotation_speed(omega: object, name: str = "omega") -> float:

@@ -270,11 +270,10 @@ def _coefficients(name: str, values: object) -> tuple[float, ...]:
     numbers = finite_values(name, values)
     if numbers.size > _MOST_WAVES:
         raise ValueError(f"at most {_MOST_WAVES} {name} are taken, got {numbers.size}")
-    largest = float(np.abs(numbers).max())
-    if largest > _ROUND_OFF / np.finfo(float).eps:
+    largest, most = float(np.abs(numbers).max()), _ROUND_OFF / np.finfo(float).eps
+    if largest > most:
         raise ValueError(
-            f"{name} go up to {largest:.3g}, of which round-off leaves the acceleration no digit: "
-            f"at most {_ROUND_OFF / np.finfo(float).eps:.1g} is taken"
+            f"{name} go up to {largest:.3g}: at most {most:.1g} is taken, beyond round-off decides"
         )
     return tuple(numbers.tolist())
 

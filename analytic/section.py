@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
+from .input_checks import warn_if_giga
 from .out_of_plane import OutOfPlane
 from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
 
@@ -50,6 +51,13 @@ class Section:
     def __post_init__(self) -> None:
         for name in ("axial_stiffness", "bending_stiffness", "mass_per_length", "rotary_inertia"):
             object.__setattr__(self, name, checked_profile(name, getattr(self, name)))
+        root = np.zeros(1)
+        stiffness, mass = (
+            float(evaluated(profile, root)[0])
+            for profile in (self.axial_stiffness, self.mass_per_length)
+        )
+        if stiffness > 0.0 and mass > 0.0:  # what else is refused where the length is known
+            warn_if_giga("axial_stiffness", stiffness, "N", mass)
 
     def profiles(self) -> dict[str, Profile]:
         """Return the profiles by name."""

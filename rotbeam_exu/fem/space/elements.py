@@ -15,7 +15,7 @@ from analytic.arrays import FloatArray
 from analytic.exact.space import require_out_of_plane
 from analytic.quadrature import gauss_points
 
-from ..elements import Chain, Formulation
+from ..elements import Chain, Formulation, require_formulation
 from ..elements.formulation import NoDivergence
 from ..elements.hermite import shapes
 from ..elements.section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
@@ -288,6 +288,7 @@ SPACE_FORMULATIONS: dict[str, type[Any]] = {cls.name: cls for cls in (SpaceCable
 def space_formulation(element: str | SpaceFormulation) -> SpaceFormulation:
     """Return the formulation in space called `element`, or the one that it is."""
     if not isinstance(element, str):
+        require_formulation(element)
         return element
     if element not in SPACE_FORMULATIONS:
         names = ", ".join(repr(name) for name in SPACE_FORMULATIONS)
