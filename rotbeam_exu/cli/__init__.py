@@ -1,4 +1,7 @@
-"""The command line `rotbeam`. Only this package prints."""
+"""The command line `rotbeam`. Only this package prints.
+
+What a command computes with is imported when it runs, so that --help and theory are quick.
+"""
 
 from __future__ import annotations
 
