@@ -33,7 +33,6 @@ from .exact.stability_limit import stability_limit as stability_limit
 from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
-from .input_checks import RotbeamWarning as RotbeamWarning
 from .loads import Damping as Damping
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
@@ -63,3 +62,4 @@ from .spin_up.quiet import QuietRamps as QuietRamps
 from .spin_up.quiet import exact_residual as exact_residual
 from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
 from .spin_up.residual import residual_amplitude as residual_amplitude
+from .warning import RotbeamWarning as RotbeamWarning

@@ -16,28 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import FloatArray
+from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
-_SLOWEST_SOUND = 1.0  # [m/s], of what may be a beam: E in GPa for Pa makes 5000 m/s 0.16 m/s
+_SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
-
-
-class RotbeamWarning(UserWarning):
-    """Input or a result that is legal but probably not what was meant.
-
-    All warnings of both packages are of this class, and silenced by it.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> from analytic import Beam, RotbeamWarning, linear_modes
-    >>> with warnings.catch_warnings():
-    ...     warnings.simplefilter("ignore", RotbeamWarning)
-    ...     modes = linear_modes(Beam.reference(), 60.0, 1)  # no rpm
-    >>> print(f"{modes.frequencies[0]:.3f} rad/s")
-    10.270 rad/s
-    """
 
 
 def _number(name: str, value: object, unit: str) -> float:
@@ -151,16 +135,18 @@ def peak_deflection(name: str, value: object) -> float:
 
 
 def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None:
-    """Warn of a stiffness in GPa or GN, which takes the sound of all solids below a walk.
+    """Warn of a stiffness that only as a number of GPa or GN has the speed of sound of a solid.
 
-    Only SI knows such a speed: the warning says how to read it in other units.
+    That speed is known in SI alone: in other units the warning may be wrong, and says so.
     """
     sound = math.sqrt(stiffness / inertia)
-    if sound < _SLOWEST_SOUND:
+    meant = math.sqrt(1e9) * sound
+    if sound < _SOUND[0] <= meant <= _SOUND[1]:
         warnings.warn(
             f"{name} = {stiffness:.4g} {unit} makes sound go along the beam at {sound:.3g} m/s, "
-            f"and in rubber it goes at 30 m/s: in G{unit}? {stiffness:.4g} G{unit} are "
-            f"{1e9 * stiffness:.4g} {unit}; in units other than SI this may be right",
+            f"slower than in any solid: in G{unit}? {stiffness:.4g} G{unit} are "
+            f"{1e9 * stiffness:.4g} {unit} and make it {meant:.4g} m/s; in units other than SI "
+            "this may be right",
             RotbeamWarning,
             stacklevel=4,
         )

@@ -17,7 +17,7 @@ from typing import get_args
 
 import cyclopts
 
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import RotbeamWarning
 
 from .. import __version__
 from .documented import documented, epilogue
