@@ -60,8 +60,8 @@ def require_formulation(element: object) -> None:
     """Refuse what is neither the name of a formulation nor one."""
     if not hasattr(element, "lay"):
         raise TypeError(
-            f"element must be the name of a formulation, or one, as Exact(nodes=3), got "
-            f"{shown(element)}"
+            "element must be the name of a formulation, or one, which is an instance of a frozen "
+            f"dataclass, as Exact(nodes=3), got {shown(element)}"
         )
 
 
