@@ -101,7 +101,8 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>>     >>> from rotbeam_exu import load, save
+    >>> import xarray as xr
+    >>> from rotbeam_exu import load, save
     >>> data = xr.Dataset({"q": ("time", [0.0, 0.1])}, {"time": [0.0, 1.0]}, {"omega": 6.0})
     >>> with TemporaryDirectory() as folder:
     ...     print(load(save(data, Path(folder) / "mine.csv")).q.values)
