@@ -35,7 +35,6 @@ from .exact.stability_maps import growth_map as growth_map
 from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
 from .exact.tracking import Crossing as Crossing
-from .input_checks import RotbeamWarning as RotbeamWarning
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
 from .loads import SpeedRipple as SpeedRipple
@@ -64,3 +63,4 @@ from .spin_up.quiet import QuietRamps as QuietRamps
 from .spin_up.quiet import exact_residual as exact_residual
 from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
 from .spin_up.residual import residual_amplitude as residual_amplitude
+from .warning import RotbeamWarning as RotbeamWarning

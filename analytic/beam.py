@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from .blade import Blade
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import RotbeamWarning, positive
+from .input_checks import RotbeamWarning, positive, shown, warn_if_giga
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
@@ -65,6 +65,7 @@ class Beam(Described):
                 self, field.name, positive(field.name, getattr(self, field.name), unit)
             )
         self._require_scales()
+        warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
 
     def _require_scales(self) -> None:
         """Refuse numbers whose products leave what a floating point number can hold."""
@@ -239,6 +240,12 @@ AnyBlade = Beam | Blade
 """What theory and simulation take."""
 
 
+def require_blade(beam: object) -> None:
+    """Refuse what is neither a Beam nor a Blade."""
+    if not isinstance(beam, AnyBlade):
+        raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
+
+
 def undamped(beam: AnyBlade) -> AnyBlade:
     """Return the same without damping."""
     return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
@@ -246,6 +253,7 @@ def undamped(beam: AnyBlade) -> AnyBlade:
 
 def require_undamped(beam: AnyBlade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
+    require_blade(beam)
     if any(beam.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
@@ -265,6 +273,7 @@ def require_steady_state(beam: AnyBlade, omega: float) -> None:
 
 def warn_if_rpm(beam: AnyBlade, omega: float) -> None:
     """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""
+    require_blade(beam)
     ratio = omega / beam.omega_0
     if ratio > _RPM_SUSPECT:
         warnings.warn(

@@ -17,7 +17,7 @@ import numpy as np
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import RotbeamWarning, finite_number, not_negative, positive
+from .input_checks import RotbeamWarning, finite_number, not_negative, positive, shown
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
 from .profiles import evaluated, in_units
@@ -27,6 +27,12 @@ from .unit_blade import UnitBlade
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
+
+
+def _several(masses: object) -> tuple[PointMass, ...]:
+    if isinstance(masses, (list, tuple)) and all(isinstance(one, PointMass) for one in masses):
+        return tuple(masses)
+    raise TypeError(f"point_masses must be several, as (PointMass(...),), got {shown(masses)}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +77,7 @@ class Blade(Described):
             ("length", positive("length", self.length, "m")),
             ("hub_radius", not_negative("hub_radius", self.hub_radius, "m")),
             ("setting_angle", finite_number("setting_angle", self.setting_angle, "rad")),
-            ("point_masses", tuple(self.point_masses)),
+            ("point_masses", _several(self.point_masses)),
         ):
             object.__setattr__(self, name, value)
         if abs(self.setting_angle) > 2.0 * math.pi:
@@ -81,6 +87,11 @@ class Blade(Described):
                 RotbeamWarning,
                 stacklevel=3,
             )
+        for name, kind in (("section", Section), ("damping", Damping)):
+            if not isinstance(getattr(self, name), kind):
+                raise TypeError(
+                    f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
+                )
         self.section.require_along(self.length)
         self._require_masses()
 

@@ -7,6 +7,8 @@ the same everywhere: what, where, by how much, what to try.
 from __future__ import annotations
 
 import math
+import reprlib
+import warnings
 from numbers import Integral, Real
 from typing import Any
 
@@ -14,32 +16,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import FloatArray
+from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
+_FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
+_SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
-
-
-class RotbeamWarning(UserWarning):
-    """Input or a result that is legal but probably not what was meant.
-
-    All warnings of both packages are of this class, and silenced by it.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> from analytic import Beam, RotbeamWarning, linear_modes
-    >>> with warnings.catch_warnings():
-    ...     warnings.simplefilter("ignore", RotbeamWarning)
-    ...     modes = linear_modes(Beam.reference(), 60.0, 1)  # no rpm
-    >>> print(f"{modes.frequencies[0]:.3f} rad/s")
-    10.270 rad/s
-    """
 
 
 def _number(name: str, value: object, unit: str) -> float:
     value = _magnitude(name, value, unit)
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name} must be a number{_in(unit)}, got {value!r}")
+    # NumPy registers durations as numbers, and Python's float() takes none of them.
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
+        raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
     number = _float(name, value, unit)
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
@@ -88,6 +77,13 @@ def _in(unit: str) -> str:
     return f" in {unit}" if unit else ""
 
 
+def shown(value: object) -> str:
+    """Return a value as one would type it; of a long one, its beginning and its end."""
+    short = reprlib.Repr()
+    short.maxstring = short.maxother = 100
+    return short.repr(value)
+
+
 def positive(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number above zero."""
     number = _number(name, value, unit)
@@ -110,14 +106,50 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
     return _number(name, value, unit)
 
 
-def whole_number(name: str, value: object, least: int = 1) -> int:
-    """Return `value` as an int, refusing what is not a whole number of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, Integral):
-        raise TypeError(f"{name} must be a whole number, got {value!r}")
+def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
+    """Return `value` as an int, refusing what is not a whole number from `least` to `most`."""
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral):
+        raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
         raise ValueError(f"{name} must be at least {least}, got {number}")
+    if most is not None and number > most:
+        raise ValueError(f"{name} must be at most {most}, got {number}")
     return number
+
+
+def flag(name: str, value: object) -> bool:
+    """Return `value` as a bool, refusing what is neither True nor False, such as "no" or nan."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, got {shown(value)}")
+    return bool(value)
+
+
+def peak_deflection(name: str, value: object) -> float:
+    """Return the largest |q|/L of orbits asked for, refusing what none has or round-off hides."""
+    peak = positive(name, value)
+    if not _FAINTEST <= peak < 1.0:
+        bound = "below 1" if peak >= 1.0 else f"at least {_FAINTEST:g}"
+        raise ValueError(f"{name} must be {bound}, got {peak:g}: it is |q|/L of the tip")
+    return peak
+
+
+def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None:
+    """Warn of a stiffness that only as a number of GPa or GN has the speed of sound of a solid.
+
+    That speed is known in SI alone: in other units the warning may be wrong, and says so.
+    """
+    sound = math.sqrt(stiffness / inertia)
+    meant = math.sqrt(1e9) * sound
+    if sound < _SOUND[0] <= meant <= _SOUND[1]:
+        warnings.warn(
+            f"{name} = {stiffness:.4g} {unit} makes sound go along the beam at {sound:.3g} m/s, "
+            f"slower than in any solid: in G{unit}? {stiffness:.4g} G{unit} are "
+            f"{1e9 * stiffness:.4g} {unit} and make it {meant:.4g} m/s; in units other than SI "
+            "this may be right",
+            RotbeamWarning,
+            stacklevel=4,
+        )
 
 
 def rotation_speed(omega: object, name: str = "omega") -> float:
@@ -153,7 +185,7 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
         )
     array = _numeric(_bare(name, values, unit))
     if array is None:
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got {values!r}")
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
     if array.dtype.kind == "O":
         # Integers beyond 64 bits; each is small enough for a float, or named.
         array = np.reshape([_float(name, item, unit) for item in array.flat], array.shape)

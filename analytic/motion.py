@@ -14,6 +14,11 @@ from .description import Described
 from .input_checks import positive, rotation_speed
 
 
+def instants(t: Any) -> Any:
+    """Return a time as a float, several as an array of them, of whatever precision they were."""
+    return t.astype(np.float64, copy=False) if isinstance(t, np.ndarray) else float(t)
+
+
 class Rotation(Protocol):
     """A prescribed rotation: angle, rate and acceleration as functions of time."""
 
@@ -65,7 +70,8 @@ class SteadyRotation(Motion):
     def angle(self, t: FloatArray) -> FloatArray: ...
     def angle(self, t: float | FloatArray) -> float | FloatArray:
         """Angle ωt [rad]; `t` [s] scalar or array."""
-        return self.omega * t
+        angle: float | FloatArray = self.omega * instants(t)
+        return angle
 
     @overload
     def rate(self, t: float) -> float: ...
@@ -73,7 +79,8 @@ class SteadyRotation(Motion):
     def rate(self, t: FloatArray) -> FloatArray: ...
     def rate(self, t: float | FloatArray) -> float | FloatArray:
         """Angular velocity ω [rad/s], in the shape of `t`."""
-        return self.omega + 0.0 * t
+        rate: float | FloatArray = self.omega + 0.0 * instants(t)
+        return rate
 
     @overload
     def acceleration(self, t: float) -> float: ...
@@ -81,7 +88,8 @@ class SteadyRotation(Motion):
     def acceleration(self, t: FloatArray) -> FloatArray: ...
     def acceleration(self, t: float | FloatArray) -> float | FloatArray:
         """Angular acceleration, zero [rad/s²], in the shape of `t`."""
-        return 0.0 * t
+        acceleration: float | FloatArray = 0.0 * instants(t)
+        return acceleration
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,6 +141,7 @@ class SpinUp(Motion):
         ramp, sin = self._ramp(t)
         wave = self.ramp_time / np.pi * sin(np.pi * ramp / self.ramp_time)
         during = 0.5 * self.omega / self.ramp_time * (ramp - wave) * (ramp + wave)
+        t = instants(t)
         after = self.omega * (t - ramp) * (t > self.ramp_time)
         angle: float | FloatArray = during + after
         return angle
@@ -164,6 +173,7 @@ class SpinUp(Motion):
 
     def _ramp(self, t: float | FloatArray) -> tuple[Any, Callable[[Any], Any]]:
         """Time within [0, T] and the sine for its type: a solver asks for one t at a time, fast."""
+        t = instants(t)
         if isinstance(t, np.ndarray):
             return np.clip(t, 0.0, self.ramp_time), np.sin
         return min(max(t, 0.0), self.ramp_time), math.sin

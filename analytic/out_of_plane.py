@@ -52,7 +52,7 @@ class OutOfPlane(Described):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bending_ratio", positive("bending_ratio", self.bending_ratio))
-        if self.torsion_ratio is not None and self.torsion_ratio != math.inf:
+        if self.torsion_ratio is not None and not _is_infinite(self.torsion_ratio):
             ratio = positive("torsion_ratio", self.torsion_ratio)
             object.__setattr__(self, "torsion_ratio", ratio)
         if self.polar_inertia is not None:
@@ -84,6 +84,11 @@ class OutOfPlane(Described):
     def circle(cls, poisson_ratio: float = _POISSON_RATIO) -> OutOfPlane:
         """Return that of a circle or a tube, of which J = 2I."""
         return cls(bending_ratio=1.0, torsion_ratio=1.0 / (1.0 + _poisson(poisson_ratio)))
+
+
+def _is_infinite(value: object) -> bool:
+    # A masked number compares to something that is neither True nor False.
+    return isinstance(value, float) and value == math.inf
 
 
 def _poisson(value: float) -> float:

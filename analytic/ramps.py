@@ -10,11 +10,11 @@ from functools import cached_property
 from typing import Any, overload
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
 
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
-from .motion import Motion, SpinUp, SteadyRotation
+from .lazily import interpolate
+from .motion import Motion, SpinUp, SteadyRotation, instants
 
 _MOST_WAVES = 100
 _ROUND_OFF = 1e-9
@@ -50,7 +50,7 @@ class SpeedChange(Motion, ABC, abstract=True):
     def angle(self, t: FloatArray) -> FloatArray: ...
     def angle(self, t: float | FloatArray) -> float | FloatArray:
         """Angle θ(t) [rad], zero at t = 0; `t` [s] scalar or array, result of the same shape."""
-        within = self._clipped(t)
+        within, t = self._clipped(t), instants(t)
         beyond = np.where(t > within, self.omega, self.start) * (t - within)
         angle: float | FloatArray = _like(t, self._within(within, 0) + beyond)
         return angle
@@ -74,7 +74,7 @@ class SpeedChange(Motion, ABC, abstract=True):
         return acceleration
 
     def _clipped(self, t: Any) -> Any:
-        return np.minimum(np.maximum(t, 0.0), self.ramp_time)
+        return np.minimum(np.maximum(instants(t), 0.0), self.ramp_time)
 
 
 def _like(t: Any, value: Any) -> Any:
@@ -170,9 +170,12 @@ class SmoothRamp(SpeedChange):
 class Table(SpeedChange):
     """Speed given at instants, steady before the first and after the last.
 
-    Between them it is the spline of fifth degree whose first two derivatives vanish at both ends;
-    of a smooth motion it differs by the sixth power of the spacing. Noise makes it swing: smooth
-    measured speeds before.
+    Between two instants the speed stays between the two that are given there, as of a measured
+    table it should: it is the monotone cubic of Fritsch and Carlson ("PCHIP"), level at both ends,
+    whose acceleration is continuous, and linear between two instants. Of a smooth motion it
+    differs by the third power of the spacing: a hundred intervals of Eq. 1 move the tip of the
+    exact beam by less than 1e-6 of its length. Noise of the speeds is more noise of the
+    acceleration: smooth measured speeds before.
 
     Parameters
     ----------
@@ -184,8 +187,8 @@ class Table(SpeedChange):
     Raises
     ------
     ValueError
-        If a number is not finite, the instants do not ascend from 0, or there are more or fewer
-        speeds than instants.
+        If a number is not finite, the instants do not ascend from 0, there are more or fewer speeds
+        than instants, or two instants are too near for floating point numbers.
 
     Examples
     --------
@@ -218,6 +221,16 @@ class Table(SpeedChange):
             rotation_speed(speed, "speeds")
         object.__setattr__(self, "times", tuple(times.tolist()))
         object.__setattr__(self, "speeds", tuple(speeds.tolist()))
+        with np.errstate(all="ignore"):
+            steepest = 3.0 * np.abs(np.diff(speeds) / np.diff(times) / np.diff(times) ** 2)
+        beyond = np.flatnonzero(~np.isfinite(steepest))
+        if beyond.size:
+            k = beyond[0]
+            raise ValueError(
+                f"from {times[k]:g} to {times[k + 1]:g} s the speed goes from {speeds[k]:g} to "
+                f"{speeds[k + 1]:g} rad/s, beyond what floating point numbers resolve: leave one "
+                f"of the two out"
+            )
 
     @property
     def start(self) -> float:  # type: ignore[override]
@@ -240,13 +253,17 @@ class Table(SpeedChange):
         return max(float(np.diff(self.times).min()), self.ramp_time / _MOST_WAVES)
 
     @cached_property
-    def _splines(self) -> tuple[BSpline, BSpline, BSpline]:
-        steady: Any = [(1, 0.0), (2, 0.0)]
-        rate = make_interp_spline(self.times, self.speeds, k=5, bc_type=(steady, steady))
+    def _cubics(self) -> tuple[Any, Any, Any]:
+        t, speeds = np.array(self.times), np.array(self.speeds)
+        # Steady before and after, for which one more instant at each end makes the ends level.
+        around = np.pad(t, 1), np.pad(speeds, 1, mode="edge")
+        around[0][[0, -1]] = 2.0 * t[[0, -1]] - t[[1, -2]]
+        slopes = interpolate.PchipInterpolator(*around)(t, 1)
+        rate = interpolate.CubicHermiteSpline(t, speeds, slopes)
         return rate.antiderivative(), rate, rate.derivative()
 
     def _within(self, t: Any, derivative: int) -> Any:
-        return self._splines[derivative](t)
+        return self._cubics[derivative](t)
 
 
 def _coefficients(name: str, values: object) -> tuple[float, ...]:
@@ -255,6 +272,11 @@ def _coefficients(name: str, values: object) -> tuple[float, ...]:
     numbers = finite_values(name, values)
     if numbers.size > _MOST_WAVES:
         raise ValueError(f"at most {_MOST_WAVES} {name} are taken, got {numbers.size}")
+    largest, most = float(np.abs(numbers).max()), _ROUND_OFF / np.finfo(float).eps
+    if largest > most:
+        raise ValueError(
+            f"{name} go up to {largest:.3g}: at most {most:.1g} is taken, beyond round-off decides"
+        )
     return tuple(numbers.tolist())
 
 
@@ -275,4 +297,6 @@ def fastest(motion: AnyRamp | SteadyRotation) -> float:
     """Return the highest speed of a motion [rad/s]."""
     if isinstance(motion, SpinUp | SteadyRotation):
         return motion.omega
+    if isinstance(motion, Table):
+        return max(motion.speeds)
     return float(motion.rate(np.linspace(0.0, motion.ramp_time, 20 * _MOST_WAVES + 1)).max())

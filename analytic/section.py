@@ -9,6 +9,7 @@ import numpy as np
 
 from .arrays import FloatArray
 from .description import Described
+from .input_checks import warn_if_giga
 from .out_of_plane import OutOfPlane
 from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
 
@@ -51,6 +52,13 @@ class Section(Described):
     def __post_init__(self) -> None:
         for name, profile in self.profiles().items():
             object.__setattr__(self, name, checked_profile(name, profile))
+        root = np.zeros(1)
+        stiffness, mass = (
+            float(evaluated(profile, root)[0])
+            for profile in (self.axial_stiffness, self.mass_per_length)
+        )
+        if stiffness > 0.0 and mass > 0.0:  # what else is refused where the length is known
+            warn_if_giga("axial_stiffness", stiffness, "N", mass)
 
     def profiles(self) -> dict[str, Profile]:
         """Return the profiles by name, but of a rotary inertia that is not told."""

@@ -6,10 +6,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive
+
+from .lazily import xr
 
 SMALL = 1e-2
 """Deflection out of the plane over L up to which the growth is that of small motion."""

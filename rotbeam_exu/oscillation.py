@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
+from .lazily import xr
 from .tones import fit_signal
 from .verdict import beam_of
 

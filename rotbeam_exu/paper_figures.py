@@ -6,10 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import xarray as xr
-
 from . import comparison, figures
 from .figures.captions import CAPTIONS
+from .lazily import xr
 
 
 @dataclass(frozen=True, kw_only=True)

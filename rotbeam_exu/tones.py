@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
 
 from analytic.arrays import FloatArray
+from analytic.lazily import ndimage
 
 HARMONICS = 9
 """Harmonics of the series; the tenth is the highest that 20 samples a period could tell."""
@@ -133,7 +133,7 @@ class Fit:
             np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder())
         )
         # Twice as many samples: two bins to the turn.
-        filled = maximum_filter1d(of_remainder, 4 * _LOBE + 1)
+        filled = ndimage.maximum_filter1d(of_remainder, 4 * _LOBE + 1)
         bound = 2.0 / samples * float(of_influence @ filled)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
 

@@ -9,13 +9,14 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.loads import Load
 from analytic.motion import Motion
+
+from .lazily import xr
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""

@@ -15,7 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import finite_array, positive, rotation_speed, whole_number
+from ..input_checks import (
+    finite_array,
+    finite_values,
+    peak_deflection,
+    positive,
+    rotation_speed,
+    shown,
+    whole_number,
+)
 from ..threads import one_thread
 from .backbone_series import BackboneCurve, in_powers, in_square
 from .branch import AmplitudeNotReachedError, branch_of
@@ -209,11 +217,11 @@ def backbone_map(
     >>> round(float(found.frequency(6.0, 0.3)), 5)
     3.72357
     """
-    low, high = (rotation_speed(omega) for omega in omegas)
-    if not low < high:
-        raise ValueError(f"omegas must be the lowest and the highest speed, got {low} and {high}")
-    if positive("up_to", up_to) >= 1.0:
-        raise ValueError(f"up_to must be below 1, got {up_to:g}: it is |q|/L of the tip")
+    ends = finite_values("omegas", omegas, "rad/s").tolist()
+    if len(ends) != 2 or not ends[0] < ends[1]:
+        raise ValueError(f"omegas must be the lowest and the highest speed, got {shown(ends)}")
+    low, high = (rotation_speed(omega, "omegas") for omega in ends)
+    up_to = peak_deflection("up_to", up_to)
     count, mode = whole_number("speeds", speeds, least=_POINTS), whole_number("mode", mode)
     if positive("tolerance", tolerance) < 1e-9:
         raise ValueError(f"tolerance must be at least 1e-9, got {tolerance:g}")

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import peak_deflection, rotation_speed, whole_number
 from ..methods.continuation import Care
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
@@ -181,8 +181,7 @@ def backbone_branch(
     harmonic 16 meets mode 3 at a = 0.1269
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    if positive("up_to", up_to) >= 1.0:
-        raise ValueError(f"up_to must be below 1, got {up_to:g}: it is |q|/L of the tip")
+    up_to = peak_deflection("up_to", up_to)
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
     branch = branch_of(

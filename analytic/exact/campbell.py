@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _DRAWN = 41  # speeds that a picture's curves go through, besides their own: chords below a pixel
 _TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
+_MOST_ORDERS = 1000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,7 +185,7 @@ def campbell(
         rotation_speed(float(speed), "omegas")
     if np.any(np.diff(speeds) <= 0.0):
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
-    count, orders = whole_number("count", count), whole_number("orders", orders)
+    count, orders = whole_number("count", count), whole_number("orders", orders, most=_MOST_ORDERS)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
     families = [family_of(beam, speeds, count, orders, plane) for plane in planes]

@@ -17,7 +17,7 @@ from numpy.polynomial import Chebyshev
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import RotbeamWarning, positive, rotation_speed, whole_number
+from ..input_checks import RotbeamWarning, peak_deflection, positive, rotation_speed, whole_number
 from ..methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
 from ..methods.harmonic_balance import NoOrbitError, frequency_change
 from ..threads import one_thread
@@ -32,6 +32,7 @@ _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
 _LARGEST_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
 _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
+_MOST_COEFFICIENTS = 1000  # an orbit for each
 _APART = 0.08  # orbits at which resonances are looked for
 
 
@@ -89,9 +90,8 @@ def backbone_curve(
     (3.723567, 0.019669)
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    if positive("up_to", up_to) >= 1.0:
-        raise ValueError(f"up_to must be below 1, got {up_to:g}: it is |q|/L of the tip")
-    count = whole_number("coefficients", coefficients, least=5)
+    up_to = peak_deflection("up_to", up_to)
+    count = whole_number("coefficients", coefficients, least=5, most=_MOST_COEFFICIENTS)
     if positive("tolerance", tolerance) < 1e-10:
         raise ValueError(
             f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"

@@ -6,11 +6,13 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
+from ..input_checks import rotation_speed, whole_number
 from ..methods.gyroscopic import inverse_eigenvalues
 from ..threads import one_thread
-from .modes import linear_modes
+from .modes import MOST_FUNCTIONS, linear_modes
 from .steady import steady_rotation
 
+_FUNCTIONS = 20
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 
@@ -43,7 +45,8 @@ def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     [0.00996 0.01047 0.02601]
     [0.00791 0.00831 0.02347]
     """
-    modes = linear_modes(beam, omega, count)
+    omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
+    modes = linear_modes(beam, omega, count, functions=max(_FUNCTIONS, 2 * count))
     steady = steady_rotation(beam, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)

@@ -20,6 +20,7 @@ from .loading import DrivenBeam, unit_load
 from .modes import linear_modes, resolved_model
 from .steady import steady_rate
 
+_MOST_HARMONICS = 100  # dense matrices of so many times twice the functions
 _LARGEST = 0.95  # |q|/L to which a response is followed
 
 
@@ -176,7 +177,8 @@ def _followed(
     asked: FloatArray,
     harmonics: int,
 ) -> ForcedResponse:
-    least, parameters = whole_number("harmonics", harmonics), asked / beam.frequency_scale
+    least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
+    parameters = asked / beam.frequency_scale
     try:
         orbits, failed = response_curve(system, parameters, _LARGEST, least), None
     except ResponseNotFollowedError as reason:

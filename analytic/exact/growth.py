@@ -6,10 +6,10 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
+from ..lazily import linalg
 from ..methods.floquet import reversible_monodromy
 from .space import OutOfPlaneMotion, Space, with_points_for
 from .steady import BeamOrbit, SteadyBeam

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..loads import Load, require_load
 from ..methods.system import Tangent
 from .continuum import Continuum
@@ -27,6 +27,7 @@ def unit_load(beam: AnyBlade, load: Load) -> Load:
     TypeError
         If it is none.
     """
+    require_blade(beam)
     require_load(load)
     return load.in_units(
         beam.length, beam.mass_per_length * beam.length, 1.0 / beam.frequency_scale

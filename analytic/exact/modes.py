@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade, warn_if_rpm
-from ..input_checks import points_of_beam, rotation_speed, whole_number
+from ..beam import AnyBlade, require_blade, warn_if_rpm
+from ..input_checks import flag, points_of_beam, rotation_speed, whole_number
 from ..methods.gyroscopic import reciprocal_modes
 from ..threads import one_thread
 from .continuum import Continuum
@@ -154,6 +154,7 @@ def linear_modes(
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)
+    rotary_inertia = flag("rotary_inertia", rotary_inertia)
     warn_if_rpm(beam, omega)
     if plane not in ("lag", "flap", "torsion"):
         raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
@@ -222,6 +223,8 @@ def resolved_model(
     shear_share: float | None = None,
 ) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
+    require_blade(beam)
+    inextensible = flag("inextensible", inextensible)
     functions = whole_number("functions", functions, least=4)
     if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
         raise ValueError(

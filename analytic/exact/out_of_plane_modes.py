@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import linalg
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..blade import Blade
 from ..input_checks import points_of_beam
+from ..lazily import linalg
 from ..profiles import in_units
 from ..shape_functions import shape_functions
 from .discretization import blade_continuum

@@ -133,7 +133,10 @@ def planar_stability(
     """
     require_out_of_plane(blade)
     steps = whole_number("steps", steps)
-    orbits = periodic_orbits(blade, omega, amplitudes, mode, inextensible=inextensible)
+    orbits = periodic_orbits(
+        blade, omega, amplitudes, mode, inextensible=inextensible,
+        functions=max(16, 2 * whole_number("mode", mode)),
+    )  # fmt: skip
     found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(

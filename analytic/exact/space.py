@@ -19,11 +19,11 @@ from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..blade import Blade
+from ..lazily import linalg
 from ..methods.system import Tangent
 from ..out_of_plane import OutOfPlane
 from ..profiles import evaluated
@@ -42,6 +42,7 @@ def out_of_plane_of(blade: AnyBlade) -> OutOfPlane | None:
 
 def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
     """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_blade(blade)
     known = out_of_plane_of(blade)
     if known is None:
         raise ValueError(

@@ -8,7 +8,7 @@ from functools import lru_cache
 from itertools import groupby
 
 from ..beam import AnyBlade, require_undamped
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import flag, peak_deflection, positive, rotation_speed, whole_number
 from ..methods.harmonic_balance import NoOrbitError
 from ..threads import one_thread
 from .growth import Growth
@@ -163,10 +163,8 @@ def stability_limit(
     require_out_of_plane(blade)
     require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    growth, largest = positive("growth", growth), positive("largest", largest)
-    if largest >= 1.0:
-        raise ValueError(f"largest must be below 1, a share of the length, got {largest:g}")
-    return _limit(blade, omega, mode, growth, largest, inextensible)
+    growth, largest = positive("growth", growth), peak_deflection("largest", largest)
+    return _limit(blade, omega, mode, growth, largest, flag("inextensible", inextensible))
 
 
 @lru_cache(maxsize=256)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..input_checks import finite_values, rotation_speed
 from ..methods.harmonic_balance import NoOrbitError
 from ..out_of_plane import OutOfPlane
@@ -81,6 +81,7 @@ def limit_map(
     >>> print(limit_map(Beam.reference(), ratios=[1.0], omegas=[4.0], largest=0.03))
     [[inf]]
     """
+    require_blade(blade)
     shapes = [OutOfPlane.rectangle(ratio) for ratio in finite_values("ratios", ratios).tolist()]
     speeds = finite_values("omegas", omegas, "rad/s").tolist()
     return np.array(

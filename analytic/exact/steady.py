@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state
 from ..blade import Blade
-from ..input_checks import positive
+from ..input_checks import flag, positive
 from ..methods.periodic_orbit import PeriodicOrbit
 from ..methods.system import Tangent
 from .continuum import Continuum
@@ -116,7 +116,7 @@ def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
 
 def section_inertia(beam: AnyBlade, wanted: bool) -> float:
     """Return ρI of a uniform beam, nondimensional: μ if wanted. A blade has its own."""
-    if not wanted:
+    if not flag("rotary_inertia", wanted):
         return 0.0
     if isinstance(beam, Blade):
         raise ValueError(

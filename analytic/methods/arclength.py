@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from scipy import linalg, optimize
 
 from ..arrays import FloatArray
+from ..lazily import linalg, optimize
 
 _NEWTON_STEPS = 15
 _CONVERGED = 1e-12  # of the unknowns, which are of order 1

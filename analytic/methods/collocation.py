@@ -12,9 +12,9 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy import linalg, special
 
 from ..arrays import FloatArray
+from ..lazily import linalg, special
 from .system import Tangent
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]

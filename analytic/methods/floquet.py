@@ -10,9 +10,9 @@ from __future__ import annotations
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
+from ..lazily import linalg
 from ..threads import one_thread
 from .collocation import gauss
 from .system import Tangent

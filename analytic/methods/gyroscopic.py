@@ -6,9 +6,9 @@ The stiffest modes, of axial motion, are 10⁴ times faster than the lowest and 
 from __future__ import annotations
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import ComplexArray, FloatArray
+from ..lazily import linalg
 
 
 def reciprocal_modes(

@@ -15,9 +15,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy import linalg
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from .fourier import fine_half_period, half_period, packed, unpacked
 from .periodic_orbit import Crest, PeriodicOrbit, S, highest, peak_gradient
 

@@ -16,9 +16,9 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from ..unit_blade import UnitBlade
 from .blade_functions import BladeFunctions, blade_functions
 from .oscillator import Oscillator
@@ -83,7 +83,7 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
         rate = blade.setting * w_bar
         d = _coupling(of, s_in, v, foreshortening)
         dynamic = of.stiffness(w_bar) - 4.0 * w_n**2 * of.mass
-        follow = solve(dynamic, 4.0 * rate * d, assume_a="sym")
+        follow = linalg.solve(dynamic, 4.0 * rate * d, assume_a="sym")
         g2 += float(4.0 * rate * (d @ follow) / M1)
         tip = float(of.tip @ follow)
     oscillator = Oscillator(w_n=w_n, g1=float(4.0 * quartic / M1), g2=g2)

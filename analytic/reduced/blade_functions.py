@@ -11,9 +11,9 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from ..profiles import evaluated
 from ..shape_functions import ShapeFunctions, shape_functions
 from ..unit_blade import UnitBlade
@@ -85,7 +85,7 @@ class BladeFunctions:
     def first_mode(self, w_bar: float) -> FirstMode:
         """Return the first mode at w̄."""
         # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-        reciprocal, vectors = eigh(self.mass, self.stiffness(w_bar))
+        reciprocal, vectors = linalg.eigh(self.mass, self.stiffness(w_bar))
         first = vectors[:, -1] / (self.tip @ vectors[:, -1])
         second, third = (1.0 / np.sqrt(reciprocal[-2:-4:-1])).tolist()
         return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))

@@ -18,9 +18,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh, solve
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from ..quadrature import gauss_points, transverse_basis
 from .rotating_mode import RotatingMode
 
@@ -56,7 +56,7 @@ def rotating_frequencies(w_bar: float, count: int = 3) -> FloatArray:
     functions = max(_FUNCTIONS, math.ceil(4.0 * math.sqrt(w_bar)))
     K, M = rotating_eigenproblem(w_bar, functions)
     # M is nearly singular and K is not, so the reciprocal problem keeps the low modes' digits.
-    reciprocal = eigh(M, K, eigvals_only=True)
+    reciprocal = linalg.eigh(M, K, eigvals_only=True)
     return np.asarray(1.0 / np.sqrt(reciprocal[::-1][:count]))
 
 
@@ -78,7 +78,7 @@ def coriolis_coupling(mode: RotatingMode, count: int = _FUNCTIONS) -> CoriolisCo
     x, weights = gauss_points(_POINTS)
     d = coupling_vector(mode, count)
     K, M = rotating_eigenproblem(mode.w_bar, count)
-    follow = solve(K - 4.0 * mode.w_n**2 * M, 4.0 * mode.w_bar * d, assume_a="sym")
+    follow = linalg.solve(K - 4.0 * mode.w_n**2 * M, 4.0 * mode.w_bar * d, assume_a="sym")
     M_1 = weights @ mode.deflection(x) ** 2
     tip = transverse_basis(count, np.array([1.0])).value[0]
     return CoriolisCoupling(

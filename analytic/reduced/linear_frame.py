@@ -16,12 +16,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import solve_ivp
-from scipy.linalg import eigh
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import finite_values, points_of_beam
+from ..input_checks import finite_values, flag, points_of_beam
+from ..lazily import integrate, linalg
 from ..ramps import AnyRamp, fastest, require_ramp
 from ..threads import one_thread
 from .blade_functions import blade_functions
@@ -101,6 +100,7 @@ def linear_response(
     1.673 m
     """
     require_ramp(spin_up)
+    foreshortening = flag("foreshortening", foreshortening)
     require_undamped(beam, "the linear frame has no damping")
     warn_if_rpm(beam, fastest(spin_up))
     time = finite_values("times", times, "s")
@@ -115,7 +115,7 @@ def linear_response(
     # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q. M is
     # nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
     pulled = (fastest(spin_up) / beam.frequency_scale) ** 2 * foreshortening
-    reciprocal, vectors = eigh(of.mass, of.bending + pulled * rotation)
+    reciprocal, vectors = linalg.eigh(of.mass, of.bending + pulled * rotation)
     modes = vectors[:, : -_MODES - 1 : -1] / np.sqrt(reciprocal[: -_MODES - 1 : -1])
     lever = ((blade.hub + of.at) * of.dm) @ of.deflection + of.dj @ of.slope_turning
     coordinates = _integrated(
@@ -156,7 +156,7 @@ def _integrated(
     asked, back = np.unique(scale * time, return_inverse=True)
     start = np.zeros(2 * lever.size)
     with np.errstate(over="ignore", invalid="ignore"):
-        found = solve_ivp(
+        found = integrate.solve_ivp(
             derivative, (0.0, asked[-1] or 1.0), start, t_eval=asked, method="DOP853",
             rtol=_TOLERANCE, atol=1e-3 * _TOLERANCE,
         )  # fmt: skip

@@ -20,9 +20,9 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve
 
 from ..arrays import ComplexArray, FloatArray
+from ..lazily import linalg
 from ..methods.fourier import half_period
 from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
@@ -103,15 +103,15 @@ def _with_functions(blade: UnitBlade, w_bar: float, count: int) -> NormalMode:
     for k in range(2, _ORDER + 1):
         left = work.harmonics(theta, rate, square, k)
         if k % 2 == 0:
-            theta[k, 1] = -solve(K - 4.0 * w_n**2 * of.mass, left[1], assume_a="sym")
+            theta[k, 1] = -linalg.solve(K - 4.0 * w_n**2 * of.mass, left[1], assume_a="sym")
             continue
         square[k - 1] = (first @ left[0]) / (first @ M_first)
         rate[k - 1] = (square[k - 1] - rate[1 : k - 1] @ rate[k - 2 : 0 : -1]) / (2.0 * w_n)
         # The mode's own share stays ε: what is added is orthogonal to it.
         bordered = np.block([[K - w_n**2 * of.mass, M_first[:, None]], [M_first, 0.0]])
         right = np.append(square[k - 1] * M_first - left[0], 0.0)
-        theta[k, 0] = solve(bordered, right, assume_a="sym")[:-1]
-        theta[k, 2] = -solve(K - 9.0 * w_n**2 * of.mass, left[2], assume_a="sym")
+        theta[k, 0] = linalg.solve(bordered, right, assume_a="sym")[:-1]
+        theta[k, 2] = -linalg.solve(K - 9.0 * w_n**2 * of.mass, left[2], assume_a="sym")
     return _of_series(w_n, rate / w_n, work.tip(theta))
 
 

@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..arrays import FloatArray
 from ..beam import BETA_1
+from ..lazily import optimize
 from .shapes import PolynomialShape
 
 MAX_W_BAR = 30.0
@@ -66,7 +66,7 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
     Rayleigh quotient 162/13 + (9/52) w̄² above it.
     """
     return float(
-        brentq(
+        optimize.brentq(
             lambda w: frequency_equation(w_bar, w, degree),
             0.999 * BETA_1**2,
             _upper(w_bar),

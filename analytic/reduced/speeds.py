@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
-from ..beam import Beam
+from ..beam import Beam, require_blade
+from ..lazily import optimize
 from .lagrangian import energy_coefficients
 from .model import model_at
 from .shapes import CantileverMode
@@ -30,6 +30,7 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
     2.9730 rad/s
     """
+    require_blade(beam)
     setting = variant_named(variant) if isinstance(variant, str) else variant
 
     def lambda_omega(speed_ratio: float) -> float:
@@ -41,7 +42,7 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     if turns.size == 0:
         return None
     first = turns[0]
-    ratio = brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
+    ratio = optimize.brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
     return float(ratio) * beam.omega_0
 
 
@@ -54,6 +55,7 @@ def divergence_speed(beam: Beam) -> float:
     >>> print(f"{divergence_speed(Beam.reference()):.4f} rad/s")
     2.9092 rad/s
     """
+    require_blade(beam)
     linear = energy_coefficients(CantileverMode(), "none")
     return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
 

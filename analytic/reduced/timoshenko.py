@@ -15,11 +15,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..arrays import FloatArray
 from ..beam import Beam, require_steady_state, warn_if_rpm
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import flag, positive, rotation_speed, whole_number
+from ..lazily import linalg
 from ..methods.gyroscopic import reciprocal_modes
 from ..quadrature import axial_basis, gauss_points, integrals_from_clamp
 from ..threads import one_thread
@@ -76,7 +76,8 @@ def timoshenko_frequencies(
         raise ValueError(f"count must be at most {_MOST // 4}, got {count}: ask for less")
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    w_bar, rotary = omega / beam.frequency_scale, beam.slenderness if rotary_inertia else 0.0
+    w_bar = omega / beam.frequency_scale
+    rotary = beam.slenderness if flag("rotary_inertia", rotary_inertia) else 0.0
 
     def frequencies(functions: int) -> FloatArray:
         return _frequencies(beam.slenderness, w_bar, share, rotary, functions)[:count]
@@ -120,7 +121,7 @@ def _frequencies(
 
     # γ'γ and φ'φ' are the identity; N(2φv' - (1+e)φ²) = N(2φγ + (1+e)φ²).
     sheared = product(turning, np.hstack([gamma, none]), tension * dx)
-    K = block_diag(
+    K = linalg.block_diag(
         np.eye(2 * count)
         + sheared
         + sheared.T
@@ -128,7 +129,7 @@ def _frequencies(
         - w_bar**2 * product(across, across),
         np.eye(count) - w_bar**2 * product(along, along),
     )
-    M = block_diag(
+    M = linalg.block_diag(
         product(across, across) + rotary * product(turning, turning), product(along, along)
     )
     C = np.zeros_like(K)

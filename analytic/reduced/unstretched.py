@@ -16,11 +16,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_steady_state, warn_if_rpm
 from ..input_checks import rotation_speed, whole_number
+from ..lazily import linalg
 from ..methods.gyroscopic import reciprocal_modes
 from ..profiles import evaluated
 from ..shape_functions import shape_functions
@@ -110,14 +110,14 @@ def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int)
 
     inertia, inertia_along = product(across, dm, across), product(along, dm, along)
     root, setting = math.sqrt(slenderness), blade.setting
-    K = block_diag(
+    K = linalg.block_diag(
         product(bent, dx * evaluated(blade.bending, x), bent)
         + product(slope, tension, slope)
         - (setting * w_bar) ** 2 * inertia,
         product(pulled, dx * evaluated(blade.axial, x), pulled)
         - slenderness * w_bar**2 * inertia_along,
     )
-    M = block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
+    M = linalg.block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
     C = np.zeros_like(K)
     C[:count, count:] = 2.0 * setting * w_bar * root * product(across, dm, along)
     C += C.T

@@ -21,6 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from ..input_checks import flag
 from .axial import Axial, axial_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, Shape, static_deflection
@@ -62,7 +63,7 @@ class Variant:
         axial_model(self.axial)
         if self.shape not in {"cantilever", "rotating", "3", "4", "5"}:
             raise ValueError(f"shape must be cantilever, rotating, 3, 4 or 5, got {self.shape!r}")
-        if self.coriolis and self.shape != "rotating":
+        if flag("coriolis", self.coriolis) and self.shape != "rotating":
             raise ValueError(
                 f"the Coriolis coupling is eliminated about the rotating mode, got shape "
                 f'{self.shape!r}: take shape "rotating"'

@@ -7,12 +7,11 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.optimize import nnls
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
 from ..input_checks import positive, rotation_speed, whole_number
+from ..lazily import linalg, optimize
 from ..ramps import SmoothRamp
 from ..threads import one_thread
 from .modes import ModesOverSpeed
@@ -20,6 +19,7 @@ from .quiet import exact_residuals
 from .residual import modes_for, residuals
 
 _MORE_WAVES = 4
+_MOST_MODES = 20
 _NEWTON_STEPS, _SETTLED, _DIFFERENCE = 20, 1e-3, 1e-6
 _SOLVED = 1e-7  # of the length: what the closed form may leave
 _INSTANTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1.0, 120.0) / 120.0)  # denser at both ends
@@ -154,7 +154,8 @@ def design_ramp(
     True
     """
     omega, start = rotation_speed(omega), rotation_speed(start, "start")
-    duration, modes = positive("duration", duration, "s"), whole_number("modes", modes)
+    duration = positive("duration", duration, "s")
+    modes = whole_number("modes", modes, most=_MOST_MODES)
     higher = max(omega, start)
     if omega == start:
         raise ValueError(f"omega and start are both {omega:g} rad/s: there is nothing to change")
@@ -233,13 +234,13 @@ def _closest(
     """
     Q, R = np.linalg.qr(rows)
     free = Q.T @ sides
-    slopes = solve_triangular(R, slopes.T, trans="T").T
+    slopes = linalg.solve_triangular(R, slopes.T, trans="T").T
     both = np.vstack((slopes.T, least - slopes @ free))
     unit = np.append(np.zeros(free.size), 1.0)
-    rest = both @ nnls(both, unit)[0] - unit
+    rest = both @ optimize.nnls(both, unit)[0] - unit
     if abs(rest[-1]) < _IMPOSSIBLE:
         return None
-    return np.asarray(solve_triangular(R, free - rest[:-1] / rest[-1]))
+    return np.asarray(linalg.solve_triangular(R, free - rest[:-1] / rest[-1]))
 
 
 def _too_short(task: _Task) -> str:

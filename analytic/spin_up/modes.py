@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy.linalg import eigh
 
 from ..arrays import FloatArray
+from ..lazily import linalg
 from ..profiles import evaluated
 from ..shape_functions import shape_functions
 from ..unit_blade import UnitBlade
@@ -110,7 +110,7 @@ def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float],
 
     def solve(w: float) -> FloatArray:
         # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-        inverse, vectors = eigh(M, bending + w**2 * centrifugal)
+        inverse, vectors = linalg.eigh(M, bending + w**2 * centrifugal)
         inverse, vectors = inverse[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
         # They have unit stiffness; unit mass is what their action is measured by.
         vectors = vectors * np.sign(tip @ vectors) / np.sqrt(inverse)

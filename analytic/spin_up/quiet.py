@@ -6,14 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize_scalar
-from scipy.signal import argrelmin
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..exact.modes import linear_modes
 from ..exact.response import spin_up_response
 from ..input_checks import positive, rotation_speed
+from ..lazily import optimize, signal
 from ..motion import SpinUp
 from ..ramps import AnyRamp, require_ramp
 from ..threads import one_thread
@@ -24,6 +23,7 @@ _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0
 _REFINEMENTS, _SETTLED = 6, 1e-4
 """And the share of a period by which the last one moves the minimum at most."""
+_FOUND = 1e-8 * _A_PERIOD  # of the spacing, of which a period has so many
 _MOST_RAMPS = 100_000
 
 
@@ -89,6 +89,7 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
+    require_blade(beam)
     omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
@@ -104,7 +105,10 @@ def quiet_ramp_times(
         )
     tried = np.arange(0.5 * period, longest + spacing, spacing)
     sizes = np.abs(residuals(beam, unit, modes, tried)[0])
-    found = [_refined(beam, unit, modes, tried[k], spacing, tolerance) for k in argrelmin(sizes)[0]]
+    found = [
+        _refined(beam, unit, modes, tried[k], spacing, tolerance)
+        for k in signal.argrelmin(sizes)[0]
+    ]
     ramp_times, left = np.array([one for one in found if one[0] <= longest]).reshape(-1, 2).T
     return QuietRamps(
         beam=beam,
@@ -138,11 +142,11 @@ def _refined(
     lack, aside = lacking(T), 0.5 * spacing
     slope = (lacking(T + aside) - lack) / aside
     for _ in range(_REFINEMENTS):
-        least = minimize_scalar(
+        least = optimize.minimize_scalar(
             left,
             args=(T, lack, slope),
             bounds=(T - 2.0 * spacing, T + 2.0 * spacing),
-            options={"xatol": 1e-8},
+            options={"xatol": _FOUND * spacing},
         )
         moved = float(least.x) - T
         if abs(moved) <= _SETTLED * _A_PERIOD * spacing:
@@ -161,7 +165,8 @@ def exact_residuals(
     with one mode more, whose share is so kept out of the others.
     """
     decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
-    omegas = linear_modes(beam, ramp.omega, count + 1).frequencies
+    functions = max(20, 2 * (count + 1))
+    omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
     during = np.linspace(0.0, ramp.ramp_time, 33)
     # The times before tell how large the motion is, of which the tolerance is a share.
     after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)

@@ -15,11 +15,11 @@ from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
-from ..input_checks import finite_array, positive, whole_number
+from ..beam import AnyBlade, require_blade
+from ..input_checks import finite_array, flag, positive, whole_number
+from ..lazily import interpolate
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..ramps import AnyRamp, Table, fastest, require_ramp
 from ..reduced.any_blade import blade_oscillator
@@ -87,7 +87,7 @@ def residual_amplitude(
     3.5 s leaves 0.0797 L
     """
     mode = whole_number("mode", mode)
-    if corrected and mode != 1:
+    if flag("corrected", corrected) and mode != 1:
         raise ValueError(f"corrected=True knows the backbone of mode 1, got mode={mode}")
     require_ramp(spin_up)
     times = np.asarray(spin_up.ramp_time if ramp_times is None else ramp_times)
@@ -103,6 +103,7 @@ def residual_amplitude(
 
 def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
+    require_blade(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
     top = max(1.0, math.ceil(10.0 * fastest(spin_up) / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
@@ -148,4 +149,4 @@ def _on_the_backbone(beam: AnyBlade, omega: float, linear: FloatArray) -> FloatA
     oscillator = blade_oscillator(beam.unit, omega / beam.frequency_scale, True).oscillator
     a = np.linspace(0.0, min(_LARGEST, oscillator.largest_amplitude), 241)
     same = np.sqrt(2.0 * oscillator.action(a) / oscillator.w_n)
-    return np.asarray(PchipInterpolator(same, a, extrapolate=False)(linear))
+    return np.asarray(interpolate.PchipInterpolator(same, a, extrapolate=False)(linear))

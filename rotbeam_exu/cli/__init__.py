@@ -1,4 +1,7 @@
-"""The command line `rotbeam`. Only this package prints."""
+"""The command line `rotbeam`. Only this package prints.
+
+What a command computes with is imported when it runs, so that --help and theory are quick.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,34 @@ import sys
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
+from types import NoneType
+from typing import get_args
 
 import cyclopts
 
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import RotbeamWarning
 
 from .. import __version__
 from .documented import documented, epilogue
 from .endings import sentence_on, stopped_as_by_ctrl_c
 from .messages import Messages
 from .output import ready_streams
+
+
+def _refuse_none(
+    _: cyclopts.App, __: tuple[str, ...], arguments: cyclopts.ArgumentCollection
+) -> None:
+    """Refuse None and null, which a script writes for what it lacks: they would be the default."""
+    for argument in arguments:
+        if NoneType in get_args(argument.hint) and not {str, Path} & set(get_args(argument.hint)):
+            for token in argument.tokens:
+                if token.value.lower() in ("none", "null"):
+                    raise ValueError(
+                        f"{token.keyword} must have a value, got {token.value}: leave it out to "
+                        "have the default"
+                    )
+
 
 app = cyclopts.App(
     name="rotbeam",
@@ -28,6 +49,7 @@ app = cyclopts.App(
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
+    config=_refuse_none,
 )
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",

@@ -62,7 +62,8 @@ def animate(
         Show what a model that is linear in one floating frame makes of it beside the exact beam:
         above the first natural frequency at rest it flies apart.
     config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion], and duration in [numerics]; without
+        it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force
@@ -79,6 +80,8 @@ def animate(
     beam = file.beam
     spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
     if duration is None:
+        duration = file.numerics.get("duration")
+    if duration is None:
         duration = max(chosen_times(beam, 12.0)[0], 2.0 * spin_up.ramp_time)
     duration = positive("duration", duration, "s")
     slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
@@ -88,7 +91,7 @@ def animate(
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
     writable_folder(target.parent)
 
-    from ..figures import animation  # noqa: PLC0415  (matplotlib is the slowest import)
+    from ..figures import animation
 
     animation.check_format(target)
     refuse_to_replace_unread(target, force)

@@ -11,15 +11,8 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
-from analytic import (
-    VARIANTS,
-    AmplitudeNotReachedError,
-    AnyBlade,
-    Backbone,
-    ReducedModel,
-    periodic_orbits,
-    reduced_model,
-)
+import analytic
+from analytic import AnyBlade
 from analytic.input_checks import RotbeamWarning, whole_number
 
 from .configuration import configured, omega_of
@@ -87,7 +80,7 @@ def backbone(
     omega = omega_of(file, omega)
     if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
-    names = list(VARIANTS) if all_variants else [] if mode > 1 else [variant or "FrE"]
+    names = list(analytic.VARIANTS) if all_variants else [] if mode > 1 else [variant or "FrE"]
     refused: list[Refusal] = []
     models = _models(file.beam, omega, names, refused)
     if names and not models:
@@ -115,12 +108,12 @@ def backbone(
 
 def _models(
     beam: AnyBlade, omega: float, names: list[str], refused: list[Refusal]
-) -> list[ReducedModel]:
+) -> list[analytic.ReducedModel]:
     """Return the models that there are, and add to `refused` why others are not."""
     models = []
     for name in names:
         try:
-            models.append(reduced_model(beam, omega, name))
+            models.append(analytic.reduced_model(beam, omega, name))
         except ValueError as error:
             refused.append((name, str(error)))
     return models
@@ -142,7 +135,7 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 def _exact(
     beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
-) -> tuple[Backbone, str]:
+) -> tuple[analytic.Backbone, str]:
     """Return the orbits that were found, and why others were not."""
     require_affordable(
         f"{len(amplitude)} exact orbits with {functions} functions",
@@ -151,15 +144,15 @@ def _exact(
         remedy="take fewer",
     )
     try:
-        return periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
-    except AmplitudeNotReachedError as error:
+        return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
+    except analytic.AmplitudeNotReachedError as error:
         if error.backbone is None:
             raise
         return error.backbone, str(error)
 
 
 def _frequencies(
-    models: list[ReducedModel], amplitude: list[float], refused: list[Refusal]
+    models: list[analytic.ReducedModel], amplitude: list[float], refused: list[Refusal]
 ) -> dict[str, list[Any]]:
     """Return the columns of the models, and add to `refused` why some have no number."""
     if not models:
@@ -196,7 +189,9 @@ def _each(
         return [math.nan]
 
 
-def _exact_columns(truth: Backbone, amplitude: list[float], times: int) -> dict[str, list[float]]:
+def _exact_columns(
+    truth: analytic.Backbone, amplitude: list[float], times: int
+) -> dict[str, list[float]]:
     found = [
         truth.frequency[near[0]] if near.size else math.nan
         for a in amplitude
@@ -208,7 +203,9 @@ def _exact_columns(truth: Backbone, amplitude: list[float], times: int) -> dict[
     )
 
 
-def _print_coefficients(models: list[ReducedModel], truth: Backbone | None, omega: float) -> None:
+def _print_coefficients(
+    models: list[analytic.ReducedModel], truth: analytic.Backbone | None, omega: float
+) -> None:
     """Print one row of coefficients for each model, and one for the exact beam."""
     if not models:
         return

@@ -10,8 +10,8 @@ from typing import Annotated
 import numpy as np
 from cyclopts import Parameter
 
-from analytic import AnyBlade, Blade, Campbell
-from analytic import campbell as campbell_diagram
+import analytic
+from analytic import AnyBlade, Blade
 from analytic.exact.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
@@ -65,7 +65,7 @@ def campbell(
     orders
         Lines k ω up to this k.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam; without it, the paper's beam. Its [motion], one speed, is not used.
     format
         A table to read, or CSV.
     out
@@ -101,10 +101,10 @@ def campbell(
     path = None if out is None else writable_folder(out) / f"campbell-{shape.name}"
     if path is not None:
         refuse_to_replace_unread(path.with_name(f"{path.name}.png"), force)
-    diagram = campbell_diagram(beam, speeds, count, orders, planes=_families(beam))
+    diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
     _print(diagram, format)
     if path is not None:
-        from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+        from .. import figures
 
         written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
         print_written(new_console(stderr=format == "csv"), written)
@@ -119,7 +119,7 @@ def _families(beam: AnyBlade) -> list[Plane]:
     return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
 
 
-def _print(diagram: Campbell, form: Format) -> None:
+def _print(diagram: analytic.Campbell, form: Format) -> None:
     """Print frequencies over speed, and the crossings; ten digits in CSV.
 
     A table has as many as are known: of torsion four, for the section may be kept from warping.

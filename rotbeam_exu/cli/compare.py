@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, Beam
 
-from .. import comparison, paper
+from .. import paper
+from ..fem.lazily import require_exudyn
 from ..files.results import save, save_tables, writable_folder
+from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
@@ -39,13 +40,17 @@ def compare(
     amplitude
         Amplitude over the length at which the models' budget is printed.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam; without it, the paper's beam. Its [motion] and [numerics] are not
+        used.
 
     Examples
     --------
     $ rotbeam compare --jobs 2
     $ rotbeam compare --config beam.toml --amplitude 0.2 -o mine
     """
+    from .. import comparison
+
+    require_exudyn()
     folder = writable_folder(results.out)
     console = new_console()
     beam = _uniform(configured(config).beam)

@@ -5,16 +5,19 @@ from __future__ import annotations
 import time
 from importlib import metadata
 
-from analytic import Beam, SpinUp, campbell
+from rich.console import Console
 
-from .. import figures
-from ..fem.simulation import simulate, versions
-from ..figures.judgement import svg
-from .output import new_console
+from analytic import Beam, SpinUp
+
+from ..fem.lazily import require_exudyn
+from ..versions import versions
+from .output import new_console, print_text
 
 
 def doctor() -> None:
     """Print versions, draw a figure, run a short spin-up.
+
+    Where Exudyn cannot be imported, say why instead.
 
     Examples
     --------
@@ -23,18 +26,33 @@ def doctor() -> None:
     console = new_console()
     for name, version in versions().items():
         console.print(f"{name:<14}{version}")
-    started = time.perf_counter()
-    # Drawn as all figures are: a matplotlib that is too old fails here, not after a long run.
+    _draw(console)
     try:
-        svg(figures.campbell(campbell(Beam.reference(), (0.0, 4.0, 8.0), count=1, orders=1)))
+        require_exudyn()
+    except ImportError as error:
+        print_text(console, f"{'spin-up':<14}not run: {error}")
+        return
+    from ..fem.simulation import simulate
+
+    started = time.perf_counter()
+    run = simulate(
+        Beam.reference(), SpinUp(omega=2.0, ramp_time=0.5), elements=4, duration=1.0, step=5e-3
+    )
+    console.print(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")
+
+
+def _draw(console: Console) -> None:
+    """Draw as all figures are: a matplotlib that is too old fails here, not after a long run."""
+    from .. import figures
+    from ..figures.judgement import svg
+
+    started = time.perf_counter()
+    try:
+        modes = analytic.campbell(Beam.reference(), (0.0, 4.0, 8.0), count=1, orders=1)
+        svg(figures.campbell(modes))
     except Exception as error:
         raise RuntimeError(
             f"matplotlib {metadata.version('matplotlib')} cannot draw a figure ({error}); try "
             "pip install --upgrade matplotlib"
         ) from error
     console.print(f"{'figure':<14}drawn in {time.perf_counter() - started:.2f} s")
-    started = time.perf_counter()
-    run = simulate(
-        Beam.reference(), SpinUp(omega=2.0, ramp_time=0.5), elements=4, duration=1.0, step=5e-3
-    )
-    console.print(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")

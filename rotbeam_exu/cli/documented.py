@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import ast
+import inspect
+import re
 from pathlib import Path
 
 
@@ -12,10 +13,10 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
     The examples are the lines of the numpydoc section that begin with "$": command lines,
     each of which `tests/cli/test_examples.py` runs.
     """
-    tree = ast.parse(Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8"))
-    functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
-    (text,) = (ast.get_docstring(node) for node in functions if node.name == command)
-    said, _, rest = (text or "").partition("Examples\n---")
+    source = Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8")
+    # Not by a parser: all commands' are read at each call of any, and --help is to be quick.
+    (text,) = re.findall(rf'^def {command}\(.*?^    """(.*?)"""$', source, re.DOTALL | re.MULTILINE)
+    said, _, rest = inspect.cleandoc(text).partition("Examples\n---")
     lines = (line.removeprefix("$ ") for line in rest.splitlines() if line.startswith("$ "))
     return said.partition("Parameters\n---")[0].strip(), tuple(lines)
 

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
-from ..explorer import EXACT_RAMP_TIMES, OMEGAS, explorer_page
+from ..fem.lazily import require_exudyn
 from ..files.results import whole_file, writable_folder
 from .configuration import configured
 from .motion import chosen_speeds, chosen_times, grid_motion
@@ -37,7 +37,8 @@ def explore(
     out
         The page; explorer.html, or with a beam of one's own explorer- and its file's name.
     config
-        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's.
+        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's. Its
+        [motion] and [numerics] are not used.
     cache
         Folder that keeps the finite element runs, for the next time.
     jobs
@@ -50,6 +51,9 @@ def explore(
     $ rotbeam explore --jobs 1
     $ rotbeam explore --config beam.toml --cache results/cache -o mine.html
     """
+    from ..explorer import explorer_page
+
+    require_exudyn()
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
@@ -74,6 +78,8 @@ def explore(
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:
     """Return the page's speeds, the points' grid, their end and step, scaled by ω_0."""
+    from ..explorer import EXACT_RAMP_TIMES, OMEGAS
+
     (interval,) = chosen_speeds(beam, OMEGAS[1])
     # Points are seen where the slider stops: on its grid, not beside it.
     omegas = [interval * round(omega / OMEGAS[1]) for omega in paper.SPEEDS]

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 from rich.console import Console
 
-from ..figures.descriptions import caption
-from ..figures.style import STYLES, save_figure
-from ..figures.style import style as drawn_in
 from ..files.results import save, save_tables, whole_file, writable_folder
-from ..paper_figures import PAPER_FIGURES
 from .options import Results, Workers, spelled_as
 from .output import new_console, print_written
 from .progress import counter
@@ -21,7 +17,14 @@ from .targets import listed, refuse_to_replace, telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()
 
-StyleName = Annotated[str, Parameter(converter=spelled_as(STYLES))]
+
+def _styles() -> Iterable[str]:
+    from ..figures import STYLES
+
+    return STYLES
+
+
+StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
 """Name of a style; what is none is refused by `figures.style`."""
 
 
@@ -49,6 +52,9 @@ def figure(
     $ rotbeam figure 9
     $ rotbeam figure 14 --jobs 2 -o paper
     """
+    from .. import figures
+    from ..paper_figures import PAPER_FIGURES
+
     every = list(PAPER_FIGURES)
     wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
     if not wanted or wanted[0] not in PAPER_FIGURES:
@@ -61,13 +67,16 @@ def figure(
     done: list[Path] = []
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
     kept = telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])]))
-    with drawn_in(style), kept:
+    with figures.style(style), kept:
         for n in wanted:
             done += _made(n, folder, console, workers, force=results.force)
 
 
 def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bool) -> list[Path]:
     """Make one figure and return its files."""
+    from .. import figures
+    from ..paper_figures import PAPER_FIGURES
+
     made = PAPER_FIGURES[n]
     with counter(console, f"figure {n}") as progress:
         options = (
@@ -81,10 +90,10 @@ def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bo
     written = [save(data, name.with_suffix(".nc"))]
     written += save_tables(data, name.with_suffix(".csv"))
     axes = made.draw(data)
-    written += save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
+    written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
     words = name.with_suffix(".txt")
     with whole_file(words) as partial:
-        partial.write_text(f"Figure {n}. {caption(n, data)}\n", encoding="utf-8")
+        partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
     written.append(words)
     print_written(console, written)
     return written

@@ -17,7 +17,7 @@ _LONGEST = 60
 @lru_cache
 def _varies() -> re.Pattern[str]:
     """Return what may differ between two warnings of a kind: numbers, and names of models."""
-    from analytic import VARIANTS  # noqa: PLC0415  (most commands warn of nothing)
+    from analytic import VARIANTS
 
     names = "|".join(sorted(VARIANTS, key=len, reverse=True))
     return re.compile(rf"(?<!\w)(?:{names})(?!\w)|[+-]?\d+\.?\d*(?:e[+-]?\d+)?")

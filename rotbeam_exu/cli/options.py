@@ -6,18 +6,20 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
-from analytic import VARIANTS, AnyBlade
+import analytic
+from analytic import AnyBlade
 
-from ..fem.case import Case
-from ..fem.elements import ALIASES, FORMULATIONS, formulation
-from ..fem.solver import Frame
+from ..fem.frame import Frame
 from .motion import Motion
 from .output import choice
 from .targets import Force
+
+if TYPE_CHECKING:
+    from ..fem.case import Case
 
 
 def whole(_: Any, tokens: Sequence[Token]) -> int:
@@ -55,21 +57,29 @@ NoFigure = Annotated[
 """A switch of the commands that write a figure beside their data."""
 
 
-def spelled_as(known: Iterable[str]) -> Callable[[Any, Sequence[Token]], str]:
-    """Return a converter to the known name that differs in upper and lower case only, if any."""
-    names = tuple(known)
-    return lambda _, tokens: _spelled(tokens[0].value, names)
+def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
+    """Return a converter to the known name that differs in upper and lower case only, if any.
+
+    The names are asked for when the option is given, for --help needs no more than its own.
+    """
+    return lambda _, tokens: _spelled(tokens[0].value, known())
 
 
 def _spelled(text: str, known: Iterable[str]) -> str:
     return {name.lower(): name for name in known}.get(text.lower(), text)
 
 
-_ELEMENTS = (*FORMULATIONS, *ALIASES)
-Element = Annotated[str, Parameter(converter=spelled_as(_ELEMENTS))]
+def element_names() -> tuple[str, ...]:
+    """Return the names of the formulations."""
+    from ..fem.elements import ALIASES, FORMULATIONS
+
+    return *FORMULATIONS, *ALIASES
+
+
+Element = Annotated[str, Parameter(converter=spelled_as(element_names))]
 """Name of a formulation; what is none is refused by `formulation`."""
 
-VariantName = Annotated[str, Parameter(converter=spelled_as(VARIANTS))]
+VariantName = Annotated[str, Parameter(converter=spelled_as(lambda: analytic.VARIANTS))]
 """Name of a variant; what is none is refused by `reduced_model`."""
 
 
@@ -97,6 +107,9 @@ class Numerics:
 
     def case(self, beam: AnyBlade, motion: Motion) -> Case:
         """Return the case of a motion, whose step and duration are chosen."""
+        from ..fem.case import Case
+        from ..fem.elements import formulation
+
         return Case(
             beam=beam,
             spin_up=motion.spin_up,
@@ -146,7 +159,7 @@ class Discretization:
         chosen = Numerics(**{**numerics, **mine}, option=options)
         return replace(
             chosen,
-            element=_spelled(chosen.element, _ELEMENTS),
+            element=_spelled(chosen.element, element_names()),
             frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
         )
 

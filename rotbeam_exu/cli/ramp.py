@@ -5,24 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-from analytic import AnyBlade, Beam, SpinUp, residual_amplitude
-from analytic.input_checks import positive, rotation_speed, whole_number
+import analytic
+from analytic import AnyBlade, SpinUp
+from analytic.input_checks import positive, whole_number
 
-from .. import comparison
-from ..fem.elements import formulation
-from ..files.beam_file import load_beam
+from ..fem.lazily import require_exudyn
 from ..files.results import save, save_tables, writable_folder
+from ..lazily import xr
 from ..verdict import beam_attributes
+from .configuration import configured, motion_of
 from .cost import require_affordable
-from .motion import chosen_speeds, chosen_times, refuse_rest
-from .options import Element, Results, Whole
+from .motion import chosen_times, refuse_rest
+from .options import Discretization, Element, Results, Whole
 from .output import new_console, print_columns, print_note, print_written
 from .progress import counter
 from .targets import refuse_to_replace
 
-_OMEGA, _LONGEST = 6.0, 10.0  # of the paper's beam [rad/s, s]
+_LONGEST = 10.0  # of the paper's beam [s]
 _SECONDS_PER_RUN = 0.3
 """From below."""
 _RESULTS = Results()
@@ -34,8 +34,8 @@ def ramp(
     longest: float | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
-    element: Element = "cable",
-    elements: Whole = 16,
+    element: Element | None = None,
+    elements: Whole | None = None,
     config: Path | None = None,
     results: Results = _RESULTS,
 ) -> None:
@@ -46,7 +46,7 @@ def ramp(
     Parameters
     ----------
     omega
-        Speed after the ramp [rad/s]; the paper's beam goes to 6.
+        Speed after the ramp [rad/s], unless [motion] of the file has it; 6 for the paper's beam.
     longest
         Longest ramp time [s]; 10 for the paper's beam.
     points
@@ -54,18 +54,25 @@ def ramp(
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
     element
-        Beam formulation: cable, exact or reissner, ancf3, linear, substructures.
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
     elements
-        Number of elements.
+        Number of elements, 16 unless given.
     config
-        TOML file with the beam or blade; without it, the paper's beam.
+        TOML file with the beam or blade, and if it likes with omega in [motion], and element and
+        elements in [numerics]; without it, the paper's beam.
 
     Examples
     --------
     $ rotbeam ramp --omega 6 --longest 10
     """
-    beam = Beam.reference() if config is None else load_beam(config)
-    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
+    from .. import comparison
+    from ..fem.elements import formulation
+
+    file = configured(config)
+    beam = file.beam
+    omega = motion_of(file, omega=omega).spin_up.omega
+    mesh = Discretization(element=element, elements=elements).over(file.numerics)
+    element, elements = mesh.element, mesh.elements
     refuse_rest(omega)
     longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
     for name, count in (("points", points), ("finite-element-points", finite_element_points)):
@@ -80,6 +87,8 @@ def ramp(
         "finite_element_points": finite_element_points, "element": formulation(element).name,
         "elements": elements,
     }  # fmt: skip
+    if finite_element_points:
+        _require_exudyn()
     path = writable_folder(results.out) / f"ramp-omega-{omega:g}-longest-{longest:g}"
     whole = path.with_name(f"{path.name}.nc")
     refuse_to_replace(inputs, whole, force=results.force)
@@ -94,11 +103,19 @@ def ramp(
     tables = path.with_name(f"{path.name}.csv")
     written = [save(data, whole), *save_tables(data, tables)]
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+    from .. import figures
 
     written += figures.save_figure(figures.residual(data), path)
     _print(beam, data)
     print_written(console, written)
+
+
+def _require_exudyn() -> None:
+    """Say before the transients are computed that the runs cannot be, and what can."""
+    try:
+        require_exudyn()
+    except ImportError as error:
+        raise ImportError(f"{error}; take --finite-element-points 0") from error
 
 
 def _print(beam: AnyBlade, data: xr.Dataset) -> None:
@@ -109,7 +126,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
         {
             "T [s]": [f"{T:.4f}" for T in quiet],
             "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [f"{left:.2e}" for left in residual_amplitude(beam, one, quiet)],
+            "closed form": [
+                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
+            ],
         },
         "table",
         title="Quiet ramp times of Eq. 1",
@@ -128,9 +147,9 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
     print_columns(
         {
             "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in residual_amplitude(beam, one, times)],
+            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
             "with the backbone": [
-                f"{a:#.4g}" for a in residual_amplitude(beam, one, times, corrected=True)
+                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
             ],
             "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
             "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import spin_up_response
+import analytic
 from analytic.input_checks import positive, whole_number
 
-from ..comparison.exact_spin_up import exact_spin_up
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .configuration import configured, motion_of
@@ -55,6 +54,8 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
+    from .. import comparison
+
     file = configured(config)
     if duration is None:
         duration = file.numerics.get("duration")
@@ -72,8 +73,8 @@ def reference(
     }  # fmt: skip
     refuse_to_replace(inputs, *files, force=results.force)
     times = np.linspace(0.0, motion.duration, samples)
-    response = spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
-    data = exact_spin_up(response).assign_attrs(tolerance=tolerance)
+    response = analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
+    data = comparison.exact_spin_up(response).assign_attrs(tolerance=tolerance)
     written = [save(data, file) for file in files]
     console = new_console()
     farthest = int(np.abs(response.q).argmax())

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
 from ..fem.case import Case
 from ..fem.elements import options_of
 from ..files.results import load
+from ..lazily import xr
 from .options import Numerics
 
 

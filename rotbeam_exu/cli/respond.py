@@ -7,26 +7,17 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import xarray as xr
 from cyclopts import Parameter
 
-from analytic import (
-    AnyBlade,
-    Damping,
-    ForcedResponse,
-    Gravity,
-    ResponseNotReachedError,
-    forced_response,
-    gravity_response,
-)
+import analytic
+from analytic import AnyBlade, Damping, Gravity
 from analytic.arrays import FloatArray
 from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
 from analytic.loads import HarmonicLoad, Load
 
-from .. import comparison
-from ..comparison.response import response_inputs
 from ..files.results import save, writable_folder
+from ..lazily import xr
 from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Flag, NoFigure, Results, Whole
@@ -173,6 +164,9 @@ def respond(
     $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
+    from .. import comparison
+    from ..comparison.response import response_inputs
+
     load = loads.one()
     file = configured(config)
     beam = dampings.on(file.beam)
@@ -196,7 +190,7 @@ def respond(
         found = _response(
             beam, omega, load, frequencies, inextensible=inextensible, functions=functions
         )
-    except ResponseNotReachedError as error:
+    except analytic.ResponseNotReachedError as error:
         if error.response is None:
             raise
         part = comparison.forced_response(error.response).assign_attrs(
@@ -210,7 +204,7 @@ def respond(
     with telling_what_is_kept(lambda: f"kept: {listed(written)}"):
         _print(data, str(found))
         if not no_figure:
-            from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+            from .. import figures
 
             written += figures.save_figure(figures.forced_response(data), path)
     print_written(new_console(), written)
@@ -222,11 +216,11 @@ def _response(
     load: HarmonicLoad | Gravity,
     frequencies: FloatArray,
     **options: Any,
-) -> ForcedResponse:
+) -> analytic.ForcedResponse:
     if isinstance(load, Gravity):
-        return gravity_response(beam, frequencies, load.gravity, **options)
+        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
     assert omega is not None
-    return forced_response(beam, omega, load, frequencies, **options)
+    return analytic.forced_response(beam, omega, load, frequencies, **options)
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:

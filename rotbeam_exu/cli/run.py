@@ -4,28 +4,26 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import Progress
 
 from analytic.input_checks import RotbeamWarning
 
-from ..fem.case import Case
-from ..fem.simulation import run_case
 from ..files.results import save, writable_folder
-from ..oscillation import SteadyOscillation, steady_oscillation
+from ..lazily import xr
 from ..verdict import SimulationError
-from .assessment import assess
 from .configuration import configured, motion_of
 from .motion import refuse_rest
 from .options import Discretization, NoFigure, Results, given
 from .output import new_console, print_line, print_written
-from .repeat import likeness, recorded_case, recorded_title
-from .summary import print_inputs, print_results
 from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
+
+if TYPE_CHECKING:
+    from ..fem.case import Case
+    from ..oscillation import SteadyOscillation
 
 _DISCRETIZATION, _RESULTS = Discretization(), Results()
 
@@ -63,6 +61,10 @@ def run(
     $ rotbeam run --config beam.toml --element exact --option nodes=3 --no-figure
     $ rotbeam run --from results/cable-16-omega-6-ramp-3.nc
     """
+    from .assessment import assess
+    from .repeat import likeness, recorded_case, recorded_title
+    from .summary import print_inputs, print_results
+
     if recorded is not None:
         others = given(omega=omega, ramp_time=ramp_time, config=config)
         if others or discretization != _DISCRETIZATION:
@@ -90,7 +92,7 @@ def run(
     with telling_what_is_kept(lambda: f"kept: {listed(written)}" if written else ""):
         data, steady = _measured(case, path, written, console)
         if not no_figure:
-            from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+            from .. import figures
 
             written += figures.save_figure(figures.spin_up(data)[0], path)
         assessment = assess(case, steady)
@@ -107,6 +109,8 @@ def _measured(
     case: Case, path: Path, written: list[Path], console: Console
 ) -> tuple[xr.Dataset, SteadyOscillation]:
     """Compute, save, then measure: what was computed is safe before anything else is tried."""
+    from ..oscillation import steady_oscillation
+
     try:
         data = _computed(case, console)
     except SimulationError as error:
@@ -131,6 +135,8 @@ def _data_files(path: Path) -> tuple[Path, Path]:
 
 
 def _computed(case: Case, console: Console) -> xr.Dataset:
+    from ..fem.simulation import run_case
+
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("spinning up", total=1.0)
         return run_case(case, progress=lambda done: bar.update(task, completed=done))

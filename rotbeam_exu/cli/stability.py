@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic import Beam, StabilityLimit, planar_stability, stability_limit
+import analytic
 from analytic.exact.orbit_growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
-from .. import comparison
-from ..files.beam_file import load_beam
 from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
+from .configuration import configured, omega_of
 from .cost import require_affordable
 from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns, print_text, print_written
@@ -30,7 +29,7 @@ _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 def stability(
     *,
-    omega: float,
+    omega: float | None = None,
     shape: SectionShape = _GIVEN,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
@@ -46,7 +45,7 @@ def stability(
     Parameters
     ----------
     omega
-        Rotation speed [rad/s].
+        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes of the planar orbits over the length, one or several; the limit is looked for up
         to the largest.
@@ -55,13 +54,15 @@ def stability(
     growth
         Growth out of the plane per radian of the orbit above which all orbits are beyond the limit.
     config
-        TOML file with the beam; without it, the paper's beam.
+        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
 
     Examples
     --------
     $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
     $ rotbeam stability --omega 6 --section tube
     """
+    from .. import comparison
+
     whole_number("mode", mode)
     positive("growth", growth)
     require_affordable(
@@ -69,8 +70,9 @@ def stability(
         seconds=_SECONDS_PER_ORBIT * len(amplitude),
         remedy="take fewer amplitudes",
     )
-    beam = Beam.reference() if config is None else load_beam(config)
-    blade = shape.required_of(beam)
+    file = configured(config)
+    omega = omega_of(file, omega)
+    blade = shape.required_of(file.beam)
     amplitudes = sorted(set(amplitude))
     path = writable_folder(results.out) / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}"
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
@@ -78,12 +80,12 @@ def stability(
     inputs["growth"] = growth
     files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
     refuse_to_replace(inputs, *files, force=results.force)
-    found = planar_stability(blade, omega, amplitudes, mode)
-    limit = stability_limit(blade, omega, mode, growth=growth, largest=amplitudes[-1])
+    found = analytic.planar_stability(blade, omega, amplitudes, mode)
+    limit = analytic.stability_limit(blade, omega, mode, growth=growth, largest=amplitudes[-1])
     data = comparison.planar_stability(found, limit).assign_attrs(inputs)
     written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 
-    from .. import figures  # noqa: PLC0415  (matplotlib is the slowest import)
+    from .. import figures
 
     written += figures.save_figure(figures.planar_stability(data), path)
     console = new_console()
@@ -110,7 +112,7 @@ def stability(
     print_written(console, written)
 
 
-def _print_tongues(limit: StabilityLimit) -> None:
+def _print_tongues(limit: analytic.StabilityLimit) -> None:
     if not limit.tongues:
         return
     print_columns(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import xarray as xr
 from rich.console import Console
 
 from ..fem.case import Case
+from ..lazily import xr
 from ..oscillation import SteadyOscillation
 from ..verdict import energy_drift
 from .assessment import Assessment

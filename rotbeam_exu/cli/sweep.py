@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import xarray as xr
 from cyclopts import Parameter
 from rich.console import Console
 
@@ -19,9 +17,7 @@ from analytic.input_checks import whole_number
 from .. import paper
 from ..files.results import save, writable_folder
 from ..files.run_file import RunFile
-from ..sweeps.dask import dask_executor
-from ..sweeps.grid import failed_cases
-from ..sweeps.grid import sweep as run_sweep
+from ..lazily import xr
 from .configuration import configured
 from .cost import require_affordable
 from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
@@ -29,6 +25,9 @@ from .options import Discretization, Flag, Results, Workers
 from .output import choice, new_console, print_columns, print_line, print_text, print_written
 from .progress import counter
 from .targets import refuse_to_replace, telling_what_is_kept
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -82,6 +81,8 @@ def sweep(
     $ rotbeam sweep --omega 4 6 --ramp-time 2.5 3 --step 2e-3 -o quick
     $ rotbeam sweep --config beam.toml --shard 1/24 --jobs 1
     """
+    from ..sweeps.grid import sweep as run_sweep
+
     file = configured(config)
     beam = file.beam
     numerics = discretization.over(file.numerics)
@@ -142,6 +143,8 @@ def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float],
 
 def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
     """Write and print the result; a sweep with a failed case is no success."""
+    from ..sweeps.grid import failed_cases
+
     measured = result.drop_dims("time", errors="ignore")
     written = [save(result, path), save(measured, path.with_name(f"{path.stem}.csv"))]
     _print_result(measured)
@@ -176,6 +179,8 @@ def _require_affordable(steps: float, count: int, mine: int, at_once: float) -> 
 @contextmanager
 def _executor(scheduler: str | None) -> Iterator[Executor | None]:
     """Give the executor of a Dask cluster, or None for processes here."""
+    from ..sweeps.dask import dask_executor
+
     if scheduler is None:
         yield None
         return

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from analytic import paper_table
+import analytic
 from analytic.reduced.tables import PaperTable
 
 from .options import whole
@@ -49,7 +49,7 @@ def table(
     $ rotbeam table all --format csv
     """
     for one in _TABLES if number == _ALL else (number,):
-        _print(paper_table(one), form, several=number == _ALL)
+        _print(analytic.paper_table(one), form, several=number == _ALL)
 
 
 def _print(result: PaperTable, form: Format, *, several: bool) -> None:

@@ -7,10 +7,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
-import xarray as xr
 from cyclopts import Parameter
 
 from ..files.results import differing_inputs
+from ..lazily import xr
 
 Force = Annotated[bool, Parameter(negative=(), show_default=False)]
 """Replace files even if they hold what other inputs gave."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 from rich import box
@@ -15,19 +15,23 @@ from rich.console import Console
 from analytic import AnyBlade
 from analytic.input_checks import positive
 
-from ..fem.elements import ALIASES, FORMULATIONS, formulation
-from ..verification.cost import LADDER, cost_at_error
-from ..verification.entries import entries_at_hand, formulation_entry
-from ..verification.measures import verify as verification_of
-from ..verification.peers import PEERS, Entry, peer
 from .configuration import configured, motion_of
 from .motion import Motion, slower_than_paper
-from .options import Flag, spelled_as
+from .options import Flag, element_names, spelled_as
 from .output import new_console, print_columns, print_text
 from .progress import counted
-from .verdicts import print_judgements
 
-Judged = Annotated[str, Parameter(converter=spelled_as([*FORMULATIONS, *ALIASES, *PEERS]))]
+if TYPE_CHECKING:
+    from ..verification.peers import Entry
+
+
+def _names() -> tuple[str, ...]:
+    from ..verification.peers import PEERS
+
+    return *element_names(), *PEERS
+
+
+Judged = Annotated[str, Parameter(converter=spelled_as(_names))]
 
 
 def verify(
@@ -53,19 +57,21 @@ def verify(
     error
         That error, of q(t) over max|q|.
     config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam. Speeds
-        and times that are not given follow its ω_0.
+        TOML file with the beam, and if it likes with [motion] and with step and duration in
+        [numerics]; without it, the paper's beam. What is not given follows its ω_0.
 
     Examples
     --------
     $ rotbeam verify --element cable
     $ rotbeam verify --element cable --element ancf3 --cost
     """
+    from ..verification.entries import entries_at_hand
+
     entries = entries_at_hand() if element is None else tuple(map(_entry, element))
     error = positive("error", error)
     file = configured(config)
     beam = file.beam
-    motion = motion_of(file)
+    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
     entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
     console = new_console()
     if cost:
@@ -75,7 +81,11 @@ def verify(
 
 
 def _entry(name: str) -> Entry:
-    if name in FORMULATIONS or name in ALIASES:
+    from ..fem.elements import FORMULATIONS, formulation
+    from ..verification.entries import formulation_entry
+    from ..verification.peers import PEERS, peer
+
+    if name in element_names():
         return formulation_entry(formulation(name))
     if name not in PEERS:
         known = ", ".join(repr(known) for known in (*FORMULATIONS, *PEERS))
@@ -86,6 +96,9 @@ def _entry(name: str) -> Entry:
 def _print_verdicts(
     console: Console, entries: tuple[Entry, ...], beam: AnyBlade | None, motion: Motion
 ) -> None:
+    from ..verification.measures import verify as verification_of
+    from .verdicts import print_judgements
+
     spin_up = None if beam is None else motion.spin_up
     found = [
         verification_of(entry, beam=beam, spin_up=spin_up, duration=motion.duration)
@@ -97,6 +110,8 @@ def _print_verdicts(
 def _print_costs(
     console: Console, entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion
 ) -> None:
+    from ..verification.cost import LADDER, cost_at_error
+
     rows = []
     for entry in _tracked(console, entries):
         seconds, ladder = cost_at_error(entry, error, beam=beam, spin_up=motion.spin_up)

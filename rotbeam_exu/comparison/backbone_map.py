@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import xarray as xr
-
 from analytic import BackboneMap
 
+from ..lazily import xr
 from ..verdict import beam_attributes, beam_of
 
 _NONE, _SPEED = {"units": "1"}, {"units": "rad/s"}

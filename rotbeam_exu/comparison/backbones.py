@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
-import xarray as xr
 
 from analytic import Beam, periodic_orbits, planar_note, reduced_model
 
-from ..fem.solver import Frame
+from ..fem.frame import Frame
+from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..verdict import beam_attributes

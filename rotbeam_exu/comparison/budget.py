@@ -8,11 +8,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 
+from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from .backbones import finite_element_points

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 
-import xarray as xr
-
 from analytic import SpinUpResponse
 from analytic.loads import rippled
 
-from ..fem.simulation import versions
+from ..lazily import xr
 from ..verdict import beam_attributes, loads_attributes, motion_attributes
+from ..versions import versions
 
 
 def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:

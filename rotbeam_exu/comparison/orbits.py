@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import xarray as xr
-from scipy import interpolate
 
 from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
 from ..fem.simulation import simulate
+from ..lazily import xr
 from ..oscillation import steady_oscillation
 from ..paper import MODELS
 from ..verdict import beam_attributes

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import (
     AnyBlade,
@@ -19,6 +18,7 @@ from analytic import (
 )
 from analytic.exact.stability_limit import LARGEST
 
+from ..lazily import xr
 from ..paper import SPEEDS
 from ..verdict import beam_attributes
 

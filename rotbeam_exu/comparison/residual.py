@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import xarray as xr
 
 from analytic import (
     AnyBlade,
@@ -23,6 +22,7 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.elements import Formulation
 from ..fem.simulation import simulate
+from ..lazily import xr
 from ..verdict import beam_attributes
 
 _CURVE = 400

@@ -7,14 +7,14 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
 from analytic.damping import UNDAMPED
 from analytic.loads import HarmonicLoad
 
-from ..fem.simulation import versions
+from ..lazily import xr
 from ..verdict import beam_attributes, loads_attributes
+from ..versions import versions
 
 
 def forced_response(response: ForcedResponse) -> xr.Dataset:

@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 
 from analytic import Beam, SpinUp
 
 from ..fem.simulation import simulate
+from ..lazily import xr
 from ..oscillation import steady_oscillation
 from ..verdict import beam_attributes, motion_attributes
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, Beam
 from analytic.reduced.any_blade import blade_oscillator
+
+from ..lazily import xr
 
 
 def softening_map(

@@ -7,15 +7,15 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
-import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from analytic import Beam, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
+from analytic.lazily import interpolate
 from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
 from analytic.reduced.shapes import CantileverMode
 
+from ..lazily import xr
 from ..paper import SPEEDS
 from ..verdict import beam_attributes
 
@@ -216,4 +216,4 @@ def _exact_coefficients(beam: Beam, omegas: FloatArray) -> FloatArray:
         orbits = periodic_orbits(beam, float(omegas[-1] * node**1.5), [_SMALL])
         first, third = orbits.harmonics[0, [0, 2]]
         found.append((orbits.lambda_omega, third / first**3))
-    return np.asarray(CubicSpline(nodes, found)((omegas / omegas[-1]) ** (2.0 / 3.0)).T)
+    return np.asarray(interpolate.CubicSpline(nodes, found)((omegas / omegas[-1]) ** (2.0 / 3.0)).T)

@@ -11,9 +11,9 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike
 
+from ..lazily import xr
 from .data import AMPLITUDES, EXACT_RAMP_TIMES, OMEGAS, explorer_data
 
 __all__ = ["AMPLITUDES", "EXACT_RAMP_TIMES", "OMEGAS", "explorer_data", "explorer_page"]

@@ -9,11 +9,11 @@ from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import VARIANTS, AnyBlade, Beam, reduced_model
 
 from ..comparison.theory import beyond_range
+from ..lazily import xr
 from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool

@@ -12,12 +12,13 @@ import warnings
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
 from analytic.input_checks import RotbeamWarning
+
+from ..lazily import xr
 
 TIP_HARMONICS = 20
 """Harmonics of q/L kept; from the twelfth on they are below 4e-6."""

@@ -7,9 +7,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, SpinUp, linear_modes, residual_amplitude, spin_up_response
+
+from ..lazily import xr
 
 SAMPLES = 376
 """Of a history: forty a period of the paper's beam."""

@@ -9,11 +9,12 @@ from functools import cached_property
 from typing import Any, cast
 
 from analytic import AnyBlade, SteadyRotation
+from analytic.beam import require_blade
 from analytic.description import Described, describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
-from analytic.ramps import AnyRamp, fastest
+from analytic.ramps import AnyRamp, fastest, require_ramp
 
 from ..resolution import checked_steps
 from ..verdict import (
@@ -25,7 +26,7 @@ from ..verdict import (
     motion_of,
 )
 from .elements import Formulation, formulation, require_modeled
-from .solver import Frame, require_frame
+from .frame import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +71,9 @@ class Case:
             ("loads", loads_in_time(self.loads)),
         ):
             object.__setattr__(self, name, value)
+        require_blade(self.beam)
+        if not isinstance(self.spin_up, SteadyRotation):
+            require_ramp(self.spin_up)
         require_frame(self.beam, self.frame)
         require_modeled(self.beam, self.model)
         _ = self.steps_and_sampling

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
+from ..lazily import xr
 from .case import Case
 from .elements.formulation import spun, turned, turned_velocities
 from .kinetics import energy_and_momentum
@@ -111,6 +111,6 @@ def _integral(time: FloatArray, power: FloatArray) -> FloatArray:
     result = np.full(time.size, np.nan)
     result[:1] = 0.0
     if count > 1:
-        spline = CubicSpline(time[:count], power[:count]).antiderivative()
+        spline = interpolate.CubicSpline(time[:count], power[:count]).antiderivative()
         result[:count] = spline(time[:count])
     return result

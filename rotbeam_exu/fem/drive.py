@@ -20,24 +20,16 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    MarkerNodeCoordinate,
-    MarkerNodeCoordinates,
-    NodePointGround,
-    ObjectConnectorCoordinate,
-    ObjectConnectorCoordinateVector,
-    ObjectGenericODE2,
-)
-from scipy import sparse
 
 from analytic.arrays import FloatArray
+from analytic.lazily import sparse
 from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
 from .elements.formulation import radial
 from .elements.point_masses import add_point_inertias
+from .lazily import exudyn, items
 
 
 def fix_root(
@@ -50,22 +42,22 @@ def fix_root(
     if direction:
         # At θ = 0 each constraint of the clamp holds one coordinate.
         coordinates += list(np.flatnonzero(element.clamp(0.0)[0].any(axis=0)))
-    ground = mbs.AddNode(NodePointGround())
-    at_rest = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
+    ground = mbs.AddNode(items.NodePointGround())
+    at_rest = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
     for coordinate in coordinates:
         moving = mbs.AddMarker(
-            MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=int(coordinate))
+            items.MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=int(coordinate))
         )
-        mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=[at_rest, moving]))
+        mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[at_rest, moving]))
 
 
 def prescribe_rotation(
     mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation
 ) -> None:
     """Make the direction of the root follow Eq. 1 (inertial frame)."""
-    ground = mbs.AddNode(NodePointGround())
-    at_rest = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=ground))
-    root = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
+    ground = mbs.AddNode(items.NodePointGround())
+    at_rest = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=ground))
+    root = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
     size = element.quarter_turn.shape[0]
     # Each constraint holds a direction: two coordinates at most, the same at every angle.
     radius = _hub_radius(mbs, chain)
@@ -99,7 +91,7 @@ def prescribe_rotation(
         return gradient
 
     mbs.AddObject(
-        ObjectConnectorCoordinateVector(
+        items.ObjectConnectorCoordinateVector(
             markerNumbers=[at_rest, root],
             scalingMarker0=np.zeros((held, 3)),
             scalingMarker1=np.zeros((held, size)),
@@ -182,7 +174,7 @@ def add_force(mbs: exudyn.MainSystem, chain: Chain, size: int, force: Any, jacob
     no_mass = exudyn.MatrixContainer()
     no_mass.SetWithSparseMatrix(sparse.csr_matrix((size, size)))
     mbs.AddObject(
-        ObjectGenericODE2(
+        items.ObjectGenericODE2(
             nodeNumbers=list(chain.nodes),
             massMatrix=no_mass,
             forceUserFunction=force,

@@ -7,20 +7,20 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-import exudyn
 import numpy as np
-from scipy import sparse
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_steady_state, undamped, warn_if_rpm
+from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
+from analytic.lazily import sparse
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..resolution import require_feasible, require_stretch, warn_if_coarse
 from ..verdict import SimulationError
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
+from .lazily import exudyn
 from .system import exudyn_system
 from .units import Units
 
@@ -103,6 +103,7 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
+    require_blade(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return mesh_frequencies(beam, omega, element, elements, count)
 

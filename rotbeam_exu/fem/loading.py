@@ -17,21 +17,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import exudyn
 import numpy as np
-from scipy import sparse
 
 from analytic import AnyBlade, Beam
 from analytic.arrays import FloatArray
+from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
 from .drive import add_force, triplets
 from .elements import Chain, Formulation
 from .elements.formulation import turned_velocities
+from .frame import Frame
+from .lazily import exudyn
 from .linearization import mass_matrix
 from .mesh import Mesh
-from .solver import Frame
 
 
 class Loading:

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import exudyn
-from exudyn.itemInterface import MarkerNodePosition, SensorNode
-from scipy import sparse
-
 from analytic import AnyBlade
 from analytic.input_checks import whole_number
+from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
+from .frame import Frame, require_frame
+from .lazily import exudyn, items
 from .linearization import mass_matrix
 from .loading import Loading
-from .solver import Frame, require_frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,9 +120,11 @@ def add_rotating_beam(
     loading = Loading(model, beam, elements, mass, loads)
     if loading:
         loading.add(mbs, chain, rotation, frame)
-    root, tip = (mbs.AddMarker(MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1))
+    root, tip = (
+        mbs.AddMarker(items.MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1)
+    )
     sensor = mbs.AddSensor(
-        SensorNode(
+        items.SensorNode(
             nodeNumber=chain.nodes[-1],
             outputVariableType=exudyn.OutputVariableType.Position,
             storeInternal=True,

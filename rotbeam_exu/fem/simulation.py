@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import json
-import platform
 import time as clock
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib import metadata
 from typing import Any
 
-import exudyn
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
@@ -25,15 +21,18 @@ from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.ramps import AnyRamp
 
-from .. import __version__
+from ..lazily import xr
 from ..verdict import SimulationError, check_run, remedy
+from ..versions import versions
 from .case import Case
 from .columns import columns
 from .elements import Chain, Formulation
 from .elements.formulation import spun
+from .frame import Frame
+from .lazily import exudyn
 from .linearization import round_off
 from .rotating_beam import RotatingBeam, add_rotating_beam
-from .solver import Frame, Sensors, solve, solver_settings
+from .solver import Sensors, solve, solver_settings
 from .system import exudyn_system
 from .units import Units
 
@@ -254,9 +253,3 @@ def _warn_above_divergence_speed(run: xr.Dataset) -> None:
             RotbeamWarning,
             stacklevel=5,
         )
-
-
-def versions() -> dict[str, str]:
-    """Return the versions that a result depends on."""
-    libraries = {name: metadata.version(name) for name in ("exudyn", "numpy", "scipy")}
-    return {"rotbeam-exu": __version__, "python": platform.python_version(), **libraries}

@@ -4,34 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import SensorBody, SensorNode
 
-from analytic import AnyBlade
 from analytic.arrays import FloatArray
 
 from .elements import Chain
-
-Frame = Literal["inertial", "rotating"]
+from .frame import Frame
+from .lazily import exudyn, items
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
-
-_OUTPUT = exudyn.OutputVariableType
-
-
-def require_frame(beam: AnyBlade, frame: Frame) -> None:
-    """Refuse a frame that is not known, or in which the blade is not modeled."""
-    if frame not in ("inertial", "rotating"):
-        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
-    if frame == "inertial" and beam.unit.setting != 1.0:
-        raise ValueError(
-            "in the inertial frame the models turn in their plane of bending, and this blade has a "
-            f"setting angle with the cosine {beam.unit.setting:.4g}: take frame='rotating'"
-        )
 
 
 def solver_settings(
@@ -146,16 +130,17 @@ class Sensors:
 
     def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
         self._mbs, self._chain = mbs, chain
+        kind = exudyn.OutputVariableType
         self._reference = np.array(
             [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
         )
-        self._coordinates = [self._of_node(n, _OUTPUT.Coordinates) for n in chain.nodes]
-        self._velocities = [self._of_node(n, _OUTPUT.Coordinates_t) for n in chain.nodes]
+        self._coordinates = [self._of_node(n, kind.Coordinates) for n in chain.nodes]
+        self._velocities = [self._of_node(n, kind.Coordinates_t) for n in chain.nodes]
         self._elastic = [
             mbs.AddSensor(
-                SensorBody(
+                items.SensorBody(
                     bodyNumber=body,
-                    outputVariableType=_OUTPUT.PotentialEnergy,
+                    outputVariableType=kind.PotentialEnergy,
                     storeInternal=True,
                     writeToFile=False,
                 )
@@ -165,7 +150,7 @@ class Sensors:
 
     def _of_node(self, node: Any, variable: Any) -> Any:
         return self._mbs.AddSensor(
-            SensorNode(
+            items.SensorNode(
                 nodeNumber=node, outputVariableType=variable, storeInternal=True, writeToFile=False
             )
         )

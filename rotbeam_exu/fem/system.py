@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import exudyn
-
-exudyn.config.printToConsole = False
-# Without a display, an open renderer ends the process.
-exudyn.special.userInterface.suppressRenderer = True
+from .lazily import exudyn
 
 
 @contextmanager
 def exudyn_system() -> Iterator[exudyn.MainSystem]:
     """Give an empty system; systems are not collected by themselves, and memory would grow."""
+    exudyn.config.printToConsole = False
+    # Without a display, an open renderer ends the process.
+    exudyn.special.userInterface.suppressRenderer = True
     container = exudyn.SystemContainer()
     mbs = container.AddSystem()
     try:

@@ -12,11 +12,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-import h5netcdf
-import h5py  # type: ignore[import-untyped]
-import xarray as xr
-from xarray.backends import H5NetCDFStore
-
+from ..lazily import h5netcdf, h5py, xr
 from .round_trip import attributes, plain
 
 # HDF5 knows where its data end and ignores what follows, so every reader of netCDF still can.
@@ -43,7 +39,7 @@ def encode(data: xr.Dataset) -> bytes:
     try:
         with _interrupts_held(), h5netcdf.File(buffer, "w") as file:
             # What another file's encoding said, a fill value for one, is not for this one.
-            data.drop_encoding().dump_to_store(H5NetCDFStore(file))
+            data.drop_encoding().dump_to_store(xr.backends.H5NetCDFStore(file))
     except Exception as error:  # each layer has exceptions of its own for what it cannot keep
         raise ValueError(str(error)) from error
     content = buffer.getvalue()

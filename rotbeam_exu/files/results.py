@@ -9,10 +9,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-import xarray as xr
-
 from analytic.input_checks import RotbeamWarning
 
+from ..lazily import xr
 from . import netcdf, table
 from .round_trip import difference, plain, same
 

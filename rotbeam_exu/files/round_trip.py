@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import xarray as xr
+
+from ..lazily import xr
 
 
 def plain(value: Any) -> Any:

@@ -25,8 +25,8 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
+from ..lazily import xr
 from .round_trip import attributes, is_text, plain
 
 _MARK = "# rotbeam_exu table, sha256 of all below: "

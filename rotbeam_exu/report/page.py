@@ -12,7 +12,6 @@ from importlib import resources
 from string import Template
 from urllib.parse import quote
 
-from ..figures.judgement import judged_errors, judged_history, svg
 from ..verification.cases import CASES, VERSION
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
@@ -165,6 +164,9 @@ def _order(order: Order) -> str:
 
 
 def _case(name: str, record: Record) -> str:
+    # matplotlib takes longer to import than a judgement without a report.
+    from ..figures.judgement import judged_errors, judged_history, svg  # noqa: PLC0415
+
     found = record.judgement
     case = CASES.get(name)
     title = f"{name}: {case.title}" if case else name

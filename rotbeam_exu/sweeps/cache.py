@@ -9,13 +9,12 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-import xarray as xr
-
 from analytic.input_checks import RotbeamWarning
 
-from ..fem.simulation import versions
 from ..files.results import read, save, whole_file, writable_folder
 from ..files.round_trip import plain
+from ..lazily import xr
+from ..versions import versions
 
 _FORMAT = 2
 _MARK = "rotbeam-cache.json"

@@ -6,10 +6,10 @@ import json
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from ..fem.case import Case
-from ..fem.simulation import versions
+from ..lazily import xr
+from ..versions import versions
 from .measured import MEASURED
 
 

@@ -12,14 +12,14 @@ from itertools import product
 from typing import Literal
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, SpinUp
-from analytic.input_checks import RotbeamWarning, finite_values, whole_number
+from analytic.input_checks import RotbeamWarning, finite_values, flag, whole_number
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
-from ..fem.solver import Frame
+from ..fem.frame import Frame
+from ..lazily import xr
 from ..verdict import SimulationError
 from .cache import Cache
 from .collected import collect
@@ -110,6 +110,7 @@ def sweep(
     )  # fmt: skip
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
+    history = flag("history", history)
     if jobs is not None:
         jobs = whole_number("jobs", jobs)
     part, parts = (whole_number("shard", number) for number in shard)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-import xarray as xr
-
 from analytic import AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
 from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import run_case
+from ..lazily import xr
 from ..oscillation import NoOscillationError, steady_oscillation
 from ..verdict import SimulationError
 from .provenance import code_of

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 
-import xarray as xr
-
 from analytic import AnyBlade, SpinUp, SteadyRotation
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
 from ..fem.elements.section import shear_share
 from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import simulate
+from ..lazily import xr
 from .peers import PEERS, Entry, StateOf, installed, peer
 from .theory import BERNOULLI_EULER, Theory
 

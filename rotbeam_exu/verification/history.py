@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
+from ..lazily import xr
 from ..oscillation import SteadyOscillation, steady_oscillation
 from ..verdict import beam_attributes
 from .cases import Case
@@ -71,7 +71,7 @@ class Histories:
         finest = self.rows.finest
         time = finest.time[finest.time <= min(float(run.time[-1]) for run in self.runs)]
         return {
-            run: d[: time.size] if run is finest else CubicSpline(run.time, d)(time)
+            run: d[: time.size] if run is finest else interpolate.CubicSpline(run.time, d)(time)
             for run, d in self.differences.items()
         }
 

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, Beam, SpinUp, spin_up_response
 
+from ..lazily import xr
 from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case, starting_orbit
 from .judgement import Judgement, judged
 from .peers import Entry

@@ -8,10 +8,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import BSpline
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
 from .cases import CASES, Asked, Case
 from .sampled import sampled_history, spline
@@ -40,7 +40,7 @@ class Reference:
     theory: Theory
     bound: float
     source: str
-    _history: BSpline | None = field(default=None, repr=False)
+    _history: interpolate.BSpline | None = field(default=None, repr=False)
 
     def history(self, times: ArrayLike) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.

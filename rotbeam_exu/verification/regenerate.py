@@ -13,14 +13,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from rich.progress import track
-from scipy.interpolate import CubicSpline
 
 from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
+from analytic.lazily import interpolate
 
+from ..lazily import xr
 from . import shipped
 from .cases import CASES, VERSION, Case
 from .sampled import Sampled, sampled_history
@@ -129,7 +129,7 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     between = np.array([of.get(round(a, 9), np.nan) for a in halfway.tolist()])
     count = int(np.isfinite(known).cumprod().sum())  # up to the first that was not reached
     while True:
-        spline = CubicSpline(at[:count] ** 2, known[:count])
+        spline = interpolate.CubicSpline(at[:count] ** 2, known[:count])
         halves = slice(count - 2)
         errors = np.abs((spline(halfway[halves] ** 2) - between[halves]) * halfway[halves] ** 2)
         # What is not a number is no good either.

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
 
 from analytic import SpinUp
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
 from .cases import Case
 from .theory import Theory
@@ -35,9 +35,9 @@ class Sampled:
     error: float
 
 
-def spline(time: FloatArray, q: FloatArray) -> BSpline:
+def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     """Return the quintic spline through samples."""
-    return make_interp_spline(time, q, k=5)
+    return interpolate.make_interp_spline(time, q, k=5)
 
 
 def sampled_history(

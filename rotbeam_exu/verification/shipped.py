@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.interpolate import BSpline, CubicSpline
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
@@ -111,7 +111,7 @@ class Shipped:
             f"{dimension}_of"
         ].to_numpy().tolist()
 
-    def history(self, case: Case) -> tuple[BSpline, float] | None:
+    def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
         name = self._places.get(key(case))
         if name is None or case.duration > DURATION:
@@ -131,7 +131,7 @@ class Shipped:
         return None if found is None else float(found)
 
     @cached_property
-    def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, CubicSpline]]:
+    def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, interpolate.CubicSpline]]:
         """ω_n and the curvature over a², by blade and speed."""
         a, of = self.data["amplitude"].to_numpy(), dict(zip(*self._listed("backbone"), strict=True))
         found = {}
@@ -140,7 +140,10 @@ class Shipped:
                 here = self.data.sel(backbone=name)
                 curvature = here["curvature"].to_numpy()
                 known = np.isfinite(curvature)
-                found[place] = float(here["omega_n"]), CubicSpline(a[known] ** 2, curvature[known])
+                found[place] = (
+                    float(here["omega_n"]),
+                    interpolate.CubicSpline(a[known] ** 2, curvature[known]),
+                )
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:

@@ -19,6 +19,7 @@ from analytic import (
     periodic_orbits,
     spin_up_response,
 )
+from analytic.input_checks import flag
 from analytic.loads import Load
 from analytic.profiles import evaluated, in_units
 
@@ -38,6 +39,9 @@ class Theory:
 
     rotary_inertia: bool = False
     shear_share: float | None = None
+
+    def __post_init__(self) -> None:
+        flag("rotary_inertia", self.rotary_inertia)
 
     @property
     def name(self) -> str:

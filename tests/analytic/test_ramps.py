@@ -33,7 +33,9 @@ def test_rate_and_acceleration_are_the_derivatives(ramp):
     # Cubics on steps of 5e-4 s.
     assert ramp.rate(TIMES)[inside] == pytest.approx(angle(TIMES, 1)[inside], abs=1e-6)
     rate = CubicSpline(TIMES, ramp.rate(TIMES))
-    assert ramp.acceleration(TIMES)[inside] == pytest.approx(rate(TIMES, 1)[inside], abs=1e-5)
+    # A table's acceleration has kinks, which a cubic rounds off by a share of slope times step.
+    near = 2e-3 if isinstance(ramp, Table) else 1e-5
+    assert ramp.acceleration(TIMES)[inside] == pytest.approx(rate(TIMES, 1)[inside], abs=near)
 
 
 @pytest.mark.parametrize("ramp", RAMPS.values(), ids=RAMPS)
@@ -41,10 +43,10 @@ def test_speed_has_two_derivatives_at_both_ends(ramp):
     for end, speed in ((0.0, ramp.start), (ramp.ramp_time, ramp.omega)):
         assert ramp.rate(end) == pytest.approx(speed, abs=1e-12)
         assert ramp.acceleration(end) == pytest.approx(0.0, abs=1e-11)
-        # Linear in the distance from the end, were there a jerk.
+        # Linear in the distance from the end where there is a jerk, as a table has.
         near, nearer = (abs(ramp.acceleration(end + s * h)) for h in (1e-3, 5e-4)
                         for s in ((1.0,) if end == 0.0 else (-1.0,)))  # fmt: skip
-        assert nearer < 0.3 * near
+        assert nearer < (0.51 if isinstance(ramp, Table) else 0.3) * near
     assert ramp.angle(0.0) == 0.0
     assert ramp.rate(-1.0) == pytest.approx(ramp.start)
     assert ramp.rate(99.0) == pytest.approx(ramp.omega)
@@ -63,14 +65,40 @@ def test_one_wave_is_eq_1():
         assert getattr(ramp, name)(TIMES) == pytest.approx(getattr(spin_up, name)(TIMES), abs=1e-13)
 
 
-def test_table_converges_with_the_sixth_power(spin_up, fitted_order):
-    counts = np.array([12, 24, 48])
-    at = np.linspace(0.0, 3.0, 501)
+def test_table_converges_with_the_third_power(spin_up, fitted_order):
+    counts = np.array([25, 50, 100, 200])
+    at = np.linspace(0.0, 3.0, 5001)
     errors = [
         np.abs(Table(t, spin_up.rate(t)).rate(at) - spin_up.rate(at)).max()
         for t in (np.linspace(0.0, 3.0, n + 1) for n in counts)
     ]
-    assert fitted_order(1.0 / counts, errors) == pytest.approx(6.0, abs=0.3)
+    assert fitted_order(1.0 / counts, errors) == pytest.approx(3.0, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ("times", "speeds"),
+    [
+        ([0.0, 0.1, 0.2, 3.0], [0.0, 0.0, 5.9, 6.0]),  # a step as one measures it
+        ([0.0, 1.0, 1.01, 2.0, 4.0], [6.0, 6.0, 0.0, 0.0, 3.0]),  # a brake, then on
+        (np.linspace(0.0, 3.0, 301), np.clip(4.0 * np.linspace(0.0, 3.0, 301), 0.0, 6.0)),
+    ],
+    ids=["step", "brake", "corner"],
+)
+def test_a_table_stays_between_its_speeds(times, speeds):
+    table = Table(times, speeds)
+    for start, end, before, after in zip(
+        times[:-1], times[1:], speeds[:-1], speeds[1:], strict=True
+    ):
+        inside = table.rate(np.linspace(start, end, 101))
+        # But for round-off of the largest speed.
+        assert inside.min() >= min(before, after) - 1e-14 * max(speeds)
+        assert inside.max() <= max(before, after) + 1e-14 * max(speeds)
+    assert fastest(table) == max(speeds)
+    # The acceleration is continuous, and zero at both ends.
+    knots, near = np.array(times)[1:-1], 1e-9
+    jumps = table.acceleration(knots + near) - table.acceleration(knots - near)
+    assert np.abs(jumps).max() < 1e-5 * np.abs(table.acceleration(np.linspace(0, 4, 999))).max()
+    assert table.acceleration(np.array([0.0, times[-1]])) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_table_is_a_value():
@@ -96,6 +124,9 @@ def test_fastest_sees_what_is_above_both_ends():
         (lambda: Table([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
         (lambda: Table([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
         (lambda: Table([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
+        (lambda: Table([0.0, 1e-300, 2.0], [0.0, 0.0, 1.0]), "from 0 to 1e-300 s .* leave one"),
+        (lambda: Table([0.0, 1.0, 2.0], [0.0, 1.7e308, 1.7e308]), "from 0 to 1 s .* leave one"),
+        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, cosines=(1e300, -1e300, -1.0)), "at most"),
     ],
 )
 def test_bad_input(make, sentence):
@@ -104,13 +135,16 @@ def test_bad_input(make, sentence):
 
 
 def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
-    at, times = np.linspace(0.0, 3.0, 31), np.linspace(0.0, 5.0, 101)
-    table, one = (
-        spin_up_response(beam, motion, times, tolerance=1e-6)
-        for motion in (Table(at, spin_up.rate(at)), spin_up)
-    )
-    # The table's own error is 1e-8 of the speed.
-    assert table.q == pytest.approx(one.q, abs=3e-6 * beam.length)
+    times = np.linspace(0.0, 5.0, 101)
+    one = spin_up_response(beam, spin_up, times, tolerance=1e-6)
+    off = []
+    for intervals in (25, 50, 100):
+        at = np.linspace(0.0, 3.0, intervals + 1)
+        table = spin_up_response(beam, Table(at, spin_up.rate(at)), times, tolerance=1e-6)
+        off.append(np.abs(table.q - one.q).max() / beam.length)
+    # What the docstring says of a hundred; and the third power, or better, on the way there.
+    assert off[2] < 1e-6
+    assert min(off[0] / off[1], off[1] / off[2]) > 8.0
 
 
 def test_what_turns_already_is_stretched_and_stays_so(beam):

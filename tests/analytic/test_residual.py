@@ -1,6 +1,7 @@
 """What a change of the speed leaves: closed form, exact transient, quiet ramps, designed ramps."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -197,3 +198,14 @@ def test_bad_input(beam):
         quiet_ramp_times(beam, 0.0)
     with pytest.raises(ValueError, match="take at most"):
         quiet_ramp_times(beam, 6.0, longest=1e9)
+
+
+def test_quiet_ramps_do_not_depend_on_the_unit_of_time(beam):
+    """They were sought to 1e-8 s, which a period of 1e-5 s, as of a MEMS blade, is 1000 of."""
+    faster = 2.0e5
+    small = replace(beam, youngs_modulus=beam.youngs_modulus * faster**2)
+    one = quiet_ramp_times(beam, 2.0, longest=5.0, tolerance=1e-4)
+    other = quiet_ramp_times(small, 2.0 * faster, longest=5.0 / faster, tolerance=1e-4)
+    # Both are found to 1e-8 of a period; the transients' round-off is a little more.
+    assert other.ramp_times * faster == pytest.approx(one.ramp_times, rel=1e-7)
+    assert other.left == pytest.approx(one.left, rel=1e-6)

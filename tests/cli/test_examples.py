@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from rotbeam_exu import explorer
 from rotbeam_exu.cli import _COMMANDS, app
-from rotbeam_exu.cli import explore as explore_job
-from rotbeam_exu.cli import verify as verify_job
 from rotbeam_exu.cli.documented import documented
 from rotbeam_exu.sweeps import grid
 from rotbeam_exu.sweeps.measured import MEASURED
+from rotbeam_exu.verification import cost, measures
 from rotbeam_exu.verification.cost import LADDER
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
@@ -59,10 +59,10 @@ def folder(tmp_path, monkeypatch, call):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "beam.toml").write_text(BEAM)
     monkeypatch.setattr(grid, "_solved", measured_at_once)
-    monkeypatch.setattr(explore_job, "explorer_page", lambda **_: "<title>Rotating beam explorer")
+    monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<title>Rotating beam explorer")
     monkeypatch.setattr(
-        verify_job,
-        "verification_of",
+        measures,
+        "verify",
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
             findings={},
@@ -71,9 +71,7 @@ def folder(tmp_path, monkeypatch, call):
             sources={},
         ),
     )
-    monkeypatch.setattr(
-        verify_job, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER))
-    )
+    monkeypatch.setattr(cost, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     return tmp_path
 
 

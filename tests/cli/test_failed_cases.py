@@ -3,7 +3,7 @@
 import pytest
 
 from rotbeam_exu import load
-from rotbeam_exu.cli import sweep as job
+from rotbeam_exu.sweeps import grid
 
 # Steps of 80 ms lose the run at 6 rad/s, not at 2 rad/s.
 GRID = ("--omega", "2", "6", "--ramp-time", "2.5", "--elements", "2", "--step", "0.08",
@@ -44,7 +44,7 @@ def test_without_a_terminal_each_finished_case_is_a_line_on_standard_error(swept
 
 def test_equal_sentences_are_printed_once_with_all_their_places(call, tmp_path, monkeypatch):
     sentences = {"the step is too large": [(2.0, 2.5), (6.0, 2.5)]}
-    monkeypatch.setattr(job, "failed_cases", lambda _: sentences)
+    monkeypatch.setattr(grid, "failed_cases", lambda _: sentences)
     code, out, _ = call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
     assert code == 1
     assert "failed at ω = 2 rad/s, T = 2.5 s; ω = 6 rad/s, T = 2.5 s: the step is too large" in out

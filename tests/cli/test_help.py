@@ -58,7 +58,7 @@ def test_defaults_are_shown_as_they_are_typed(call):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("stability",), "give --omega; rotbeam stability --help tells of it"),
+        (("respond", "--to", "2"), "give --from; rotbeam respond --help tells of it"),
         (("figure",), "give NUMBER; rotbeam figure --help tells of it"),
         (("run", "--omega"), "--omega needs a value; rotbeam run --help tells of it"),
     ],

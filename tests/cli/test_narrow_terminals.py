@@ -5,7 +5,7 @@ import io
 
 import pytest
 
-from rotbeam_exu.cli import verify as verify_job
+from rotbeam_exu.verification import cost, measures
 from rotbeam_exu.verification.convergence import convergence
 from rotbeam_exu.verification.cost import LADDER
 from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
@@ -54,17 +54,15 @@ def test_the_verdict_tables(call, monkeypatch):
     runs = convergence([0.25, 0.125, 0.0625], [1.23e-4 + h**4 for h in (0.25, 0.125, 0.0625)])
     found = found_of(runs, tolerance=2e-4, bound=1e-8, where="anywhere")
     monkeypatch.setattr(
-        verify_job,
-        "verification_of",
+        measures,
+        "verify",
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
             findings={"S1": dict.fromkeys(THRESHOLDS, found)},
             orders={}, histories={}, sources={},
         ),
     )  # fmt: skip
-    monkeypatch.setattr(
-        verify_job, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER))
-    )
+    monkeypatch.setattr(cost, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     monkeypatch.setenv("COLUMNS", "40")
     code, out, _ = call("verify", "--element", "cable", "--element", "exact")
     assert code == 0

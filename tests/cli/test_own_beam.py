@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import analytic
 from analytic import Beam
-from rotbeam_exu import paper
+from rotbeam_exu import comparison, explorer, paper
 from rotbeam_exu.cli import compare as compare_job
 from rotbeam_exu.cli import explore as explore_job
-from rotbeam_exu.cli import reference as reference_job
-from rotbeam_exu.cli import verify as verify_job
 from rotbeam_exu.cli.motion import Motion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.verification import measures
 
 # A reed, 360 times faster than the paper's beam.
 REED = (
@@ -33,7 +33,7 @@ def reed(tmp_path):
 
 def test_the_explorer_of_a_reed_has_its_own_speeds(call, tmp_path, monkeypatch, reed):
     seen = {}
-    monkeypatch.setattr(explore_job, "explorer_page", lambda **options: seen.update(options) or "")
+    monkeypatch.setattr(explorer, "explorer_page", lambda **options: seen.update(options) or "")
     monkeypatch.chdir(tmp_path)
     code, out, _ = call("explore", "--config", reed)
     assert code == 0
@@ -59,7 +59,7 @@ def test_compare_takes_the_beam_of_the_file_to_every_part(call, tmp_path, monkey
         seen.update(options, beam=beam)
         raise StoppedError
 
-    monkeypatch.setattr(compare_job.comparison, "figure_14", stopped)
+    monkeypatch.setattr(comparison, "figure_14", stopped)
     with pytest.raises(StoppedError):
         call("compare", "--config", reed, "--out", tmp_path)
     beam = load_beam(reed)
@@ -117,17 +117,17 @@ def test_ctrl_c_says_what_is_kept_or_that_nothing_is(call, tmp_path, monkeypatch
         raise KeyboardInterrupt
 
     cache = tmp_path / "cache"
-    monkeypatch.setattr(explore_job, "explorer_page", stopped)
+    monkeypatch.setattr(explorer, "explorer_page", stopped)
     page = ("explore", "--out", tmp_path / "page.html")
     assert f"kept in the cache {cache}" in call(*page, "--cache", cache)[2]
     code, _, error = call(*page)
     assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
-    monkeypatch.setattr(compare_job.comparison, "figure_14", stopped)
+    monkeypatch.setattr(comparison, "figure_14", stopped)
     code, _, error = call("compare", "--cache", cache, "--out", tmp_path)
     assert code == 130
     assert f"kept in the cache {cache}" in error
-    monkeypatch.setattr(verify_job, "verification_of", stopped)
-    monkeypatch.setattr(reference_job, "spin_up_response", stopped)
+    monkeypatch.setattr(measures, "verify", stopped)
+    monkeypatch.setattr(analytic, "spin_up_response", stopped)
     for command in (("verify", "--element", "cable"), ("reference", "--out", tmp_path)):
         code, _, error = call(*command)
         assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")

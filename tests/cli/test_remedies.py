@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-import rotbeam_exu.cli.run as run_job
 import rotbeam_exu.cli.sweep as sweep_job
+from rotbeam_exu.fem import simulation
 from rotbeam_exu.sweeps.cache import Cache
 
 QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
@@ -46,7 +46,7 @@ def test_an_option_is_suggested_only_if_it_is_alike(call, command, wrong, meant)
 
 def test_at_rest_nothing_oscillates_and_a_speed_helps(call, tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
-        patch.setattr(run_job, "run_case", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
         code, _, error = run(call, tmp_path, omega=0)
     assert code == 2
     assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error

@@ -3,9 +3,9 @@
 import pytest
 
 import rotbeam_exu.cli.figure as figure_job
-import rotbeam_exu.cli.run as job
-import rotbeam_exu.cli.sweep as sweep_job
-from rotbeam_exu import load
+from rotbeam_exu import load, oscillation
+from rotbeam_exu.fem import simulation
+from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
 BEAM = (
@@ -19,7 +19,7 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
     with monkeypatch.context() as patch:
-        patch.setattr(job, "run_case", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
         for options, sentence in (
             (("--step", "0.005"), "step 0.01 instead of 0.005"),
             (("--duration", "9"), "duration 8 instead of 9"),
@@ -78,7 +78,7 @@ def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
     assert swept("--omega", "6", "--ramp-time", "3")[0] == 0
     assert swept("--omega", "6", "--ramp-time", "3")[0] == 0
     with monkeypatch.context() as patch:
-        patch.setattr(sweep_job, "run_sweep", lambda *_, **__: pytest.fail("computed first"))
+        patch.setattr(grid, "sweep", lambda *_, **__: pytest.fail("computed first"))
         code, _, error = swept("--omega", "5", "--ramp-time", "3")
         assert code == 2
         assert "sweep-cable-2.nc holds another result: omega" in error
@@ -90,7 +90,7 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
         progress(2, 4)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sweep_job, "run_sweep", stopped)
+    monkeypatch.setattr(grid, "sweep", stopped)
     code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"interrupted; 2 of 4 spin-ups are kept in the cache {tmp_path}/c" in error
@@ -98,7 +98,7 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     def later(_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(job, "steady_oscillation", later)
+    monkeypatch.setattr(oscillation, "steady_oscillation", later)
     code, _, error = call("run", *SHORT, "--out", tmp_path)
     assert code == 130
     assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error

@@ -135,7 +135,7 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
     def broken(*_, **__):
         raise ResponseNotReachedError("the response was not found after 3.7 rad/s", exact)
 
-    monkeypatch.setattr(job, "forced_response", broken)
+    monkeypatch.setattr(job.analytic, "forced_response", broken)
     code, _, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 1
     kept = tmp_path / "response-omega-6-ripple-0.002-from-3.6-to-3.8-failed.nc"
@@ -158,7 +158,9 @@ def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
     )
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     assert call(*lone, "--external-damping", "0.5")[0] == 0
-    monkeypatch.setattr(job, "gravity_response", lambda *_, **__: pytest.fail("computed first"))
+    monkeypatch.setattr(
+        job.analytic, "gravity_response", lambda *_, **__: pytest.fail("computed first")
+    )
     code, _, error = call(*lone, "--external-damping", "0.6")
     assert code == 2
     assert "damping_external 0.5 instead of 0.6" in error

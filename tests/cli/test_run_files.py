@@ -6,6 +6,7 @@ import pytest
 from analytic import Beam, SpinUp
 from rotbeam_exu import load, save, simulate
 from rotbeam_exu.files.run_file import load_run_file
+from rotbeam_exu.verification import measures
 
 RUN = """
 [motion]
@@ -167,3 +168,53 @@ def test_the_reference_is_the_exact_spin_up(call, tmp_path):
     code, _, error = call("reference", *quick[:6], "--samples", "8", "-o", tmp_path)
     assert code == 2
     assert "samples 7 instead of 8" in error
+
+
+def test_the_motion_of_the_file_is_that_of_ramp_and_stability(call, config, tmp_path):
+    """`ramp` designed for the speed it would have chosen, 6 rad/s, where the file said 4."""
+    out = tmp_path / "out"
+    few = ("--longest", "4", "--points", "0", "--finite-element-points", "1", "--out", out)
+    code, said, _ = call("ramp", "--config", config, *few)
+    assert code == 0
+    assert "ω = 4 rad/s" in said
+    attrs = load(out / "ramp-omega-4-longest-4.nc").attrs
+    assert (attrs["omega"], attrs["element"], attrs["elements"]) == (4.0, "cable", 2)
+    assert call("ramp", "--config", config, "--omega", "5", "--elements", "1", *few)[0] == 0
+    attrs = load(out / "ramp-omega-5-longest-4.nc").attrs
+    assert (attrs["omega"], attrs["elements"]) == (5.0, 1)
+    tube = ("stability", "--section", "tube", "--amplitude", "0.02", "--out", out)
+    code, said, _ = call(*tube, "--config", config)
+    assert code == 0
+    assert said.startswith("At 4 rad/s")
+    assert "--omega" in call(*tube)[2]
+
+
+def test_duration_and_step_of_the_file_reach_animate_and_verify(
+    call, config, tmp_path, monkeypatch
+):
+    film = ("animate", "--config", config, "--rate", "1", "--out", tmp_path / "film.gif")
+    assert ", to 8 s" in call(*film)[1]
+
+    def stopped(entry, *, spin_up, duration, **_):
+        raise KeyboardInterrupt(f"{entry.step:g} {duration:g} {spin_up.omega:g}")
+
+    monkeypatch.setattr(measures, "verify", stopped)
+    assert "0.01 8 4" in call("verify", "--element", "cable", "--config", config)[2]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        ("reference", "--omega", "None"), ("ramp", "--omega=None"),
+        ("sweep", "--omega", "6", "null"), ("sweep", "--duration", "None"),
+        ("campbell", "--omega-max", "NONE"),
+        ("run", "--elements", "none"), ("respond", "--from", "1", "--to", "2", "--ripple", "None"),
+    ],
+    ids=" ".join,
+)  # fmt: skip
+def test_none_is_no_value(call, line):
+    """A script that fills in what it lacks got the paper's number and exit code 0."""
+    code, out, error = call(*line)
+    assert (code, out) == (2, "")
+    assert "must have a value, got" in error
+    assert "leave it out" in error

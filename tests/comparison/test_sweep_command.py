@@ -2,9 +2,9 @@
 
 import pytest
 
-import rotbeam_exu.cli.sweep as sweep_job
 from rotbeam_exu import load
 from rotbeam_exu.cli import main
+from rotbeam_exu.sweeps import grid
 
 COARSE = {"--elements": "2", "--step": "0.005", "--duration": "9", "--jobs": "1"}
 
@@ -92,7 +92,7 @@ def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, 
         asked.update(options)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sweep_job, "run_sweep", stop)
+    monkeypatch.setattr(grid, "sweep", stop)
     config = tmp_path / "reed.toml"
     config.write_text(
         "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"

@@ -2,12 +2,12 @@
 
 import pytest
 
-import rotbeam_exu.cli.explore as job
+from rotbeam_exu import explorer
 from rotbeam_exu.cli import main
 
 
 def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(job, "explorer_page", lambda **_: "<!doctype html>ω")
+    monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<!doctype html>ω")
     out = tmp_path / "site" / "explorer.html"
     main(["explore", "--out", str(out)])
     assert out.read_text(encoding="utf-8") == "<!doctype html>ω"
@@ -16,7 +16,7 @@ def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
 
 
 def test_another_ending_is_refused_before_any_work(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(job, "explorer_page", lambda **_: pytest.fail("computed first"))
+    monkeypatch.setattr(explorer, "explorer_page", lambda **_: pytest.fail("computed first"))
     with pytest.raises(SystemExit) as stop:
         main(["explore", "--out", str(tmp_path / "explorer.pdf")])
     assert stop.value.code == 2

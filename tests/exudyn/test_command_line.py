@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from matplotlib.artist import Artist
 
-import rotbeam_exu.cli.run as run_job
 from rotbeam_exu import load
 from rotbeam_exu.cli import main
+from rotbeam_exu.fem import simulation
 
 REPOSITORY = Path(__file__).parents[2]
 SHORT = ["--elements", "4", "--step", "0.005", "--duration", "8"]
@@ -117,7 +117,7 @@ def test_bad_arguments_exit_with_2_and_one_sentence(tmp_path, capsys, arguments,
 
 
 def test_an_unwritable_folder_is_found_before_the_simulation(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(run_job, "run_case", lambda *_, **__: pytest.fail("simulated first"))
+    monkeypatch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("simulated first"))
     (tmp_path / "file").write_text("")
     code, error = refused(capsys, "run", "--out", str(tmp_path / "file"))
     assert code == 2

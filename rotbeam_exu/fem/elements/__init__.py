@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from analytic import AnyBlade
+from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
 from .ancf3 import Ancf3
@@ -36,6 +37,7 @@ def formulation(
         If the name, or an option of it, is not known: the sentence says which are.
     """
     if not isinstance(element, str):
+        require_formulation(element)
         return element
     element = ALIASES.get(element, element)
     if element not in FORMULATIONS:
@@ -52,6 +54,15 @@ def formulation(
             raise ValueError(f"element {element!r} has no option {name!r}; {has}")
     model: Formulation = cls(**(options or {}))
     return model
+
+
+def require_formulation(element: object) -> None:
+    """Refuse what is neither the name of a formulation nor one."""
+    if not hasattr(element, "lay"):
+        raise TypeError(
+            "element must be the name of a formulation, or one, which is an instance of a frozen "
+            f"dataclass, as Exact(nodes=3), got {shown(element)}"
+        )
 
 
 def require_modeled(beam: AnyBlade, model: Formulation) -> None:
@@ -100,5 +111,6 @@ __all__ = [
     "Substructures",
     "formulation",
     "options_of",
+    "require_formulation",
     "require_modeled",
 ]

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar, Literal
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain, NoDivergence
@@ -93,7 +92,7 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
         nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0]))
+            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0]))
             for x in mesh.positions
         )
         add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)

@@ -7,14 +7,13 @@ from functools import partial
 from itertools import pairwise
 from typing import ClassVar
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .hermite import shapes
@@ -48,12 +47,12 @@ class Cable(SlopeNodes, NoDivergence):
         """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
         mesh = Mesh(blade=beam, elements=elements)
         nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 1.0, 0.0]))
+            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 1.0, 0.0]))
             for x in mesh.positions
         )
         bodies = tuple(
             mbs.AddObject(
-                ObjectANCFCable2D(
+                items.ObjectANCFCable2D(
                     nodeNumbers=list(pair),
                     length=mesh.length,
                     massPerLength=section.mass_per_length,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import ObjectGenericODE2
 from numpy.typing import NDArray
-from scipy import sparse
 
 from analytic.arrays import FloatArray
+from analytic.lazily import sparse
+
+from ..lazily import exudyn, items
 
 
 class Assembly:
@@ -86,7 +86,7 @@ def add_energy_body(
         return matrix
 
     mbs.AddObject(
-        ObjectGenericODE2(
+        items.ObjectGenericODE2(
             nodeNumbers=list(nodes),
             massMatrix=container,
             forceUserFunction=applied,

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
-import exudyn
 import numpy as np
 
 from analytic.arrays import FloatArray
+
+from ..lazily import exudyn
 
 TurningNode = tuple[int, float]
 """A node, by its place in the chain, and the inertia [kg m²] against rotation of its slope."""

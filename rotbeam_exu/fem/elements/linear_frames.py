@@ -13,15 +13,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodePoint2DSlope1
-from scipy import linalg, optimize
 
 from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
+from analytic.lazily import linalg, optimize
 
+from ..lazily import exudyn, items
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
 from .hermite import HERMITE, scales
@@ -41,7 +40,7 @@ class _LinearFrames(SlopeNodes, abstract=True):
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
         nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=reference))
+            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=reference))
             for reference in row.reference.reshape(-1, 4)
         )
         add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)

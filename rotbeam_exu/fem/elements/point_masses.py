@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import ObjectGenericODE2, ObjectMassPoint2D
 
 from analytic.arrays import FloatArray
 
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .formulation import Chain, TurningNode
 
@@ -29,7 +28,7 @@ def add_point_masses(
     """Add the masses, and return the nodes whose slopes are to be given an inertia."""
     for node, one in mesh.lumped():
         if one.mass:
-            mbs.AddObject(ObjectMassPoint2D(nodeNumber=nodes[node], mass=one.mass))
+            mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=nodes[node], mass=one.mass))
     return tuple((node, one.inertia) for node, one in mesh.lumped() if one.inertia)
 
 
@@ -72,7 +71,9 @@ def _add_inertia(
         return result
 
     mbs.AddObject(
-        ObjectGenericODE2(nodeNumbers=[node], massMatrixUserFunction=mass, forceUserFunction=force)
+        items.ObjectGenericODE2(
+            nodeNumbers=[node], massMatrixUserFunction=mass, forceUserFunction=force
+        )
     )
 
 

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeRigidBody2D, ObjectBeamGeometricallyExact2D, ObjectRigidBody2D
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .formulation import Chain, NoDivergence
 from .node_kinds import AngleNodes
@@ -63,12 +62,13 @@ class Exact(AngleNodes, NoDivergence):
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
         nodes = tuple(
-            mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0])) for x in mesh.positions
+            mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, 0, 0]))
+            for x in mesh.positions
         )
         inner = self.nodes - 1
         for i, section in zip(range(0, inner * elements, inner), mesh.sections(), strict=True):
             mbs.AddObject(
-                ObjectBeamGeometricallyExact2D(
+                items.ObjectBeamGeometricallyExact2D(
                     nodeNumbers=list(nodes[i : i + self.nodes]),
                     length=mesh.length,
                     massPerLength=section.mass_per_length,
@@ -82,7 +82,7 @@ class Exact(AngleNodes, NoDivergence):
             )
         for node, one in mesh.lumped():
             mbs.AddObject(
-                ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
+                items.ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
             )
         viscous = mesh.damping.bending or mesh.damping.axial
         return Chain(

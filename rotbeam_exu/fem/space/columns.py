@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import cast
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade
 
+from ...lazily import xr
 from ..case import Case
 from ..columns import in_si
 from ..elements.formulation import spun

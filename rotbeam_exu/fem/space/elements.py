@@ -7,14 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar, Protocol
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    NodePointSlope1,
-    NodeRigidBodyEP,
-    ObjectANCFCable,
-    ObjectBeamGeometricallyExact,
-)
 from scipy.spatial.transform import Rotation as Turn
 
 from analytic import AnyBlade
@@ -22,14 +15,15 @@ from analytic.arrays import FloatArray
 from analytic.exact.space import require_out_of_plane
 from analytic.quadrature import gauss_points
 
-from ..elements import Chain, Formulation
+from ..elements import Chain, Formulation, require_formulation
 from ..elements.formulation import NoDivergence
 from ..elements.hermite import shapes
 from ..elements.section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
+from ..frame import Frame
 from ..kinetics import energy_and_momentum
+from ..lazily import exudyn, items
 from ..mesh import ElementSection, Mesh
 from ..rotating_beam import RotatingBeam
-from ..solver import Frame
 from .nodes import FrameNodes, SpaceSlopeNodes, directors, turning_rate
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
@@ -89,12 +83,12 @@ class SpaceCable(SpaceSlopeNodes, NoDivergence):
         """Add `elements` cables of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements)
         nodes = tuple(
-            mbs.AddNode(NodePointSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0]))
+            mbs.AddNode(items.NodePointSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0]))
             for x in mesh.positions
         )
         for pair, section in zip(pairwise(nodes), mesh.sections(), strict=True):
             mbs.AddObject(
-                ObjectANCFCable(
+                items.ObjectANCFCable(
                     nodeNumbers=list(pair),
                     length=mesh.length,
                     massPerLength=section.mass_per_length,
@@ -185,7 +179,9 @@ class SpaceExact(FrameNodes, NoDivergence):
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements)
         nodes = tuple(
-            mbs.AddNode(NodeRigidBodyEP(referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]))
+            mbs.AddNode(
+                items.NodeRigidBodyEP(referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+            )
             for x in mesh.positions
         )
         for pair, section in zip(pairwise(nodes), mesh.sections(), strict=True):
@@ -194,7 +190,7 @@ class SpaceExact(FrameNodes, NoDivergence):
             data.inertia = np.diag(_inertia(beam, section))
             data.massPerLength = section.mass_per_length
             mbs.AddObject(
-                ObjectBeamGeometricallyExact(
+                items.ObjectBeamGeometricallyExact(
                     nodeNumbers=list(pair), length=mesh.length, sectionData=data
                 )
             )
@@ -292,6 +288,7 @@ SPACE_FORMULATIONS: dict[str, type[Any]] = {cls.name: cls for cls in (SpaceCable
 def space_formulation(element: str | SpaceFormulation) -> SpaceFormulation:
     """Return the formulation in space called `element`, or the one that it is."""
     if not isinstance(element, str):
+        require_formulation(element)
         return element
     if element not in SPACE_FORMULATIONS:
         names = ", ".join(repr(name) for name in SPACE_FORMULATIONS)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import linalg
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
+from analytic.lazily import linalg
 
 from ..linearization import steady_system
 from ..units import Units

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import finite_array, positive
+from analytic.input_checks import finite_array, flag, positive
 
 _WIDTH = 0.05
 """Height of the drawn sections over L: as drawn to scale a slender blade is a hair."""
@@ -119,7 +119,7 @@ def ray_traced(
             strict=True,
         )
     ]
-    view = _AROUND if whole else _AHEAD
+    view = _AROUND if flag("whole", whole) else _AHEAD
     return _rendered([_floor(length, view), *shown], length, size, view)
 
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import xarray as xr
-
 from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_number
 
+from ...lazily import xr
 from ...verdict import SimulationError
 from ..case import Case
+from ..frame import Frame
 from ..simulation import run_case
-from ..solver import Frame
 from .columns import space_columns
 from .elements import SpaceFormulation, space_formulation
 from .state import SpaceState, kicked

@@ -6,10 +6,10 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from analytic import SpinUp, spin_up_response
 from analytic.arrays import FloatArray
+from analytic.lazily import optimize
 
 from ..cases import Case
 from .mistake import LEFT, Mistake, explaining
@@ -112,7 +112,7 @@ def _offset(
     tried = np.linspace(-_EARLIEST, _EARLIEST, _STEPS)
     best = float(tried[np.argmin([left(offset) for offset in tried])])
     width = tried[1] - tried[0]
-    found = minimize_scalar(left, bounds=(best - width, best + width), method="bounded")
+    found = optimize.minimize_scalar(left, bounds=(best - width, best + width), method="bounded")
     word = "late" if found.x > 0.0 else "early"
     said = f"q is {abs(found.x):.4g} s {word} throughout: the ramp begins at time zero"
     if not isinstance(case.motion, SpinUp):

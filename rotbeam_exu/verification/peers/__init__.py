@@ -21,12 +21,11 @@ from importlib import util
 from pathlib import Path
 from typing import Protocol
 
-import xarray as xr
-
 from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 
+from ...lazily import xr
 from ..theory import BERNOULLI_EULER, Theory
 
 FrequenciesOf = Callable[[AnyBlade, float, int], float]

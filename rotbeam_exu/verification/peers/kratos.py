@@ -17,12 +17,12 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, positive, whole_number
 
+from ...lazily import xr
 from ...resolution import require_resolved_ramp, sampling
 from ...verdict import SimulationError, beam_attributes, motion_attributes
 

@@ -1,0 +1,16 @@
+"""Libraries that take longer to import than most commands run, imported on first use."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from analytic.lazily import Lazily
+
+if TYPE_CHECKING:
+    import h5netcdf
+    import h5py  # type: ignore[import-untyped]
+    import xarray as xr
+else:
+    h5netcdf, h5py, xr = map(Lazily, ("h5netcdf", "h5py", "xarray"))
+
+__all__ = ["Lazily", "h5netcdf", "h5py", "xr"]

@@ -1,0 +1,227 @@
+"""Every refusal is a sentence of ours: no AttributeError, MemoryError or ZeroDivisionError."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import analytic
+import rotbeam_exu
+from analytic import (
+    Beam,
+    Blade,
+    Damping,
+    OutOfPlane,
+    PointMass,
+    RotbeamWarning,
+    Section,
+    SpinUp,
+    TipForce,
+    Variant,
+    backbone_branch,
+    backbone_curve,
+    backbone_map,
+    campbell,
+    damping_ratios,
+    design_ramp,
+    forced_response,
+    gravity_response,
+    linear_modes,
+    linear_response,
+    periodic_orbits,
+    planar_stability,
+    residual_amplitude,
+    spin_up_response,
+    stability_limit,
+    timoshenko_frequencies,
+)  # fmt: skip
+from rotbeam_exu import natural_frequencies, simulate, simulate_3d, sweep
+
+BEAM = Beam.reference()
+STRIP = BEAM.rectangle()
+DAMPED = BEAM.with_damping(Damping(external=0.1))
+PUSH = TipForce(amplitude=0.5)
+SLOW = SpinUp(omega=2.0, ramp_time=1.0)
+SECTION = BEAM.blade.section
+
+# What a public function needs beside the beam; each is refused for its beam before.
+OTHERS = {
+    "omega": 6.0, "spin_up": SLOW, "motion": SLOW, "times": [1.0], "amplitudes": [0.1],
+    "load": PUSH, "frequencies": [3.6, 3.7], "duration": 2.0, "omegas": [2.0, 4.0],
+    "amplitude": 0.1, "ramp_times": [3.0], "ratios": [2.0, 3.0], "substructures": 2,
+    "shear_share": 0.3,
+}  # fmt: skip
+OF_A_BEAM = [
+    (package, name)
+    for package in (analytic, rotbeam_exu)
+    for name in package.__all__
+    if inspect.isfunction(getattr(package, name))
+    and next(iter(inspect.signature(getattr(package, name)).parameters), "") in ("beam", "blade")
+]
+
+
+@pytest.mark.parametrize(("package", "name"), OF_A_BEAM, ids=str)
+@pytest.mark.parametrize(
+    "wrong", [3.0, "Beam", Beam, BEAM.unit], ids=["3", "text", "class", "unit"]
+)
+def test_what_is_no_beam_is_refused(package, name, wrong):
+    function = getattr(package, name)
+    _, *others = inspect.signature(function).parameters.values()
+    given = {p.name: OTHERS[p.name] for p in others if p.default is p.empty}
+    with pytest.raises((TypeError, ValueError), match="a Beam or a Blade is needed|uniform Beam"):
+        function(wrong, **given)
+
+
+def test_there_are_as_many_as_there_are():
+    """The list above is made from signatures: it must not run empty unseen."""
+    assert len(OF_A_BEAM) >= 30
+
+
+FLAGS = {
+    "linear_modes": lambda f: linear_modes(BEAM, 6.0, inextensible=f),
+    "its inertia": lambda f: linear_modes(BEAM, 6.0, rotary_inertia=f),
+    "inertia in flap": lambda f: linear_modes(STRIP, 6.0, plane="flap", rotary_inertia=f),
+    "periodic_orbits": lambda f: periodic_orbits(BEAM, 6.0, [0.1], inextensible=f),
+    "their inertia": lambda f: periodic_orbits(BEAM, 6.0, [0.1], rotary_inertia=f),
+    "backbone_curve": lambda f: backbone_curve(BEAM, 6.0, inextensible=f),
+    "backbone_branch": lambda f: backbone_branch(BEAM, 6.0, inextensible=f),
+    "backbone_map": lambda f: backbone_map(BEAM, inextensible=f),
+    "forced_response": lambda f: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], inextensible=f),
+    "gravity_response": lambda f: gravity_response(DAMPED, [3.6, 3.7], inextensible=f),
+    "planar_stability": lambda f: planar_stability(STRIP, 6.0, 0.1, inextensible=f),
+    "stability_limit": lambda f: stability_limit(STRIP, 6.0, inextensible=f),
+    "spin_up_response": lambda f: spin_up_response(BEAM, SLOW, [1.0], rotary_inertia=f),
+    "timoshenko_frequencies": lambda f: timoshenko_frequencies(
+        BEAM, 6.0, shear_share=0.3, rotary_inertia=f
+    ),
+    "linear_response": lambda f: linear_response(BEAM, SLOW, [1.0], foreshortening=f),
+    "residual_amplitude": lambda f: residual_amplitude(BEAM, SLOW, corrected=f),
+    "Variant": lambda f: Variant(name="mine", shape="rotating", axial="consistent", coriolis=f),
+    "sweep": lambda f: sweep(BEAM, omegas=[6.0], ramp_times=[3.0], history=f),
+}
+
+
+@pytest.mark.parametrize("name", FLAGS)
+@pytest.mark.parametrize("wrong", ["no", "False", np.nan, 0.5, 0, None, [], np.array([True])])
+def test_a_flag_is_true_or_false(name, wrong):
+    """ "no" was taken for True, and so was nan."""
+    with pytest.raises(TypeError, match="must be True or False, got"):
+        FLAGS[name](wrong)
+
+
+def test_numpys_flags_are_flags():
+    given = linear_modes(BEAM, 6.0, inextensible=np.True_).frequencies
+    assert np.array_equal(given, linear_modes(BEAM, 6.0, inextensible=True).frequencies)
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: backbone_curve(BEAM, 6.0, 1e-300), "up_to must be at least 0.0001, got 1e-300"),
+        # Round-off gave λ_ω = -0.76 for 0.0197.
+        (lambda: backbone_curve(BEAM, 6.0, 1e-6), "up_to must be at least 0.0001"),
+        (lambda: backbone_branch(BEAM, 6.0, 1e-300), "up_to must be at least 0.0001"),
+        (lambda: backbone_map(BEAM, up_to=1.0), "up_to must be below 1, got 1"),
+        (lambda: stability_limit(STRIP, 6.0, largest=1e-300), "largest must be at least 0.0001"),
+        (lambda: backbone_map(BEAM, omegas=[]), "omegas must be a sequence of numbers"),
+        (lambda: backbone_map(BEAM, omegas=[1.0]), "lowest and the highest speed, got .1.0."),
+        (lambda: backbone_map(BEAM, omegas=None), "omegas must be numbers in rad/s, got None"),
+        (lambda: backbone_curve(BEAM, 6.0, coefficients=10**9), "coefficients must be at most"),
+        (lambda: design_ramp(BEAM, 2.0, 5.0, modes=10**6), "modes must be at most 20"),
+        (
+            lambda: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], harmonics=10**6),
+            "harmonics must be at most 100",
+        ),
+        (lambda: campbell(BEAM, [0.0, 6.0], orders=10**5), "orders must be at most 1000"),
+        (lambda: damping_ratios(DAMPED, 0.0, 200), "count must be at most 128, got 200"),
+        (lambda: Blade(length=8.0, section=None), "section must be a Section, got None"),
+        (
+            lambda: Blade(length=8.0, section=SECTION, damping=0.01),
+            "damping must be a Damping, got 0.01",
+        ),
+        (
+            lambda: Blade(
+                length=8.0, section=SECTION, point_masses=PointMass(position=1.0, mass=1.0)
+            ),
+            "point_masses must be several",
+        ),
+        (lambda: BEAM.with_damping(None), "damping must be a Damping, got None"),
+        (
+            lambda: OutOfPlane(bending_ratio=4.0, torsion_ratio=np.ma.masked),
+            "torsion_ratio must be a number, got masked",
+        ),
+        (
+            lambda: OutOfPlane(bending_ratio=4.0, torsion_ratio=np.array([0.5, 1.0])),
+            "torsion_ratio must be a number",
+        ),
+        (lambda: linear_modes(BEAM, np.timedelta64(6, "s")), "omega must be a number in rad/s"),
+        (lambda: linear_modes(BEAM, 6.0, np.timedelta64(2)), "count must be a whole number"),
+        (lambda: simulate_3d(STRIP, None), "spin_up must be a SpinUp"),
+        (lambda: simulate_3d(STRIP, SLOW, element=3), "element must be the name of a formulation"),
+        (lambda: simulate(BEAM, SLOW, element=3), "element must be the name of a formulation"),
+        (lambda: simulate(BEAM, None), "spin_up must be a SpinUp"),
+        (lambda: natural_frequencies(BEAM, 6.0, element=None), "element must be the name"),
+    ],
+)  # fmt: skip
+def test_a_wrong_input_is_a_sentence(call, sentence):
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        call()
+
+
+@pytest.mark.parametrize(
+    "refused",
+    [
+        lambda text: linear_modes(BEAM, text),
+        lambda text: linear_modes(BEAM, 6.0, text),
+        lambda text: periodic_orbits(BEAM, 6.0, [text]),
+        lambda text: periodic_orbits(text, 6.0, [0.1]),
+    ],
+)
+def test_a_long_text_is_not_repeated_whole(refused):
+    with pytest.raises(TypeError) as refusal:
+        refused("6" * 10**6)
+    assert len(str(refusal.value)) < 300
+
+
+def test_as_many_modes_as_are_asked_for():
+    """`damping_ratios` and `design_ramp` advised an argument `functions` that they lack."""
+    damped = BEAM.with_damping(Damping(bending=1e-4))
+    # ζ = η ω/2 of a bending mode at rest; the twelfth is axial, and has none.
+    expected = 0.5e-4 * linear_modes(BEAM, 0.0, 11, functions=24).frequencies
+    assert damping_ratios(damped, 0.0, 12) == pytest.approx([*expected, 0.0], rel=1e-3, abs=1e-12)
+    assert planar_stability(STRIP, 6.0, 1e-3, mode=9).stable.shape == (1,)
+
+
+@pytest.mark.parametrize(
+    ("made", "meant"),
+    [
+        (
+            lambda: Beam(
+                length=8.0, area=7.3e-5, second_moment=8.2e-9, youngs_modulus=68.95, density=2767.0
+            ),
+            "68.95 GPa are 6.895e.10 Pa",
+        ),
+        (
+            lambda: Section(
+                axial_stiffness=5.033e-3, bending_stiffness=5.66e-7, mass_per_length=0.202
+            ),
+            "0.005033 GN are 5.033e.06 N",
+        ),
+    ],
+)
+def test_a_stiffness_in_giga_is_told(made, meant):
+    """E in GPa went through: ω_0 = 9e-5 rad/s."""
+    with pytest.warns(
+        RotbeamWarning, match=rf"along the beam at 0.158 m/s.*{meant} and make it 499. m/s"
+    ):
+        made()
+
+
+@pytest.mark.parametrize(
+    ("modulus", "density"),
+    [(1e6, 1000.0), (68.95e3, 2.767e-9), (68.95, 2.767e-6), (6.895e11, 2.767)],
+    ids=["rubber", "mm t s", "mm kg ms", "cgs"],
+)
+def test_rubber_and_usual_units_are_not(modulus, density):
+    """Warnings are errors in this suite."""
+    Beam(length=8.0, area=7.3e-5, second_moment=8.2e-9, youngs_modulus=modulus, density=density)

@@ -1,0 +1,133 @@
+"""A number is a number in whatever type it comes: half, single, extended precision, or an int."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from analytic import (
+    Beam,
+    Blade,
+    Damping,
+    DistributedForce,
+    Gravity,
+    OutOfPlane,
+    PointMass,
+    Section,
+    SmoothRamp,
+    SpeedRipple,
+    SpinUp,
+    SteadyRotation,
+    Table,
+    TipForce,
+    backbone_branch,
+    backbone_curve,
+    backbone_map,
+    campbell,
+    damping_ratios,
+    forced_response,
+    gravity_response,
+    linear_modes,
+    linear_response,
+    paper_table,
+    periodic_orbits,
+    planar_note,
+    planar_stability,
+    quiet_ramp_times,
+    reduced_model,
+    residual_amplitude,
+    spin_up_response,
+    stability_limit,
+    timoshenko_frequencies,
+    unstretched_frequencies,
+)  # fmt: skip
+
+BEAM = Beam.reference()
+STRIP = BEAM.rectangle()
+DAMPED = BEAM.with_damping(Damping(bending=0.0625, external=0.125))
+SLOW = SpinUp(omega=2.0, ramp_time=3.0)
+
+# Every number in them is exact in half precision; what comes out is the same to the last bit.
+ANSWERS = {
+    "linear_modes": lambda n: linear_modes(BEAM, n(6), 2).frequencies,
+    "flap": lambda n: linear_modes(STRIP, n(6), 2, plane="flap").frequencies,
+    "torsion": lambda n: linear_modes(STRIP, n(6), 2, plane="torsion").frequencies,
+    "shear": lambda n: linear_modes(BEAM, n(6), 2, shear_share=n(0.25)).frequencies,
+    "damping_ratios": lambda n: damping_ratios(DAMPED, n(6), 2),
+    "campbell": lambda n: campbell(BEAM, [n(0), n(6)], 1, 2).frequencies,
+    "timoshenko": lambda n: timoshenko_frequencies(BEAM, n(6), shear_share=n(0.25)),
+    "unstretched": lambda n: unstretched_frequencies(BEAM, n(6), 2),
+    "periodic_orbits": lambda n: periodic_orbits(BEAM, n(6), [n(0.25)]).frequency,
+    "backbone_curve": lambda n: backbone_curve(BEAM, n(6), n(0.25), tolerance=n(2**-14)).frequency(
+        n(0.125)
+    ),
+    "backbone_branch": lambda n: backbone_branch(
+        BEAM, n(6), n(0.125), inextensible=True, functions=8
+    ).frequency,
+    "backbone_map": lambda n: backbone_map(
+        BEAM, (n(5.5), n(6.5)), n(0.125), speeds=8, tolerance=n(2**-14), functions=8
+    ).frequency(n(6), n(0.0625)),
+    "reduced_model": lambda n: reduced_model(BEAM, n(6), "FrM").frequency(n(0.125)),
+    "its exact frequency": lambda n: reduced_model(BEAM, n(6), "FrE").exact_frequency(n(0.125)),
+    "forced_response": lambda n: forced_response(
+        DAMPED, n(6), TipForce(amplitude=n(0.5)), [n(3.5), n(3.625)], functions=8
+    ).amplitude,
+    "gravity_response": lambda n: gravity_response(
+        DAMPED, [n(6), n(6.25)], n(9.75), functions=8
+    ).amplitude,
+    "spin_up_response": lambda n: spin_up_response(
+        BEAM, SpinUp(omega=n(2), ramp_time=n(3)), [n(1), n(2)], tolerance=n(2**-10)
+    ).q,
+    "linear_response": lambda n: linear_response(BEAM, SLOW, [n(1), n(2)], points=[n(4)]).q,
+    "residual_amplitude": lambda n: residual_amplitude(BEAM, SLOW, [n(3), n(4)], corrected=True),
+    "quiet_ramp_times": lambda n: quiet_ramp_times(
+        BEAM, n(2), longest=n(5), tolerance=n(2**-12)
+    ).ramp_times,
+    "planar_stability": lambda n: planar_stability(STRIP, n(4), [n(0.25)]).growth_rate,
+    "planar_note": lambda n: planar_note(STRIP, n(4), n(0.25)),
+    "stability_limit": lambda n: stability_limit(STRIP, n(4), largest=n(0.125)).amplitude,
+    "loads": lambda n: [
+        SpeedRipple(amplitude=n(0.5), frequency=n(3)), DistributedForce(amplitude=n(0.5)),
+        Gravity(n(9.75)), SteadyRotation(omega=n(6)), PointMass(position=n(1), mass=n(2)),
+        OutOfPlane(bending_ratio=n(4), torsion_ratio=n(0.5), polar_inertia=n(0.125)),
+        SmoothRamp(omega=n(6), ramp_time=n(3), start=n(1), cosines=[n(-1)]),
+        Table([n(0), n(1), n(2)], [n(0), n(2), n(3)]),
+        Beam.from_stiffness(
+            length=n(8), axial_stiffness=n(2048), bending_stiffness=n(512), mass_per_length=n(0.25)
+        ),
+    ],
+    "motion": lambda n: [
+        f(n(1.25))
+        for one in (SLOW, Table([0.0, 1.0, 3.0], [0.0, 2.0, 3.0]), SteadyRotation(omega=6.0))
+        for f in (one.angle, one.rate, one.acceleration)
+    ],
+    "motion at many instants": lambda n: np.concatenate([
+        f(np.array([1.25, 3.5], dtype=n if n in (np.float16, np.float32, np.longdouble) else float))
+        for one in (SLOW, SmoothRamp(omega=6.0, ramp_time=3.0), SteadyRotation(omega=6.0))
+        for f in (one.angle, one.rate, one.acceleration)
+    ]),
+    "blade": lambda n: Blade(
+        length=n(8), hub_radius=n(0.5), setting_angle=n(0.25),
+        section=Section(
+            axial_stiffness=n(2048), bending_stiffness=(n(512), n(-256)), mass_per_length=n(0.25)
+        ),
+        damping=Damping(bending=n(0.125)),
+    ).with_tip_mass(n(0.125)).frequencies_at_rest,
+    "damping from a ratio": lambda n: Damping.from_ratio(BEAM, 1, n(0.0625)),
+    "shapes": lambda n: [
+        OutOfPlane.rectangle(n(2), n(0.25)), OutOfPlane.circle(n(0.25)), paper_table(5).rows[0]
+    ],
+    "a state": lambda n: periodic_orbits(BEAM, 6.0, [0.25]).state(0, [n(4), n(8)], phase=n(1)).v,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_the_type_of_a_number_changes_no_bit(name):
+    expected = ANSWERS[name](float)
+    for kind in (np.float16, np.float32, np.longdouble, Fraction):
+        found = ANSWERS[name](kind)
+        if isinstance(expected, (list, str)) or not np.ndim(expected):
+            assert found == expected, kind
+        else:
+            assert np.array_equal(found, expected), kind
+            assert found.dtype == expected.dtype

@@ -1,0 +1,124 @@
+"""What commands import: help and theory need neither Exudyn nor what else is slow to import.
+
+One child process each, which asks for many commands one after the other.
+"""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from rotbeam_exu.cli import _COMMANDS
+
+SLOW = (
+    "exudyn", "xarray", "pandas", "h5netcdf", "h5py", "matplotlib", "sympy", "scipy.linalg",
+    "scipy.optimize", "scipy.interpolate", "scipy.sparse", "distributed",
+)  # fmt: skip
+
+ASK = """
+import contextlib, io, json, sys
+from rotbeam_exu.cli import main
+
+def answer(line):
+    out, error, code = io.StringIO(), io.StringIO(), 0
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+        try:
+            main(line.split())
+        except SystemExit as stopped:
+            code = stopped.code
+    slow = sorted(set(json.loads(sys.argv[2])) & set(sys.modules))
+    return {"code": code, "out": out.getvalue(), "error": error.getvalue(), "slow": slow}
+
+if __name__ == "__main__":
+    if sys.argv[3:] == ["without exudyn"]:
+        sys.modules["exudyn"] = None  # an import of it raises ImportError
+    answers = {line: answer(line) for line in json.loads(sys.argv[1])}
+    sys.__stdout__.write(json.dumps(answers))
+"""
+
+
+def answers_of(lines, folder, *flags):
+    script = folder / "ask.py"
+    script.write_text(ASK)
+    run = subprocess.run(
+        [sys.executable, str(script), json.dumps(lines), json.dumps(SLOW), *flags],
+        cwd=folder, env={**os.environ, "PYTHONWARNINGS": "default"}, capture_output=True,
+        text=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)
+
+
+def test_help_imports_nothing_slow(tmp_path):
+    lines = ["--help", *(f"{command} --help" for command in _COMMANDS)]
+    for line, got in answers_of(lines, tmp_path).items():
+        assert (line, got["code"], got["slow"]) == (line, 0, [])
+        assert "Usage" in got["out"]
+
+
+def test_what_only_prints_needs_no_xarray(tmp_path):
+    """In this order, for what one has imported stays."""
+    lines = ["backbone --omega 6", "campbell --points 3 --count 2", "table 1"]
+    got = answers_of(lines, tmp_path)
+    assert {line: one["code"] for line, one in got.items()} == dict.fromkeys(lines, 0)
+    not_theory = {"exudyn", "xarray", "pandas", "h5netcdf", "h5py", "matplotlib", "distributed"}
+    assert not set(got["table 1"]["slow"]) & not_theory
+    assert "sympy" not in got["campbell --points 3 --count 2"]["slow"]
+
+
+THEORY = {
+    "table 3": "Table 3",
+    "backbone --omega 6 --all-variants --exact --amplitude 0.1": "exact",
+    "campbell --points 3 --count 2 -o out": "written",
+    "ramp --omega 2 --longest 4 --points 1 --finite-element-points 0 -o out": "written",
+    "stability --omega 6 --section tube --amplitude 0.02 -o out": "written",
+    "reference --samples 11 --duration 4 --tolerance 1e-3 -o out": "written",
+    "respond --omega 6 --ripple 3e-3 --damping-ratio 0.02 --from 3.6 --to 3.7 --points 2 -o out": (
+        "written"
+    ),
+    "animate --duration 0.1 --rate 10 -o out/film.gif": "written",
+    "figure 8 -o out": "written",
+    "kit out/kit": "files in",
+    "judge out/kit/sample": "outcome",
+}
+NEEDS_EXUDYN = (
+    "run --elements 2 -o out", "verify --element cable", "explore -o out/explorer.html",
+    "compare -o out", "ramp --omega 2 --longest 4 --points 1 -o out/other",
+)  # fmt: skip
+
+
+def test_theory_works_without_exudyn_and_the_rest_says_what_is_missing(tmp_path):
+    got = answers_of(["doctor", *THEORY, *NEEDS_EXUDYN], tmp_path, "without exudyn")
+    assert got["doctor"]["code"] == 0
+    assert "not run: Exudyn cannot be imported" in got["doctor"]["out"]
+    for line, said in THEORY.items():
+        assert (line, got[line]["code"], got[line]["error"]) == (line, 0, got[line]["error"])
+        assert said in got[line]["out"]
+    for line in NEEDS_EXUDYN:
+        assert got[line]["code"] == 2
+        assert "Exudyn cannot be imported" in got[line]["error"]
+        assert "Traceback" not in got[line]["error"]
+    assert "--finite-element-points 0" in got[NEEDS_EXUDYN[-1]]["error"]
+
+
+@pytest.mark.parametrize("name", ["analytic", "rotbeam_exu", "rotbeam_exu.fem.elements"])
+def test_a_package_imports_nothing_slow(name):
+    script = f"import sys, {name}; print(*sys.modules)"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert not set(run.stdout.split()) & set(SLOW)
+
+
+def test_threads_may_import_at_the_same_time(tmp_path):
+    """The first use may be in two threads at once, and each gets the whole library."""
+    script = tmp_path / "threads.py"
+    script.write_text(
+        "from concurrent.futures import ThreadPoolExecutor\n"
+        "from analytic import Beam, linear_modes\n"
+        "with ThreadPoolExecutor(8) as pool:\n"
+        "    jobs = [pool.submit(linear_modes, Beam.reference(), 6.0, 2) for _ in range(8)]\n"
+        "    print(len({float(job.result().frequencies[0]) for job in jobs}))\n"
+    )
+    run = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=False)
+    assert run.stdout.split() == ["1"], run.stderr
