@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, fields
 
 from .blade import Blade
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import RotbeamWarning, positive, shown, warn_if_giga
+from .input_checks import positive, shown, warn_if_giga
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .section import Section
 from .unit_blade import UNIFORM, UnitBlade
+from .warning import warn
 
 BETA_1 = 1.8751040687119611
 """First root of cos β cosh β = -1: the first mode of the cantilever, ω0 = β² √(EI/mL³)."""
@@ -276,9 +276,7 @@ def warn_if_rpm(beam: AnyBlade, omega: float) -> None:
     require_blade(beam)
     ratio = omega / beam.omega_0
     if ratio > _RPM_SUSPECT:
-        warnings.warn(
+        warn(
             f"omega = {omega:g} rad/s is {ratio:.0f} times the first natural frequency "
-            f"({beam.omega_0:.3f} rad/s): rpm? {omega:g} rpm are {omega * math.pi / 30:.4g} rad/s",
-            RotbeamWarning,
-            stacklevel=3,
+            f"({beam.omega_0:.3f} rad/s): rpm? {omega:g} rpm are {omega * math.pi / 30:.4g} rad/s"
         )

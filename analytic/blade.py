@@ -8,7 +8,6 @@ compare and can be written to files; with_* return new ones.
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,13 +16,14 @@ import numpy as np
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import RotbeamWarning, finite_number, not_negative, positive, shown
+from .input_checks import finite_number, not_negative, positive, shown
 from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
 from .point_mass import PointMass
 from .profiles import evaluated, in_units
 from .section import Section
 from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
+from .warning import warn
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
@@ -81,11 +81,9 @@ class Blade(Described):
         ):
             object.__setattr__(self, name, value)
         if abs(self.setting_angle) > 2.0 * math.pi:
-            warnings.warn(
+            warn(
                 f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "
-                f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad",
-                RotbeamWarning,
-                stacklevel=3,
+                f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad"
             )
         for name, kind in (("section", Section), ("damping", Damping)):
             if not isinstance(getattr(self, name), kind):

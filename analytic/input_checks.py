@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import reprlib
-import warnings
 from numbers import Integral, Real
 from typing import Any
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 
 from .arrays import FloatArray
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
+from .warning import warn
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
@@ -142,13 +142,11 @@ def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None
     sound = math.sqrt(stiffness / inertia)
     meant = math.sqrt(1e9) * sound
     if sound < _SOUND[0] <= meant <= _SOUND[1]:
-        warnings.warn(
+        warn(
             f"{name} = {stiffness:.4g} {unit} makes sound go along the beam at {sound:.3g} m/s, "
             f"slower than in any solid: in G{unit}? {stiffness:.4g} G{unit} are "
             f"{1e9 * stiffness:.4g} {unit} and make it {meant:.4g} m/s; in units other than SI "
-            "this may be right",
-            RotbeamWarning,
-            stacklevel=4,
+            "this may be right"
         )
 
 

@@ -1,6 +1,9 @@
-"""The class of all warnings, apart from what needs NumPy."""
+"""The warnings of both packages, apart from what needs NumPy."""
 
 from __future__ import annotations
+
+import sys
+import warnings
 
 
 class RotbeamWarning(UserWarning):
@@ -18,3 +21,11 @@ class RotbeamWarning(UserWarning):
     >>> print(f"{modes.frequencies[0]:.3f} rad/s")
     10.270 rad/s
     """
+
+
+def warn(sentence: str) -> None:
+    """Warn at the caller's line: the nearest that is in neither package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_globals["__name__"].split(".")[0] in ("analytic", "rotbeam_exu"):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(sentence, RotbeamWarning, stacklevel=level)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 
 from analytic import AnyBlade, linear_modes
 from analytic.beam import require_steady_state
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import warn
 
 SAMPLES_PER_PERIOD = 200
 """Samples kept of a period of ω_n, at least."""
@@ -125,12 +124,10 @@ def warn_if_rounded(beam: AnyBlade, elements: int) -> None:
     """
     rounded = 1e-16 * elements / beam.slenderness
     if rounded > 1e-5:
-        warnings.warn(
+        warn(
             f"the slenderness I/(AL²) = {beam.slenderness:.3g} of {elements} elements is so small "
             f"that round-off may show in q/L at {rounded:.1g}: lower the axial stiffness EA by "
-            f"{rounded / 1e-5:.2g}, which changes nothing else",
-            RotbeamWarning,
-            stacklevel=4,
+            f"{rounded / 1e-5:.2g}, which changes nothing else"
         )
 
 
@@ -160,10 +157,8 @@ def warn_if_coarse(beam: AnyBlade, omega: float, elements: int) -> None:
     """
     layer = math.sqrt(2.0) * beam.frequency_scale / omega if omega > 0.0 else math.inf
     if elements * layer < 0.5:
-        warnings.warn(
+        warn(
             f"at omega = {omega:g} rad/s the beam bends within {layer:.2g} L of its clamp, less "
             f"than half of one of {elements} elements: frequencies may be off by percents; take "
-            f"{math.ceil(1.0 / layer)} elements or more",
-            RotbeamWarning,
-            stacklevel=3,
+            f"{math.ceil(1.0 / layer)} elements or more"
         )

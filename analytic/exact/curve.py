@@ -8,7 +8,6 @@ converges geometrically: with ten of them ω_NL/ω_n keeps 1e-10 where no resona
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -17,10 +16,11 @@ from numpy.polynomial import Chebyshev
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import RotbeamWarning, peak_deflection, positive, rotation_speed, whole_number
+from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
 from ..methods.harmonic_balance import NoOrbitError, frequency_change
 from ..threads import one_thread
+from ..warning import warn
 from .backbone_series import BackboneCurve
 from .branch import AmplitudeNotReachedError, Branch, branch_of
 from .discretization import finer_model
@@ -110,13 +110,11 @@ def backbone_curve(
     curve = replace(curve, error=max(curve.error, change))
     if curve.holds_up_to < up_to:
         below = _apart([o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to])
-        warnings.warn(
+        warn(
             f"the backbone at omega = {omega:g} rad/s has a series of {count} coefficients that "
             f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
             f"{nearest_resonance(below, branch.modes, mode)}; ask for more coefficients, or take "
-            f"backbone_branch",
-            RotbeamWarning,
-            stacklevel=2,
+            f"backbone_branch"
         )
     return curve
 

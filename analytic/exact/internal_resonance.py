@@ -7,7 +7,6 @@ multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: t
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -15,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
-from ..input_checks import RotbeamWarning
 from ..methods.floquet import floquet_multipliers
 from ..methods.harmonic_balance import NoOrbitError
+from ..warning import warn
 from .steady import BeamOrbit
 
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
@@ -234,11 +233,9 @@ def warn_of_resonances(
                 continue
             distance, j = min(near)
             warned.add((k, j))
-            warnings.warn(
+            warn(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                "tell; backbone_branch follows what branches there",
-                RotbeamWarning,
-                stacklevel=3,
+                "tell; backbone_branch follows what branches there"
             )

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..beam import AnyBlade
+from ..beam import AnyBlade, require_blade
 from ..blade import Blade
 from ..input_checks import rotation_speed
 from ..methods.harmonic_balance import NoOrbitError
@@ -87,13 +87,15 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
     ''
     """
+    require_blade(blade)
     unit = blade.unit
     if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
         return ""
     if not 0.0 < amplitude < 1.0:
         return ""
+    omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        growth = growths(blade, rotation_speed(omega), mode, False)
+        growth = growths(blade, omega, mode, False)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
             # What the first resolution finds, the finer one confirms.
             told = a == amplitude or growth(a, 1).per_radian >= LEAST_GROWTH

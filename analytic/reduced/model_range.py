@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade
-from ..input_checks import RotbeamWarning, finite_array, not_negative
+from ..input_checks import finite_array, not_negative
+from ..warning import warn
 from .coriolis import rotating_frequencies
 from .rotating_mode import MAX_W_BAR
 from .variants import Variant
@@ -46,11 +45,9 @@ def amplitudes_within(a: ArrayLike, largest: float, beyond: str, order: int) -> 
         raise ValueError(f"{beyond.format(f'{high:g}')}: keep it below {largest:.6g}")
     if high > _MEANT[order]:
         bound = {3: "the paper's own bound for the reduced models", 5: "beyond which a⁶ counts"}
-        warnings.warn(
+        warn(
             f"amplitude {high:g} is above {_MEANT[order]:g}, {bound[order]}; backbone_curve and "
-            f"periodic_orbits go on for as long as there is an orbit",
-            RotbeamWarning,
-            stacklevel=4,
+            f"periodic_orbits go on for as long as there is an orbit"
         )
     return amplitude
 
@@ -79,12 +76,10 @@ def warn_beyond_range(
     scale = beam.frequency_scale
     w_bar = omega / scale
     if omega >= beam.burst_speed:
-        warnings.warn(
+        warn(
             f"omega = {omega:g} rad/s is above {beam.burst_speed:.6g} rad/s, at which the rotation "
             f"stretches this beam without bound: {variant.name} does not know of it and oscillates "
-            f"about a steady state that the beam does not have; rotate slower",
-            RotbeamWarning,
-            stacklevel=3,
+            f"about a steady state that the beam does not have; rotate slower"
         )
     elif variant.coriolis:
         _warn_if_extended(beam, w_bar, lambda_omega)
@@ -97,14 +92,12 @@ def warn_beyond_range(
         first, second = rotating_frequencies(at, 2) * scale
         if at * scale > _PAPER_SPEED_RATIO * first:
             more, above = ("more than ", "above ") if w_bar > at else ("", "")
-            warnings.warn(
+            warn(
                 f"omega = {omega:g} rad/s is {more}{at * scale / first:.2f} times the rotating "
                 f"beam's first frequency ({above}{first:.4g} rad/s): beyond "
                 f"{_PAPER_SPEED_RATIO:g}, where the paper ends, the second mode ({above}"
                 f"{second:.4g} rad/s), which {variant.name} leaves out, matters; "
-                f"{better_model(w_bar)}",
-                RotbeamWarning,
-                stacklevel=3,
+                f"{better_model(w_bar)}"
             )
 
 
@@ -116,12 +109,10 @@ def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None
     shift, stretch = 4.0 * mu, mu * w_bar**2 * (1.0 + 2.0 * hub)
     size = f"up to μ w_bar² (1 + {2.0 * hub:.3g})" if hub else "about μ w_bar²"
     if shift > _NOTICEABLE_SHIFT or stretch > _NOTICEABLE_STRETCH:
-        warnings.warn(
+        warn(
             f"FrM is inextensible, but this beam has the slenderness μ = I/(AL²) = {mu:.2g}: its "
             f"λ_ω is higher than FrM's {lambda_omega:.4f} by about 4μ = {shift:.1e}, and its ω_n "
-            f"lower by {size} = {stretch:.1e} of it; take periodic_orbits",
-            RotbeamWarning,
-            stacklevel=4,
+            f"lower by {size} = {stretch:.1e} of it; take periodic_orbits"
         )
 
 
@@ -133,10 +124,8 @@ def warn_if_resonant(omega_n: float, others: ArrayLike) -> None:
     for other in np.atleast_1d(np.asarray(others, dtype=np.float64)):
         gap = other / (2.0 * omega_n) - 1.0
         if abs(gap) < _RESONANCE_BAND:
-            warnings.warn(
+            warn(
                 f"2ω_n = {2.0 * omega_n:.4g} rad/s is {abs(gap):.1%} from another mode at "
                 f"{other:.4g} rad/s: FrM's elimination of that mode fails near resonance; take "
-                f"periodic_orbits",
-                RotbeamWarning,
-                stacklevel=4,
+                f"periodic_orbits"
             )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,7 +12,8 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
-from analytic.input_checks import RotbeamWarning, whole_number
+from analytic.input_checks import whole_number
+from analytic.warning import warn
 
 from .configuration import configured, omega_of
 from .cost import require_affordable
@@ -101,7 +101,7 @@ def backbone(
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))
     for sentence in _grouped(refused):
-        warnings.warn(f"no answer: {sentence}", RotbeamWarning, stacklevel=2)
+        warn(f"no answer: {sentence}")
     if failure:
         raise RuntimeError(failure)
 

@@ -7,6 +7,7 @@ from importlib import metadata
 
 from rich.console import Console
 
+import analytic
 from analytic import Beam, SpinUp
 
 from ..fem.lazily import require_exudyn

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,7 +9,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import Progress
 
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import warn
 
 from ..files.results import save, writable_folder
 from ..lazily import xr
@@ -102,7 +101,7 @@ def run(
         print_line(console, "repeats", f"{recorded}: {likeness(data, before)}")
     print_written(console, written)
     for sentence in assessment.warnings(case.elements, case.step):
-        warnings.warn(sentence, RotbeamWarning, stacklevel=2)
+        warn(sentence)
 
 
 def _measured(

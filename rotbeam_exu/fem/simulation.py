@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time as clock
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -16,10 +15,10 @@ from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.state import stretched_state
-from analytic.input_checks import RotbeamWarning
 from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.ramps import AnyRamp
+from analytic.warning import warn
 
 from ..lazily import xr
 from ..verdict import SimulationError, check_run, remedy
@@ -245,11 +244,9 @@ def _start(
 def _warn_above_divergence_speed(run: xr.Dataset) -> None:
     omega, divergence_speed = run.attrs["omega"], run.attrs["divergence_speed"]
     if omega > divergence_speed:
-        warnings.warn(
+        warn(
             f"omega = {omega:g} rad/s is above the divergence speed, {divergence_speed:.6g} rad/s, "
             f"of {run.attrs['elements']} {run.attrs['element']!r} elements: their steady "
             "rotation is unstable, and what keeps the oscillation bounded is not the beam; take "
-            "more elements",
-            RotbeamWarning,
-            stacklevel=5,
+            "more elements"
         )

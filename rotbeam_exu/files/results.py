@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import tempfile
-import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import warn
 
 from ..lazily import xr
 from . import netcdf, table
@@ -110,11 +109,9 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     """
     run, sealed = read(path)
     if not sealed:
-        warnings.warn(
+        warn(
             f"{path} was not written by `save`, or by an older version, so that damage would not "
-            "show; check its numbers, and save what was loaded",
-            RotbeamWarning,
-            stacklevel=2,
+            "show; check its numbers, and save what was loaded"
         )
     return run
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from analytic.input_checks import RotbeamWarning
+from analytic.warning import warn
 
 from ..files.results import read, save, whole_file, writable_folder
 from ..files.round_trip import plain
@@ -78,11 +77,7 @@ class Cache:
         except ValueError as error:
             aside = path.with_suffix(".damaged")
             path.replace(aside)
-            warnings.warn(
-                f"{error}; it is set aside as {aside.name} and computed again",
-                RotbeamWarning,
-                stacklevel=2,
-            )
+            warn(f"{error}; it is set aside as {aside.name} and computed again")
             return None
         return result
 

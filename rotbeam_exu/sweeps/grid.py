@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, as_completed
@@ -14,7 +13,8 @@ from typing import Literal
 import numpy as np
 
 from analytic import AnyBlade, SpinUp
-from analytic.input_checks import RotbeamWarning, finite_values, flag, whole_number
+from analytic.input_checks import finite_values, flag, whole_number
+from analytic.warning import warn
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
@@ -193,11 +193,9 @@ def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache 
     made_by = maker(model)
     if made_by is None:
         cls = type(model)
-        warnings.warn(
+        warn(
             f"the source of {cls.__qualname__} does not tell what it does, so its cases are not "
-            "kept in the cache; define it at the top level of a module on file",
-            RotbeamWarning,
-            stacklevel=3,
+            "kept in the cache; define it at the top level of a module on file"
         )
         return None
     return Cache(folder, made_by=made_by)

@@ -11,7 +11,6 @@ import math
 import os
 import sys
 import time as clock
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -20,7 +19,8 @@ import numpy as np
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
-from analytic.input_checks import RotbeamWarning, positive, whole_number
+from analytic.input_checks import positive, whole_number
+from analytic.warning import warn
 
 from ...lazily import xr
 from ...resolution import require_resolved_ramp, sampling
@@ -100,7 +100,7 @@ def simulate(
     wall_time = clock.perf_counter() - started
     verdict = f"{unconverged} of {steps} steps did not converge to {tolerance:g}"
     if unconverged:
-        warnings.warn(f"{verdict}; Kratos went on all the same", RotbeamWarning, stacklevel=2)
+        warn(f"{verdict}; Kratos went on all the same")
     run = _dataset(time, q, q_dot)
     run.attrs = {
         **beam_attributes(beam),
