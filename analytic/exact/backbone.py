@@ -207,5 +207,5 @@ class Backbone:
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
             f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"frequency certain to {self.frequency_error.max():.0e}{note}"
+            f"which refinement changes by at most {self.frequency_error.max():.0e}{note}"
         )

@@ -6,13 +6,20 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from analytic import Beam, linear_modes, periodic_orbits
+from analytic import (
+    AmplitudeNotReachedError,
+    Beam,
+    Blade,
+    Section,
+    linear_modes,
+    periodic_orbits,
+)
 from analytic.exact.branch import branch_of
 from analytic.exact.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
-from analytic.methods.harmonic_balance import LastTangent
+from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
@@ -90,6 +97,47 @@ def test_error_falls_spectrally_with_the_functions(beam, monkeypatch):
     ]
     # Faster than any power: each two functions more gain about a digit.
     assert np.all(np.diff(np.log10(errors)) < -0.75)
+
+
+def test_the_frequency_error_is_the_change_under_refinement(beam, monkeypatch):
+    """Against the refined equations solved anew; of six functions two steps leave a tenth out."""
+    monkeypatch.setattr("analytic.methods.continuation.RESIDUAL_BOUND", 1.0)
+    monkeypatch.setattr("analytic.methods.continuation.FREQUENCY_BOUND", 1.0)
+    for functions in (6, 8, 10):
+        found = periodic_orbits(beam, 8.0, [0.3], functions=functions)
+        (orbit,) = found.nondimensional
+        finer = solve(orbit.on(orbit.system.refined()), 0.3)
+        change = abs(finer.frequency / orbit.frequency - 1.0)
+        assert found.frequency_error[0] == pytest.approx(change, rel=0.2)
+
+
+@pytest.mark.parametrize("functions", [6, 8, 16])
+def test_an_orbit_takes_the_functions_that_its_frequency_needs(beam, functions):
+    exact = periodic_orbits(beam, 8.0, [0.2, 0.4], functions=32)
+    found = periodic_orbits(beam, 8.0, [0.2, 0.4], functions=functions)
+    assert found.frequency_error.max() <= 1e-9
+    error = np.abs(found.frequency / exact.frequency - 1.0)
+    # What the next refinement leaves is less than what it changes; round-off keeps 1e-12.
+    assert np.all(error < 2.0 * found.frequency_error + 1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
+def test_near_a_resonance_no_orbit_depends_on_the_functions():
+    """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24."""
+    section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
+    blade = Blade(length=1.0, section=section, hub_radius=5.0)
+    found = []
+    for functions in (20, 24):
+        try:
+            orbits = periodic_orbits(
+                blade, 8.0, [0.35, 0.4], inextensible=True, functions=functions
+            )
+        except AmplitudeNotReachedError as beyond:
+            orbits = beyond.backbone
+        assert orbits.frequency_error.max() < 1e-9
+        found.append(orbits.frequency)
+    assert found[0] == pytest.approx(found[1], rel=2e-9)
 
 
 def test_invariants(backbone):
