@@ -19,7 +19,7 @@ and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 -
 
     ∫ [δe (e/μ + Re f) + δγ (σγ/μ + Im f)] dx = 0,      ∫ [δθ' θ' + δθ Im(s* f)] dx = 0:
 
--f is the internal force of the beam in the section's axes. Drag of the air and loads are added to
+-f is the internal force of the beam in the section's axes. External damping and loads are added to
 the acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is a diagonal;
 shear has none.
 """
@@ -45,7 +45,7 @@ class _Fields(NamedTuple):
     spin: FloatArray  # θ̇ + w
     spin_rate: FloatArray  # θ̈ + ẇ
     acceleration: ComplexArray  # p
-    force: ComplexArray  # f, times the quadrature weights; drag and loads included
+    force: ComplexArray  # f, times the quadrature weights; external damping and loads included
 
 
 class Continuum(Kinematics):

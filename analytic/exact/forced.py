@@ -189,10 +189,9 @@ def _followed(
         if response is not None:
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
+        remedy = failed.remedy or "take more damping or a smaller load"
         raise ResponseNotReachedError(
-            f"the response to {load} was not found{last}: {failed}; take more damping or a smaller "
-            "load",
-            response,
+            f"the response to {load} was not found{last}: {failed}; {remedy}", response
         )
     assert response is not None
     return response

@@ -41,7 +41,11 @@ class Curve(Protocol):
 
 
 class NoWayOnError(Exception):
-    """No point of the curve was found, however near."""
+    """The curve cannot be followed on; the message says why, `remedy` what else to try."""
+
+    def __init__(self, message: str, remedy: str = "") -> None:
+        super().__init__(message)
+        self.remedy = remedy
 
 
 @dataclass(frozen=True, eq=False)

@@ -195,9 +195,14 @@ class ResponseCurve(Generic[D]):
             or curve.system.functions > _MOST_FUNCTIONS
             or (2 * curve.harmonics + 1) * curve.system.size > _MOST_UNKNOWNS
         ):
+            short_of_functions = orbit.truncation <= _TRUNCATED
             raise NoWayOnError(
                 f"{orbit.harmonics} harmonics and {orbit.system.functions} functions leave a "
-                f"residual of {orbit.residual:.1e}"
+                f"residual of {orbit.residual:.1e}",
+                "no damping helps where functions are missing: smooth the steps of the section, or "
+                "rotate slower"
+                if short_of_functions
+                else "",
             )
         return curve
 

@@ -18,11 +18,14 @@ _MOST_POINTS = 4000
 
 
 class ResponseNotFollowedError(Exception):
-    """A response curve ended too early; `orbits` holds what was found of it."""
+    """A response curve ended too early; `orbits` holds what was found of it, `remedy` what to try.
 
-    def __init__(self, message: str, orbits: list[DrivenOrbit[Any]]) -> None:
+    No remedy is told where the usual ones may help.
+    """
+
+    def __init__(self, message: str, orbits: list[DrivenOrbit[Any]], remedy: str = "") -> None:
         super().__init__(message)
-        self.orbits = orbits
+        self.orbits, self.remedy = orbits, remedy
 
 
 def response_curve(
@@ -57,7 +60,7 @@ def response_curve(
             orbits.append(there.orbit)
             at = there
     except NoWayOnError as reason:
-        raise ResponseNotFollowedError(str(reason), orbits) from None
+        raise ResponseNotFollowedError(str(reason), orbits, reason.remedy) from None
     raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", orbits)
 
 
