@@ -172,10 +172,9 @@ class Table(SpeedChange):
 
     Between two instants the speed stays between the two that are given there, as of a measured
     table it should: it is the monotone cubic of Fritsch and Carlson ("PCHIP"), level at both ends,
-    whose acceleration is continuous, and linear between two instants. Of a smooth motion it
-    differs by the third power of the spacing: a hundred intervals of Eq. 1 move the tip of the
-    exact beam by less than 1e-6 of its length. Noise of the speeds is more noise of the
-    acceleration: smooth measured speeds before.
+    whose acceleration is continuous, and linear between two instants. It differs from a smooth
+    motion by the third power of the spacing: a hundred intervals of Eq. 1 move the tip by less than
+    1e-6 L. Noise of the speeds is more noise of the acceleration: smooth measured speeds before.
 
     Parameters
     ----------
@@ -187,8 +186,8 @@ class Table(SpeedChange):
     Raises
     ------
     ValueError
-        If a number is not finite, the instants do not ascend from 0, there are more or fewer speeds
-        than instants, or two instants are too near for floating point numbers.
+        If a number is not finite, the instants do not ascend from 0, there is not one speed for each,
+        or two are too near for floating point numbers.
 
     Examples
     --------

@@ -9,9 +9,8 @@ Without shear, γ = 0: the beam is Bernoulli and Euler's, with the elongation e 
 θ of the tangent and the curvature θ' = (r' × r'')/|r'|². With it the beam is Reissner's, θ is the
 angle of the section, and e and γ are the strains along and across its normal. The elastic energy
 V = ½∫ (e²/μ + σγ²/μ + θ'²) dx is quadratic, σ being the shear over the axial stiffness.
-Discretizing (θ, e, γ) rather than displacements makes the stiffness the identity and leaves
-nothing to lock: the inextensible beam is simply e = 0, and μ = 0 is an ordinary value. In a frame
-that turns at the rate w(τ) the acceleration of the slope is p exp(iθ),
+With (θ, e, γ) as coordinates the stiffness is the identity and nothing locks: the inextensible beam
+is e = 0, μ = 0. In a frame that turns at the rate w(τ) the acceleration of the slope is p exp(iθ),
 
     p = s̈ - s(θ̇ + w)² + i [s(θ̈ + ẇ) + 2ṡ(θ̇ + w)],
 
@@ -19,9 +18,8 @@ and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 -
 
     ∫ [δe (e/μ + Re f) + δγ (σγ/μ + Im f)] dx = 0,      ∫ [δθ' θ' + δθ Im(s* f)] dx = 0:
 
--f is the internal force of the beam in the section's axes. External damping and loads are added to
-the acceleration, the viscosity of the blade, η_b and η_a in its own stiffness, is a diagonal;
-shear has none.
+-f is the internal force in the section's axes. External damping and loads are added to the
+acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear has none.
 """
 
 from __future__ import annotations
@@ -70,8 +68,6 @@ class Continuum(Kinematics):
 
     Attributes
     ----------
-    points, weights : ndarray (points,)
-        The Gauss points at which fields are evaluated, and their weights.
     outboard : dict
         What a load may act on beyond each Gauss point, times its weight (points,): "mass",
         "length", and the "tip".
@@ -238,10 +234,7 @@ class Continuum(Kinematics):
     def tension(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
     ) -> FloatArray:
-        """Return the axial force N at the Gauss points, (samples, points), of the motion.
-
-        By d'Alembert, from all that moves outboard, so that it is there without extension too.
-        """
+        """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
         at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
         return -at.force.real / self.weights
 
@@ -276,8 +269,8 @@ class Continuum(Kinematics):
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the rotating frame, (samples,)."""
         spin = q_dot[..., : self.bending]
-        rotary: FloatArray = 0.5 * np.sum(spin * (spin @ self._rotary_mass), axis=-1)
-        return 0.5 * self._squared(self.slope_rate(q, q_dot)) + rotary
+        rotary = np.sum(spin * (spin @ self._rotary_mass), axis=-1)
+        return np.asarray(0.5 * (self._squared(self.slope_rate(q, q_dot)) + rotary))
 
     def _squared(self, slope: ComplexArray) -> FloatArray:
         squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)
