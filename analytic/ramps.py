@@ -186,8 +186,8 @@ class Table(SpeedChange):
     Raises
     ------
     ValueError
-        If a number is not finite, the instants do not ascend from 0, there is not one speed for each,
-        or two are too near for floating point numbers.
+        If a number is not finite, the instants do not ascend from 0, or there is not one speed for
+        each.
 
     Examples
     --------
