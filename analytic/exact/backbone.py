@@ -14,7 +14,6 @@ from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
 from ..methods.floquet import Multipliers, floquet_multipliers
 from ..plotting import axes_or_new, backbone_drawn
-from .orbit_growth import planar_note
 from .state import BeamState, orbit_state
 from .steady import BeamOrbit
 
@@ -167,6 +166,8 @@ class Backbone:
 
         "" too of a blade whose section out of the plane is unknown; computed when first asked for.
         """
+        from .orbit_growth import planar_note  # noqa: PLC0415  (a study, when it is asked for)
+
         return planar_note(self.beam, self.omega, float(self.amplitude.max()), self.mode)
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
@@ -202,10 +203,9 @@ class Backbone:
         return ax
 
     def __str__(self) -> str:
-        note = f"; {self.out_of_plane}" if self.out_of_plane else ""
         return (
             f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
             f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"which refinement changes by at most {self.frequency_error.max():.0e}{note}"
+            f"which refinement changes by at most {self.frequency_error.max():.0e}"
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +14,6 @@ from ..input_checks import finite_number, points_of_beam
 from ..methods.driven import DrivenOrbit
 from .continuum import Continuum
 from .discretization import blade_continuum
-from .loading import DrivenBeam
 from .steady import BeamOrbit, steady_rotation
 
 
@@ -61,7 +61,7 @@ def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
 
 def orbit_state(
     beam: AnyBlade,
-    orbit: BeamOrbit | DrivenOrbit[DrivenBeam],
+    orbit: BeamOrbit | DrivenOrbit[Any],
     x: ArrayLike,
     phase: float,
 ) -> BeamState:
