@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
 import tomllib
@@ -17,8 +16,7 @@ from ..cases import VERSION
 from ..submission import Declaration
 from ..theory import BERNOULLI_EULER, Theory
 from .content import LARGEST_TOML, text_of
-from .faults import Faults
-from .tables import shown
+from .faults import Faults, near, shown
 
 FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")
@@ -92,9 +90,7 @@ def _wrong_with(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
     """Yield the key and the sentence of each fault."""
     for key in document:
         if key not in _KEYS:
-            close = difflib.get_close_matches(key, _KEYS, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(_KEYS)}"
-            yield key, f"unknown key {shown(key)}; {hint}"
+            yield key, f"unknown key {shown(key)}; {near(key, _KEYS)}"
     for key in _TEXTS:
         if not isinstance(document.get(key, ""), str):
             yield key, f"{key} must be text in quotes, got {shown(str(document[key]))}"
