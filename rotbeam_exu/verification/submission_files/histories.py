@@ -1,4 +1,4 @@
-"""The history of a run as a file: read at once where it is right, line by line where it is not."""
+"""The history of a run as a file: read at once where it is right, row by row where it is not."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from analytic.arrays import FloatArray
 
 from ..cases import Case
 from .faults import Faults, several
-from .tables import DIGITS, Column, Sheet, columns_fault, digits, number_fault, sheet_of
+from .tables import DIGITS, Column, Sheet, digits, rows_of, sheet_of
 
 FARTHEST = 0.02
 """Largest distance of samples [s]: the estimator needs twenty a period, and 100 ms give it none."""
@@ -19,8 +19,10 @@ FARTHEST_TIP = 1e4
 """Largest |q|/L that is judged: millimetres for metres, and no more than that."""
 
 COLUMNS = (
-    Column("time", unit="s"), Column("q", unit="m"), Column("q_dot", unit="m/s", needed=False),
-)  # fmt: skip
+    Column("time", unit="s"),
+    Column("q", unit="m"),
+    Column("q_dot", unit="m/s", needed=False, measured=True),
+)
 _SLACK = 1e-6
 
 
@@ -44,31 +46,16 @@ def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str,
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
-    """Return all numbers, (rows, columns)."""
+    """Return all numbers, (rows, columns); None if some are faulty."""
+    shape = len(sheet.rows), len(sheet.columns)
     try:
         numbers = np.loadtxt(sheet.rows, delimiter=",", ndmin=2, comments=None)
-    except ValueError as error:
-        numbers, why = np.empty((0, 0)), str(error)
-    if numbers.shape == (len(sheet.rows), len(sheet.columns)) and np.isfinite(numbers).all():
-        return numbers
-    if not _tell_faulty_rows(sheet, faults):
-        faults.add(sheet.file, f"cannot be read as numbers: {why}")
-    return None
-
-
-def _tell_faulty_rows(sheet: Sheet, faults: Faults) -> bool:
-    """Add what is wrong with each row, and return whether something is; slow, for it takes all."""
-    found = False
-    for line, row in zip(sheet.lines, sheet.rows, strict=True):
-        cells = [cell.strip() for cell in row.split(",")]
-        if len(cells) != len(sheet.columns):
-            said = columns_fault(row, len(cells), len(sheet.columns))
-        else:
-            said = next(filter(None, map(number_fault, cells)), "")
-        if said:
-            found = True
-            faults.add(sheet.file, said, line)
-    return found
+    except ValueError:
+        numbers = np.empty((0, 0))
+    if numbers.shape != shape or not np.isfinite(numbers).all():
+        rows = [list(values.values()) for _, _, values in rows_of(sheet, faults)]
+        numbers = np.array(rows, dtype=float)
+    return numbers if numbers.shape == shape else None
 
 
 def _unfit(

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from analytic.arrays import FloatArray
+
 from ..cases import Asked, Case
 from ..submission import Run
 from .content import below
@@ -66,22 +68,24 @@ def file_of(case: str, elements: int, step: float) -> str:
 
 def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run, ...]:
     """Return the runs that runs.csv lists, those that failed without a history."""
-    there = list(dict.fromkeys(_found_histories(root, cases)))
+    there = [
+        f"{name}/{printable(path.name)}"
+        for name, case in cases.items()
+        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir()
+        for path in sorted((root / name).glob("*.csv"))
+    ]
     if not there and not os.path.lexists(root / FILE):
         return ()
-    found, nothing = [], np.empty(0)
-    listed = list(_listed(root, cases, faults))
+    found, listed = [], list(_listed(root, cases, faults))
     for row in listed:
-        samples = {"time": nothing, "q": nothing}
+        samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
-            history = history_of(root, row["file"], cases[row["case"]], faults)
-            if history is None:
-                continue
-            samples = history
-        found.append(Run(**(row | samples)))
+            samples = history_of(root, row["file"], cases[row["case"]], faults)
+        if samples is not None:
+            found.append(Run(**(row | samples)))
     if not faults.of(FILE):
         known = {row["file"] for row in listed}
-        for file in there:
+        for file in dict.fromkeys(there):
             if file not in known:
                 faults.add(file, f"stands in no row of {FILE}: add file, elements, step")
     return tuple(found)
@@ -93,7 +97,13 @@ def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[d
     seen: dict[tuple[str, int, float], int] = {}
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         case, _, name = row["file"].partition("/")
-        wrong = _other_than_named(name, cells, row)
+        elements, step = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        wrong = []
+        if row["elements"] != int(elements):
+            wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
+        if abs(row["step"] - float(step)) > _ROUNDED * float(step):
+            wrong.append(f"step is {cells['step']} s, the file's name says {float(step):g} s")
+        wrong = [f"{said}: correct one of them" for said in wrong]
         place = case, row["elements"], row["step"]
         if not wrong and seen.setdefault(place, line) != line:
             wrong = [f"the same case, mesh and step stand in line {seen[place]}: keep one"]
@@ -101,23 +111,3 @@ def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[d
             faults.add(FILE, said, line)
         if not wrong:
             yield row | {"case": case}
-
-
-def _other_than_named(name: str, cells: Mapping[str, str], row: Mapping[str, Any]) -> list[str]:
-    """Return where mesh and step of a row are not those of its file's name."""
-    named = _NAME.fullmatch(name)
-    assert named is not None
-    elements, step = int(named[1]), float(named[2])
-    wrong = []
-    if row["elements"] != elements:
-        wrong.append(f"elements are {cells['elements']}, the file's name says {elements}")
-    if abs(row["step"] - step) > _ROUNDED * step:
-        wrong.append(f"step is {cells['step']} s, the file's name says {step:g} s")
-    return [f"{said}: correct one of them" for said in wrong]
-
-
-def _found_histories(root: Path, cases: Mapping[str, Case]) -> Iterator[str]:
-    for name, case in cases.items():
-        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir():
-            for path in sorted((root / name).glob("*.csv")):
-                yield f"{name}/{printable(path.name)}"

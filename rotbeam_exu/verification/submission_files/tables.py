@@ -1,7 +1,7 @@
 """CSV as a submission has it: one header row, commas, C floats, lines of # that are not read.
 
 A table is described by its columns, of a `Kind` each. `Sheet` is its lines, `rows_of` its values.
-Long tables of numbers alone are read by `histories`.
+Histories, which are long, are read at once by `histories` where they are right.
 """
 
 from __future__ import annotations
@@ -44,10 +44,19 @@ def text(_name: str, cell: str) -> str:
 
 def number(name: str, cell: str) -> float:
     """Return a finite number."""
-    said = number_fault(cell)
-    if said:
-        raise ValueError(f"{name}: {said}")
-    return float(cell)
+    if _NUMBER.fullmatch(cell):
+        if math.isfinite(float(cell)):
+            return float(cell)
+        why = "is too large a number"
+    elif not cell:
+        raise ValueError(f"{name}: a cell is empty: write a number")
+    elif _FORTRAN.fullmatch(cell):
+        why = "has Fortran's exponent D: write E"
+    elif cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "-nan(ind)", "nan(ind)"):
+        why = "is not finite: hand in what the code computed, or its failure"
+    else:
+        why = "is no number: write it as C does, -1.25e-3"
+    raise ValueError(f"{name}: {shown(cell)} {why}")
 
 
 def whole(name: str, cell: str) -> int:
@@ -96,9 +105,9 @@ class Column:
     unit : str
         Which a header may state.
     needed : bool
-        Whether each row has it.
+        Whether each table has it; cells of one that is not needed may be empty.
     measured : bool
-        Whether it is left out of a row that tells a failure.
+        Whether each row has a cell of it, but for those that tell a failure.
     """
 
     name: str
@@ -222,13 +231,13 @@ def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str],
             faults.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
         if len(cells) != len(sheet.columns):
-            faults.add(sheet.file, columns_fault(row, len(cells), len(sheet.columns)), line)
+            faults.add(sheet.file, _columns_fault(row, len(cells), len(sheet.columns)), line)
             continue
         pairs = list(zip(sheet.columns, cells, strict=True))
         failed = any(cell and column is FAILURE for column, cell in pairs)
         values, right = {}, True
         for column, cell in pairs:
-            if (failed and column.measured) or not (cell or column.needed):
+            if failed if column.measured else not (cell or column.needed):
                 continue
             try:
                 values[column.field] = column.kind(column.name, cell)
@@ -239,7 +248,7 @@ def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str],
             yield line, {column.name: cell for column, cell in pairs}, values
 
 
-def columns_fault(row: str, cells: int, wanted: int) -> str:
+def _columns_fault(row: str, cells: int, wanted: int) -> str:
     """Return the sentence on a row of too few or too many cells."""
     if cells == 1:
         for mark, name in _SEPARATORS.items():
@@ -253,22 +262,7 @@ def columns_fault(row: str, cells: int, wanted: int) -> str:
     )
 
 
-def number_fault(cell: str) -> str:
-    """Return what is wrong with a cell that should hold a finite number, or nothing."""
-    if _NUMBER.fullmatch(cell):
-        if math.isfinite(float(cell)):
-            return ""
-        return f"{shown(cell)} is too large a number"
-    if not cell:
-        return "a cell is empty: write a number"
-    if _FORTRAN.fullmatch(cell):
-        return f"{shown(cell)} has Fortran's exponent D: write E"
-    if cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "-nan(ind)", "nan(ind)"):
-        return f"{shown(cell)} is not finite: hand in what the code computed, or its failure"
-    return f"{shown(cell)} is no number: write it as C does, -1.25e-3"
-
-
 def digits(cell: str) -> int:
     """Return the significant digits that are written."""
-    mantissa = re.split("[eE]", cell.strip())[0].lstrip("+-").replace(".", "")
+    mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
     return len(mantissa.lstrip("0"))

@@ -71,30 +71,32 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     return root
 
 
-def _write(path: Path, columns: Iterable[Column], rows: Sequence[object]) -> None:
-    """Write a table unless it is empty; what is not known is an empty cell."""
-    if not rows:
+def _write(path: Path, columns: Iterable[Column], things: Sequence[object]) -> None:
+    """Write a table of the attributes of things, if there are any."""
+    if not things:
         return
-    held = [column for column in columns if hasattr(rows[0], column.field)]
+    held = [column for column in columns if hasattr(things[0], column.field)]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(column.name for column in held)
-    writer.writerows([_cell(getattr(row, column.field)) for column in held] for row in rows)
+    writer.writerows([_cell(getattr(one, column.field)) for column in held] for one in things)
     path.write_text(text.getvalue(), encoding="utf-8", newline="\n")
 
 
-def _cell(cell: object) -> str:
-    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
-        return ""
-    if isinstance(cell, str):  # a sentence has one line
-        return " ".join(cell.split())
-    return repr(cell.item() if isinstance(cell, np.generic) else cell)
-
-
 def _write_history(run: Run, path: Path) -> None:
-    told = {column.name: getattr(run, column.field) for column in histories.COLUMNS}
-    columns = {name: values for name, values in told.items() if values is not None}
+    """Write 17 digits of each number, which are enough in any spacing of the samples."""
+    held = [column for column in histories.COLUMNS if getattr(run, column.field) is not None]
+    numbers = np.column_stack([getattr(run, column.field) for column in held])
     path.parent.mkdir(exist_ok=True)
     with path.open("w", encoding="utf-8", newline="\n") as file:
-        numbers = np.column_stack(list(columns.values()))
-        np.savetxt(file, numbers, fmt="%.17g", delimiter=",", header=",".join(columns), comments="")
+        header = ",".join(column.name for column in held)
+        np.savetxt(file, numbers, fmt="%.17g", delimiter=",", header=header, comments="")
+
+
+def _cell(cell: object) -> str:
+    """Return a cell, empty of what is not known; a sentence has one line."""
+    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
+        return ""
+    if isinstance(cell, str):
+        return " ".join(cell.split())
+    return repr(cell.item() if isinstance(cell, np.generic) else cell)
