@@ -106,6 +106,21 @@ def test_line_ends_comments_and_a_mark_at_the_beginning_change_nothing(good):
     assert np.array_equal(after.runs[1].q_dot, before.runs[1].q_dot)
 
 
+def test_a_number_in_quotes_is_the_same_number_in_every_table(good):
+    """Some languages write each cell in quotes, which is CSV too."""
+    before = read_submission(good)
+    for file in ("L.csv", "B.csv", "S1/m008_h1e-3.csv", "S1/m016_h1e-3.csv"):
+        head, *rows = (good / file).read_text("utf-8").split()
+        quoted = [",".join(f'"{cell}"' for cell in row.split(",")) for row in rows]
+        (good / file).write_text("\n".join([head, *quoted]), "utf-8")
+    after = read_submission(good)
+    assert after.backbone == before.backbone
+    assert after.frequencies[0] == before.frequencies[0]
+    for one, two in zip(before.runs, after.runs, strict=True):
+        assert same(one.q, two.q)
+        assert same(one.q_dot, two.q_dot)
+
+
 def test_samples_beyond_the_end_are_left_out(tmp_path):
     longer = replace(whole(), runs=(history("S1", 8, 1e-3, 16.0),))
     assert read_submission(write_submission(longer, tmp_path)).runs[0].time[-1] == 15.0
