@@ -32,7 +32,6 @@ _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _SAME = 1e-6
 """Relative distance within which a speed or an amplitude is one that is asked for."""
 
-
 Kind = Callable[[str, str], Any]
 """From a column's name and a cell to its value; ValueError with the sentence on a faulty cell."""
 
@@ -155,18 +154,18 @@ def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults)
         faults.add(file, f"has more than {MOST_LINES:,} lines: sample less often")
         return None
     numbered = [
-        (number, line)
-        for number, line in enumerate(content.split("\n"), 1)
-        if line and not line.isspace() and not line.lstrip().startswith("#")
+        (line, row)
+        for line, row in enumerate(content.split("\n"), 1)
+        if row and not row.isspace() and not row.lstrip().startswith("#")
     ]
     wanted = ",".join(column.name for column in columns if column.needed)
     if not numbered:
         faults.add(file, f"is empty: begin with the header {wanted}")
         return None
-    for number, line in numbered:
-        if len(line) > LONGEST_LINE:
-            said = f"has {len(line):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
-            faults.add(file, said, number)
+    for line, row in numbered:
+        if len(row) > LONGEST_LINE:
+            said = f"has {len(row):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
+            faults.add(file, said, line)
             return None
     (header, title), *rest = numbered
     wrong = _wrong_header(title, columns, wanted)
@@ -180,8 +179,8 @@ def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults)
     return Sheet(
         file=file,
         columns=[known[_cell_of_header(cell)[0]] for cell in title.split(",")],
-        rows=[line for _, line in rest],
-        lines=[number for number, _ in rest],
+        rows=[row for _, row in rest],
+        lines=[line for line, _ in rest],
     )
 
 
@@ -204,7 +203,7 @@ def _wrong_header(title: str, columns: Sequence[Column], wanted: str) -> list[st
     found = []
     for name, unit in cells:
         if name not in units:
-            found.append(f"unknown column {shown(name)}; {near(name, tuple(units))}")
+            found.append(f"unknown column {shown(name)}; {near(name, units)}")
         elif unit and unit != units[name]:
             due = f"[{units[name]}]" if units[name] else "no unit"
             found.append(f"column {name!r} is in {shown(unit)}: write it in {due}")
@@ -224,16 +223,14 @@ def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str],
     """
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         try:
-            cells = [
-                one.strip() for one in next(csv.reader([row], strict=True, skipinitialspace=True))
-            ]
+            cells = next(csv.reader([row], strict=True, skipinitialspace=True))
         except csv.Error as error:
             faults.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
         if len(cells) != len(sheet.columns):
             faults.add(sheet.file, _columns_fault(row, len(cells), len(sheet.columns)), line)
             continue
-        pairs = list(zip(sheet.columns, cells, strict=True))
+        pairs = list(zip(sheet.columns, map(str.strip, cells), strict=True))
         failed = any(cell and column is FAILURE for column, cell in pairs)
         values, right = {}, True
         for column, cell in pairs:
