@@ -7,9 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
-from typing import Annotated
-
-from cyclopts import Parameter
 
 from ..files.results import whole_file, writable_folder
 from ..report.document import SCHEMA, document
@@ -19,7 +16,6 @@ from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
 from ..verification.mistakes.mistake import Mistake
 from ..verification.mistakes.search import mistakes_in
-from ..verification.submission_files.commands import run_what_is_missing
 from ..verification.submission_files.faults import MalformedSubmissionError
 from ..verification.submission_files.reading import digests, read_submission
 from .output import new_console, print_note, print_text, print_written
@@ -33,7 +29,6 @@ def judge(
     report: Path | None = None,
     json: Path | None = None,
     case: list[str] | None = None,
-    run: Annotated[bool, Parameter(show_default=False)] = False,
 ) -> None:
     """Judge the files that any code handed in, by what it tends to.
 
@@ -50,8 +45,6 @@ def judge(
         Write all findings as JSON.
     case
         Tell of this case alone; may be given again.
-    run
-        First run the command of run.toml for what is missing.
 
     Examples
     --------
@@ -62,9 +55,6 @@ def judge(
         if target is not None:
             _may_write(target, ending)
     try:
-        if run:
-            for done in run_what_is_missing(folder):
-                print_note(done)
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
         _print_faults(error)

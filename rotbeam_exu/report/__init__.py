@@ -1,1 +1,1 @@
-"""What is shown of a judgement: one HTML page, a JSON document, a row of LaTeX, a badge."""
+"""A judgement as one HTML page and as a JSON document."""

@@ -15,10 +15,8 @@ from urllib.parse import quote
 from ..verification.cases import CASES, VERSION
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .badge import badge
 from .document import document
 from .record import Record
-from .row import latex_row
 
 TITLE = "rotbeam judgement"
 """Begins the title of each page, by which one is known."""
@@ -37,7 +35,6 @@ def report_page(record: Record) -> str:
     """Return the page as text."""
     found = record.judgement
     template = resources.files(__package__).joinpath("template.html").read_text(encoding="utf-8")
-    shield, row = badge(found), latex_row(found)
     text = json.dumps(document(record), indent=1, ensure_ascii=False)
     return Template(template).substitute(
         title=escape(f"{TITLE}: {record.name}"),
@@ -45,7 +42,6 @@ def report_page(record: Record) -> str:
         benchmark=VERSION,
         date=f"{record.date:%d %B %Y, %H:%M} UTC",
         verdict=escape(found.outcome),
-        badge=shield,
         mistakes=_mistakes(record),
         about=_about(record),
         outcomes=_outcomes(record),
@@ -53,16 +49,9 @@ def report_page(record: Record) -> str:
         cases="\n".join(_case(name, record) for name in found.findings),
         runs=_runs(record),
         files=_files(record),
-        row=escape(row),
         versions=escape(", ".join(f"{name} {one}" for name, one in record.versions.items())),
-        badge_link=_link(shield, "image/svg+xml"),
-        row_link=_link(row, "text/plain"),
-        json_link=_link(text, "application/json"),
+        json_link=f"data:application/json;charset=utf-8,{quote(text)}",
     )
-
-
-def _link(text: str, kind: str) -> str:
-    return f"data:{kind};charset=utf-8,{quote(text)}"
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

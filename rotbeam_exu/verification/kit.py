@@ -20,7 +20,8 @@ from analytic.description import describe
 from .cases import CASES, VERSION, Asked, Case, starting_orbit
 from .judgement import THRESHOLDS
 from .references import reference
-from .submission_files.histories import DIGITS, FARTHEST
+from .submission_files.histories import FARTHEST
+from .submission_files.tables import DIGITS
 
 STATIC = Path(__file__).parent / "data" / "kit"
 """What is in every kit as it stands: the problem, starters, a sample submission."""

@@ -15,7 +15,8 @@ from .cases import CASES, VERSION
 from .judgement import THRESHOLDS
 from .kit import STATIC, row_of
 from .references import reference
-from .submission_files.histories import DIGITS, FARTHEST
+from .submission_files.histories import FARTHEST
+from .submission_files.tables import DIGITS
 
 SOURCE = STATIC / "problem.typ"
 PDF = STATIC / "PROBLEM.pdf"

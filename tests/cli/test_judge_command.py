@@ -1,7 +1,6 @@
 """`rotbeam judge`: faults, mistakes, tables, files; without Exudyn."""
 
 import json
-import re
 import subprocess
 import sys
 import unicodedata
@@ -94,29 +93,13 @@ def test_all_faults_and_nothing_else(call, folder):
     ]
 
 
-def test_what_is_missing_is_run_first(call, folder, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "120")
-    script = "import shutil, sys; shutil.copy('S1/m032_h1e-3.csv', sys.argv[1])"
-    (folder / "copy.py").write_text(script, "utf-8")
-    (folder / "run.toml").write_text(
-        f"command = '\"{sys.executable}\" copy.py {{file}}'\n"
-        'cases = ["S1"]\nmeshes = [8, 64]\nsteps = [1e-3]\n',
-        "utf-8",
-    )
-    code, out, _ = call("judge", folder, "--run")
-    assert out.startswith("S1/m064_h1e-3.csv: running\nS1/m064_h1e-3.csv: ")
-    assert "m008" not in out
-    assert re.search(r" 64 +1 ", out)
-    assert code == 0
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
         (("--case", "S9"), "unknown case 'S9'; known are L, S1"),
         (("--report", "a.pdf"), "the ending must be .html"),
         (("--json", "a.txt"), "the ending must be .json"),
-        (("--run",), "run.toml: there is no such file"),
+        (("--run",), "there is no option --run"),
     ],
 )
 def test_bad_input(call, folder, arguments, said):

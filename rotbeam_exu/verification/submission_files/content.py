@@ -17,7 +17,7 @@ LARGEST = 100_000_000
 """Bytes of a file that is read; a history of a million samples has less."""
 
 LARGEST_TOML = 32_000
-"""Bytes of entry.toml and run.toml."""
+"""Bytes of entry.toml."""
 
 OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
 _FLAGS = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -17,15 +16,15 @@ from ..cases import VERSION
 from ..submission import Declaration
 from ..theory import BERNOULLI_EULER, Theory
 from .content import LARGEST_TOML, text_of
-from .faults import Faults
-from .tables import shown
+from .faults import Faults, near, shown
 
 FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")
 _TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
 _ORDERS = ("order", "order_in_step")
-_KEYS = (*_TEXTS, "authors", *_ORDERS, "tags", "shear")
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
+_Faults = Iterator[tuple[str, str]]
+"""The key and the sentence of each fault."""
 
 
 def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
@@ -88,64 +87,61 @@ def _theory(tags: Iterable[str], shear: dict[str, float] | None) -> Theory:
     return Theory(rotary_inertia=rotary, shear_share=share) if rotary or share else BERNOULLI_EULER
 
 
-def _wrong_with(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
-    """Yield the key and the sentence of each fault."""
-    for key in document:
-        if key not in _KEYS:
-            close = difflib.get_close_matches(key, _KEYS, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(_KEYS)}"
-            yield key, f"unknown key {shown(key)}; {hint}"
-    for key in _TEXTS:
-        if not isinstance(document.get(key, ""), str):
-            yield key, f"{key} must be text in quotes, got {shown(str(document[key]))}"
-    for key in ("benchmark", "code"):
+def _wrong_with(document: dict[str, Any]) -> _Faults:
+    """Yield what is wrong with the keys, and which are missing."""
+    for key, value in document.items():
+        if key in _KEYS:
+            yield from _KEYS[key](key, value)
+        else:
+            yield key, f"unknown key {shown(key)}; {near(key, _KEYS)}"
+    for key, example in (("benchmark", VERSION), ("code", "name of your code")):
         if not str(document.get(key, "")).strip():
-            example = VERSION if key == "benchmark" else "name of your code"
             yield key, f'there is no {key}: write {key} = "{example}"'
-    version = document.get("benchmark", VERSION)
-    if isinstance(version, str) and version not in ("", VERSION):
-        yield "benchmark", f"benchmark is {shown(version)}, this judge knows {VERSION}: see the kit"
-    for key in ("authors", "tags"):
-        listed = document.get(key, [])
-        if not isinstance(listed, list) or not all(isinstance(one, str) for one in listed):
-            yield key, f'{key} must be a list of texts, as {key} = ["...", "..."]'
-    for key in _ORDERS:
-        if key in document:
-            yield from _wrong_number(key, document[key], positive)
-    yield from _wrong_shear(document)
+    tags = document.get("tags")
+    if isinstance(tags, list) and "shear" in tags and "shear" not in document:
+        yield "tags", f"the tag shear needs a table: {_SHEAR_REMEDY}"
 
 
-def _wrong_shear(document: dict[str, Any]) -> Iterable[tuple[str, str]]:
-    """Yield what is wrong with the tags and the table that one of them needs."""
-    tags, shear = document.get("tags", []), document.get("shear")
-    tags = [tag for tag in tags if isinstance(tag, str)] if isinstance(tags, list) else []
-    for tag in tags:
-        if tag not in TAGS:
-            yield "tags", f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}"
-    if shear is None:
-        if "shear" in tags:
-            yield "tags", f"the tag shear needs a table: {_SHEAR_REMEDY}"
-        return
-    if not isinstance(shear, dict) or sorted(shear) not in (["k_s", "nu"], ["share"]):
-        yield "shear", _SHEAR_REMEDY
-        return
-    wrong = [
-        fault
-        for key, value in shear.items()
-        for fault in _wrong_number(key, value, finite_number if key == "nu" else positive)
-    ]
-    yield from wrong
-    if not wrong and not -1.0 < shear.get("nu", 0.0) <= 0.5:
-        yield "nu", f"nu must be above -1 and at most 0.5, got {shear['nu']:g}"
+def _wrong_text(key: str, value: object) -> _Faults:
+    if not isinstance(value, str):
+        yield key, f"{key} must be text in quotes, got {shown(str(value))}"
+    elif key == "benchmark" and value not in ("", VERSION):
+        yield key, f"benchmark is {shown(value)}, this judge knows {VERSION}: see the kit"
 
 
-def _wrong_number(key: str, value: object, check: Any) -> Iterable[tuple[str, str]]:
+def _wrong_list(key: str, value: object) -> _Faults:
+    listed = value if isinstance(value, list) else [value]
+    if listed is not value or not all(isinstance(one, str) for one in listed):
+        yield key, f'{key} must be a list of texts, as {key} = ["...", "..."]'
+    for tag in listed if key == "tags" else ():
+        if isinstance(tag, str) and tag not in TAGS:
+            yield key, f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}"
+
+
+def _wrong_number(key: str, value: object) -> _Faults:
     try:
         if not isinstance(value, int | float):
             raise TypeError(f"{key} must be a number, got {shown(str(value))}")
-        check(key, value)
+        finite_number(key, value) if key == "nu" else positive(key, value)
     except (TypeError, ValueError) as error:
         yield key, str(error)
+    else:
+        if key == "nu" and not -1.0 < value <= 0.5:
+            yield key, f"nu must be above -1 and at most 0.5, got {value:g}"
+
+
+def _wrong_shear(key: str, value: object) -> _Faults:
+    if isinstance(value, dict) and sorted(value) in (["k_s", "nu"], ["share"]):
+        for name, number in value.items():
+            yield from _wrong_number(name, number)
+    else:
+        yield key, _SHEAR_REMEDY
+
+
+_KEYS: dict[str, Callable[[str, object], _Faults]] = {
+    **dict.fromkeys(_TEXTS, _wrong_text), "authors": _wrong_list,
+    **dict.fromkeys(_ORDERS, _wrong_number), "tags": _wrong_list, "shear": _wrong_shear,
+}  # fmt: skip
 
 
 def _line_of(key: str, text: str) -> int | None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 _VARIES = re.compile(
@@ -14,6 +15,9 @@ _VARIES = re.compile(
 
 _MOST_FILES = 10
 """In which a fault of one kind is told for each; those in others are counted."""
+
+_SHOWN = 40
+"""Letters of a faulty cell that a sentence repeats."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,3 +96,26 @@ class MalformedSubmissionError(ValueError):
 def several(count: int) -> str:
     """Return the end of a sentence on the first of `count` places that have the same fault."""
     return "" if count == 1 else f" (and so in {count - 1:,} more)"
+
+
+def shown(text: str) -> str:
+    """Return a text in quotes, what cannot be printed escaped, and not too much of it."""
+    quoted = ascii(text) if not text.isprintable() else repr(text)
+    return quoted if len(quoted) <= _SHOWN else f"{quoted[:_SHOWN]}...{quoted[0]}"
+
+
+def near(name: str, known: Iterable[str], told: Callable[[str], str] = repr) -> str:
+    """Return the end of a sentence on an unknown name: the known one that is most alike, or all."""
+    alike = {one.lower(): one for one in known}
+    close = difflib.get_close_matches(name.lower(), alike, n=1)
+    return (
+        f"did you mean {told(alike[close[0]])}?"
+        if close
+        else f"known are {', '.join(alike.values())}"
+    )
+
+
+def printable(name: str) -> str:
+    """Return the name of a file, bytes that are no letters and the like replaced."""
+    text = name.encode("utf-8", "replace").decode()
+    return text if text.isprintable() else ascii(text)[1:-1]

@@ -1,4 +1,4 @@
-"""The history of a run as a file: read at once where it is right, line by line where it is not."""
+"""The history of a run as a file: read at once where it is right, row by row where it is not."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from analytic.arrays import FloatArray
 
 from ..cases import Case
 from .faults import Faults, several
-from .tables import Sheet, columns_fault, digits, number_fault, sheet_of
+from .tables import DIGITS, Column, Sheet, digits, rows_of, sheet_of
 
 FARTHEST = 0.02
 """Largest distance of samples [s]: the estimator needs twenty a period, and 100 ms give it none."""
 
-DIGITS = 8
-"""Written of a number at least: four in the time alone cost 9.5e-3 of q(t)."""
-
 FARTHEST_TIP = 1e4
 """Largest |q|/L that is judged: millimetres for metres, and no more than that."""
 
-UNITS = {"time": "s", "q": "m"}
-RATE = {"q_dot": "m/s"}
+COLUMNS = (
+    Column("time", unit="s"),
+    Column("q", unit="m"),
+    Column("q_dot", unit="m/s", needed=False, measured=True),
+)
 _SLACK = 1e-6
 
 
 def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str, FloatArray] | None:
     """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong."""
-    sheet = sheet_of(folder, file, UNITS, RATE, faults)
+    sheet = sheet_of(folder, file, COLUMNS, faults)
     if sheet is None:
         return None
     numbers = _numbers(sheet, faults)
     if numbers is None:
         return None
-    columns = dict(zip(sheet.names, numbers.T, strict=True))
+    columns = {column.name: one for column, one in zip(sheet.columns, numbers.T, strict=True)}
     with np.errstate(over="ignore", invalid="ignore"):
         unfit = _unfit(sheet, columns, case)
     for said, row in unfit:
@@ -46,31 +46,16 @@ def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str,
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
-    """Return all numbers, (rows, columns)."""
+    """Return all numbers, (rows, columns); None if some are faulty."""
+    shape = len(sheet.rows), len(sheet.columns)
     try:
         numbers = np.loadtxt(sheet.rows, delimiter=",", ndmin=2, comments=None)
-    except ValueError as error:
-        numbers, why = np.empty((0, 0)), str(error)
-    if numbers.shape == (len(sheet.rows), len(sheet.names)) and np.isfinite(numbers).all():
-        return numbers
-    if not _tell_faulty_rows(sheet, faults):
-        faults.add(sheet.file, f"cannot be read as numbers: {why}")
-    return None
-
-
-def _tell_faulty_rows(sheet: Sheet, faults: Faults) -> bool:
-    """Add what is wrong with each row, and return whether something is; slow, for it takes all."""
-    found = False
-    for line, row in zip(sheet.lines, sheet.rows, strict=True):
-        cells = [cell.strip() for cell in row.split(",")]
-        if len(cells) != len(sheet.names):
-            said = columns_fault(row, len(cells), len(sheet.names))
-        else:
-            said = next(filter(None, map(number_fault, cells)), "")
-        if said:
-            found = True
-            faults.add(sheet.file, said, line)
-    return found
+    except ValueError:
+        numbers = np.empty((0, 0))
+    if numbers.shape != shape or not np.isfinite(numbers).all():
+        rows = [list(values.values()) for _, _, values in rows_of(sheet, faults)]
+        numbers = np.array(rows, dtype=float)
+    return numbers if numbers.shape == shape else None
 
 
 def _unfit(
@@ -81,7 +66,7 @@ def _unfit(
     gaps = np.diff(time)
     found: list[tuple[str, int | None]] = [
         (f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g", None)
-        for number, name in enumerate(sheet.names)
+        for number, name in enumerate(columns)
         if (most := _most_digits(sheet, number, columns[name])) < DIGITS
     ]
     far = np.flatnonzero(np.abs(columns["q"]) > FARTHEST_TIP * case.blade.length)

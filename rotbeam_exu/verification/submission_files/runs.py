@@ -2,41 +2,60 @@
 
 from __future__ import annotations
 
-import math
+import os
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from analytic.arrays import FloatArray
 
 from ..cases import Asked, Case
-from .faults import Faults
-from .tables import number_fault, records, sheet_of, shown
+from ..submission import Run
+from .content import below
+from .faults import Faults, printable, shown
+from .histories import history_of
+from .tables import FAILURE, Column, Kind, bounded, rows_of, sheet_of, text, whole
 
 FILE = "runs.csv"
-REQUIRED = {"file": "", "elements": "", "step": "s"}
-OPTIONAL = {"dof": "", "wall_s": "s", "cpu_s": "s", "failure": "", "remark": ""}
-NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
+_NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
 """Of a history's file: elements, and step [s]."""
 
 _ROUNDED = 1e-2
 """Relative distance of a step from what the name of its file says."""
 
+_positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
+_cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
 
-@dataclass(frozen=True, kw_only=True)
-class Listed:
-    """A row of runs.csv; what is not told is NaN or None."""
 
-    line: int
-    file: str
-    case: str
-    elements: int
-    step: float
-    dof: int | None
-    wall: float
-    cpu: float
-    failure: str
-    remark: str
+def columns_of(cases: Mapping[str, Case]) -> tuple[Column, ...]:
+    """Return the columns of runs.csv."""
+    return (
+        Column("file", _history_of(cases)), Column("elements", whole),
+        Column("step", _positive, "s"), Column("dof", whole, needed=False),
+        Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
+        FAILURE, Column("remark", text, needed=False),
+    )  # fmt: skip
+
+
+def _history_of(cases: Mapping[str, Case]) -> Kind:
+    """Return the kind of names of histories."""
+    known = tuple(name for name, case in cases.items() if case.asked is Asked.HISTORY)
+
+    def read(_: str, cell: str) -> str:
+        case, _, name = cell.partition("/")
+        if case not in known:
+            raise ValueError(
+                f"{shown(case)} is no case with a history; known are {', '.join(known)}"
+            )
+        if not _NAME.fullmatch(name):
+            raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
+        return cell
+
+    return read
 
 
 def file_of(case: str, elements: int, step: float) -> str:
@@ -47,76 +66,48 @@ def file_of(case: str, elements: int, step: float) -> str:
     return f"{case}/m{elements:03d}_h{first}{'.' if rest else ''}{''.join(rest)}e{power}.csv"
 
 
-def listed_runs(folder: Path, cases: Mapping[str, Case], faults: Faults) -> list[Listed]:
-    """Return the rows of runs.csv that are right by themselves."""
-    sheet = sheet_of(folder, FILE, REQUIRED, OPTIONAL, faults)
-    if sheet is None:
-        return []
-    histories = tuple(name for name, case in cases.items() if case.asked is Asked.HISTORY)
+def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run, ...]:
+    """Return the runs that runs.csv lists, those that failed without a history."""
+    there = [
+        f"{name}/{printable(path.name)}"
+        for name, case in cases.items()
+        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir()
+        for path in sorted((root / name).glob("*.csv"))
+    ]
+    if not there and not os.path.lexists(root / FILE):
+        return ()
+    found, listed = [], list(_listed(root, cases, faults))
+    for row in listed:
+        samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
+        if "failure" not in row:
+            samples = history_of(root, row["file"], cases[row["case"]], faults)
+        if samples is not None:
+            found.append(Run(**(row | samples)))
+    if not faults.of(FILE):
+        known = {row["file"] for row in listed}
+        for file in dict.fromkeys(there):
+            if file not in known:
+                faults.add(file, f"stands in no row of {FILE}: add file, elements, step")
+    return tuple(found)
+
+
+def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[dict[str, Any]]:
+    """Yield the rows of runs.csv that are right by themselves, with their case."""
+    sheet = sheet_of(root, FILE, columns_of(cases), faults)
     seen: dict[tuple[str, int, float], int] = {}
-    found = []
-    for line, cells in records(sheet, faults):
-        wrong = _wrong_with(cells, histories)
-        if not wrong:
-            one = _listed(line, cells)
-            key = one.case, one.elements, one.step
-            if key in seen:
-                wrong = [f"the same case, mesh and step stand in line {seen[key]}: keep one"]
-            else:
-                seen[key] = line
-                found.append(one)
+    for line, cells, row in rows_of(sheet, faults) if sheet else ():
+        case, _, name = row["file"].partition("/")
+        elements, step = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        wrong = []
+        if row["elements"] != int(elements):
+            wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
+        if abs(row["step"] - float(step)) > _ROUNDED * float(step):
+            wrong.append(f"step is {cells['step']} s, the file's name says {float(step):g} s")
+        wrong = [f"{said}: correct one of them" for said in wrong]
+        place = case, row["elements"], row["step"]
+        if not wrong and seen.setdefault(place, line) != line:
+            wrong = [f"the same case, mesh and step stand in line {seen[place]}: keep one"]
         for said in wrong:
             faults.add(FILE, said, line)
-    return found
-
-
-def _listed(line: int, cells: Mapping[str, str]) -> Listed:
-    dof = cells.get("dof", "")
-    return Listed(
-        line=line,
-        file=cells["file"],
-        case=cells["file"].partition("/")[0],
-        elements=int(float(cells["elements"])),
-        step=float(cells["step"]),
-        dof=int(float(dof)) if dof else None,
-        wall=float(cells.get("wall_s") or math.nan),
-        cpu=float(cells.get("cpu_s") or math.nan),
-        failure=cells.get("failure", ""),
-        remark=cells.get("remark", ""),
-    )
-
-
-def _wrong_with(cells: Mapping[str, str], histories: tuple[str, ...]) -> list[str]:
-    """Return what is wrong with the cells of a row."""
-    wrong = []
-    for name, cell in cells.items():
-        if name in ("file", "failure", "remark") or (name in OPTIONAL and not cell):
-            continue
-        said = number_fault(cell)
-        if said:
-            wrong.append(f"{name}: {said}")
-        elif name in ("elements", "dof") and not (float(cell) >= 1.0 and float(cell).is_integer()):
-            wrong.append(f"{name} must be a whole number of at least 1, got {cell}")
-        elif name == "step" and not float(cell) > 0.0:
-            wrong.append(f"step must be positive, in seconds, got {cell}")
-        elif name in ("wall_s", "cpu_s") and float(cell) < 0.0:
-            wrong.append(f"{name} must not be negative, got {cell}")
-    case, _, name = cells["file"].partition("/")
-    named = NAME.fullmatch(name)
-    if case not in histories:
-        wrong.append(f"{shown(case)} is no case with a history; known are {', '.join(histories)}")
-    elif not named:
-        wrong.append(f"{shown(cells['file'])} is no name of a history: write {case}/m032_h1e-3.csv")
-    elif not wrong:
-        wrong += _other_than_named(cells, int(named[1]), float(named[2]))
-    return wrong
-
-
-def _other_than_named(cells: Mapping[str, str], elements: int, step: float) -> list[str]:
-    """Return where mesh and step of a row are not those of its file's name."""
-    wrong = []
-    if float(cells["elements"]) != elements:
-        wrong.append(f"elements are {cells['elements']}, the file's name says {elements}")
-    if abs(float(cells["step"]) - step) > _ROUNDED * step:
-        wrong.append(f"step is {cells['step']} s, the file's name says {step:g} s")
-    return [f"{said}: correct one of them" for said in wrong]
+        if not wrong:
+            yield row | {"case": case}

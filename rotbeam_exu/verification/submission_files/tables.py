@@ -1,32 +1,127 @@
 """CSV as a submission has it: one header row, commas, C floats, lines of # that are not read.
 
-`Sheet` is a file's rows with their line numbers; `records` splits them into named cells. Long
-tables of numbers alone are read by `histories`.
+A table is described by its columns, of a `Kind` each. `Sheet` is its lines, `rows_of` its values.
+Histories, which are long, are read at once by `histories` where they are right.
 """
 
 from __future__ import annotations
 
 import csv
-import difflib
 import math
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from .content import text_of
-from .faults import Faults
+from .faults import Faults, near, shown
 
 MOST_LINES = 2_000_000
 LONGEST_LINE = 10_000
 """Letters of a line, and lines of a table: beyond them is no history and no sentence."""
 
+DIGITS = 8
+"""Written of a number at least: four in the time alone cost 9.5e-3 of q(t)."""
+
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
 _HEADER = re.compile(r"(?P<name>[^\[\]()]*?)\s*(?:[\[(](?P<unit>.*)[\])])?")
-_SHOWN = 40
-"""Letters of a faulty cell that a sentence repeats."""
+_SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
+_SAME = 1e-6
+"""Relative distance within which a speed or an amplitude is one that is asked for."""
+
+Kind = Callable[[str, str], Any]
+"""From a column's name and a cell to its value; ValueError with the sentence on a faulty cell."""
+
+
+def text(_name: str, cell: str) -> str:
+    """Return a text as it is."""
+    return cell
+
+
+def number(name: str, cell: str) -> float:
+    """Return a finite number."""
+    if _NUMBER.fullmatch(cell):
+        if math.isfinite(float(cell)):
+            return float(cell)
+        why = "is too large a number"
+    elif not cell:
+        raise ValueError(f"{name}: a cell is empty: write a number")
+    elif _FORTRAN.fullmatch(cell):
+        why = "has Fortran's exponent D: write E"
+    elif cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "-nan(ind)", "nan(ind)"):
+        why = "is not finite: hand in what the code computed, or its failure"
+    else:
+        why = "is no number: write it as C does, -1.25e-3"
+    raise ValueError(f"{name}: {shown(cell)} {why}")
+
+
+def whole(name: str, cell: str) -> int:
+    """Return a whole number of at least 1."""
+    value = number(name, cell)
+    if not (value >= 1.0 and value.is_integer()):
+        raise ValueError(f"{name} must be a whole number of at least 1, got {cell}")
+    return int(value)
+
+
+def bounded(holds: Callable[[float], bool], said: str) -> Kind:
+    """Return the kind of numbers for which something holds; {} in what is said is the cell."""
+
+    def read(name: str, cell: str) -> float:
+        value = number(name, cell)
+        if not holds(value):
+            raise ValueError(f"{name} {said.format(cell)}")
+        return value
+
+    return read
+
+
+def asked(values: Sequence[float]) -> Kind:
+    """Return the kind of numbers that are asked for; one close to it stands for such a number."""
+
+    def read(name: str, cell: str) -> float:
+        value = number(name, cell)
+        close = min(values, key=lambda known: abs(known - value))
+        if abs(close - value) > _SAME * (abs(close) or 1.0):
+            known = ", ".join(f"{one:g}" for one in values)
+            raise ValueError(f"{name} {value:g} is not asked for: hand in {known}")
+        return close
+
+    return read
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Attributes
+    ----------
+    name : str
+    kind : callable
+        Reads a cell.
+    unit : str
+        Which a header may state.
+    needed : bool
+        Whether each table has it; cells of one that is not needed may be empty.
+    measured : bool
+        Whether each row has a cell of it, but for those that tell a failure.
+    """
+
+    name: str
+    kind: Kind = number
+    unit: str = ""
+    needed: bool = True
+    measured: bool = False
+
+    @property
+    def field(self) -> str:
+        """Attribute of what is read: the name without its unit."""
+        return self.name.removesuffix("_s")
+
+
+FAILURE = Column("failure", text, needed=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,10 +131,8 @@ class Sheet:
     Attributes
     ----------
     file : str
-    names : tuple of str
-        Columns, as the header has them.
-    header : int
-        Line number of the header.
+    columns : list of Column
+        In the order of the header.
     rows : list of str
         As written.
     lines : list of int
@@ -47,63 +140,47 @@ class Sheet:
     """
 
     file: str
-    names: tuple[str, ...]
-    header: int
+    columns: list[Column]
     rows: list[str] = field(repr=False)
     lines: list[int] = field(repr=False)
 
 
-def sheet_of(
-    folder: Path,
-    file: str,
-    required: Mapping[str, str],
-    optional: Mapping[str, str],
-    faults: Faults,
-) -> Sheet | None:
-    """Return the rows of a table; None where it has no header that can be used.
-
-    Parameters
-    ----------
-    folder, file
-    required, optional : mapping
-        The unit of each column by its name, "" without one.
-    faults : Faults
-        To which what is wrong is added.
-    """
-    text = text_of(folder, file, faults)
-    if text is None:
+def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults) -> Sheet | None:
+    """Return the rows of a table; None, and why, where it has no header that can be used."""
+    content = text_of(folder, file, faults)
+    if content is None:
         return None
-    if text.count("\n") > MOST_LINES:
+    if content.count("\n") > MOST_LINES:
         faults.add(file, f"has more than {MOST_LINES:,} lines: sample less often")
         return None
     numbered = [
-        (number, line)
-        for number, line in enumerate(text.split("\n"), 1)
-        if line and not line.isspace() and not line.lstrip().startswith("#")
+        (line, row)
+        for line, row in enumerate(content.split("\n"), 1)
+        if row and not row.isspace() and not row.lstrip().startswith("#")
     ]
-    wanted = ",".join(required)
+    wanted = ",".join(column.name for column in columns if column.needed)
     if not numbered:
         faults.add(file, f"is empty: begin with the header {wanted}")
         return None
-    for number, line in numbered:
-        if len(line) > LONGEST_LINE:
-            said = f"has {len(line):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
-            faults.add(file, said, number)
+    for line, row in numbered:
+        if len(row) > LONGEST_LINE:
+            said = f"has {len(row):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
+            faults.add(file, said, line)
             return None
-    header, title = numbered[0]
-    wrong = _wrong_header(title, {**required, **optional}, tuple(required))
-    if not wrong and len(numbered) == 1:
+    (header, title), *rest = numbered
+    wrong = _wrong_header(title, columns, wanted)
+    if not wrong and not rest:
         wrong = ["has a header and no rows below it"]
     for said in wrong:
         faults.add(file, said, header)
     if wrong:
         return None
+    known = {column.name: column for column in columns}
     return Sheet(
         file=file,
-        names=tuple(_cell_of_header(cell)[0] for cell in title.split(",")),
-        header=header,
-        rows=[line for _, line in numbered[1:]],
-        lines=[number for number, _ in numbered[1:]],
+        columns=[known[_cell_of_header(cell)[0]] for cell in title.split(",")],
+        rows=[row for _, row in rest],
+        lines=[line for line, _ in rest],
     )
 
 
@@ -113,27 +190,24 @@ def _cell_of_header(cell: str) -> tuple[str, str]:
     return (match["name"], (match["unit"] or "").strip()) if match else (cell, "")
 
 
-def _wrong_header(title: str, units: Mapping[str, str], required: tuple[str, ...]) -> list[str]:
+def _wrong_header(title: str, columns: Sequence[Column], wanted: str) -> list[str]:
     """Return what is wrong with a header row."""
-    wanted = ",".join(required)
-    if "," not in title and len(required) > 1:
+    if "," not in title and "," in wanted:
         other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in title.strip()]
         split = f"is split{other[0]}" if other else f"is {shown(title.strip())}"
         return [f"the header {split}: separate the columns by commas, {wanted}"]
     cells = [_cell_of_header(cell) for cell in title.split(",")]
-    names = [name for name, _ in cells]
+    names, units = [name for name, _ in cells], {column.name: column.unit for column in columns}
     if all(_NUMBER.fullmatch(name) for name in names):
         return [f"there is no header, the first row holds numbers: begin with {wanted}"]
     found = []
     for name, unit in cells:
         if name not in units:
-            close = difflib.get_close_matches(name.lower(), list(units), n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(units)}"
-            found.append(f"unknown column {shown(name)}; {hint}")
+            found.append(f"unknown column {shown(name)}; {near(name, units)}")
         elif unit and unit != units[name]:
             due = f"[{units[name]}]" if units[name] else "no unit"
             found.append(f"column {name!r} is in {shown(unit)}: write it in {due}")
-    missing = [name for name in required if name not in names]
+    missing = [name for name in wanted.split(",") if name not in names]
     if missing:
         found.append(f"there is no column {', '.join(missing)}: the header is {wanted}")
     twice = [name for name, count in Counter(names).items() if count > 1]
@@ -142,26 +216,36 @@ def _wrong_header(title: str, units: Mapping[str, str], required: tuple[str, ...
     return found
 
 
-_SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
+def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str], dict[str, Any]]]:
+    """Yield line, cells by column and values by field of each row that is right by itself.
 
-
-def records(sheet: Sheet, faults: Faults) -> list[tuple[int, dict[str, str]]]:
-    """Return line number and cells by column of each row that has as many cells as the header."""
-    found = []
+    Values that are not told are left out.
+    """
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         try:
             cells = next(csv.reader([row], strict=True, skipinitialspace=True))
         except csv.Error as error:
             faults.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
-        if len(cells) != len(sheet.names):
-            faults.add(sheet.file, columns_fault(row, len(cells), len(sheet.names)), line)
+        if len(cells) != len(sheet.columns):
+            faults.add(sheet.file, _columns_fault(row, len(cells), len(sheet.columns)), line)
             continue
-        found.append((line, dict(zip(sheet.names, map(str.strip, cells), strict=True))))
-    return found
+        pairs = list(zip(sheet.columns, map(str.strip, cells), strict=True))
+        failed = any(cell and column is FAILURE for column, cell in pairs)
+        values, right = {}, True
+        for column, cell in pairs:
+            if failed if column.measured else not (cell or column.needed):
+                continue
+            try:
+                values[column.field] = column.kind(column.name, cell)
+            except ValueError as error:
+                faults.add(sheet.file, str(error), line)
+                right = False
+        if right:
+            yield line, {column.name: cell for column, cell in pairs}, values
 
 
-def columns_fault(row: str, cells: int, wanted: int) -> str:
+def _columns_fault(row: str, cells: int, wanted: int) -> str:
     """Return the sentence on a row of too few or too many cells."""
     if cells == 1:
         for mark, name in _SEPARATORS.items():
@@ -175,28 +259,7 @@ def columns_fault(row: str, cells: int, wanted: int) -> str:
     )
 
 
-def number_fault(cell: str) -> str:
-    """Return what is wrong with a cell that should hold a finite number, or nothing."""
-    if _NUMBER.fullmatch(cell):
-        if math.isfinite(float(cell)):
-            return ""
-        return f"{shown(cell)} is too large a number"
-    if not cell:
-        return "a cell is empty: write a number"
-    if _FORTRAN.fullmatch(cell):
-        return f"{shown(cell)} has Fortran's exponent D: write E"
-    if cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "-nan(ind)", "nan(ind)"):
-        return f"{shown(cell)} is not finite: hand in what the code computed, or its failure"
-    return f"{shown(cell)} is no number: write it as C does, -1.25e-3"
-
-
-def shown(text: str) -> str:
-    """Return a text in quotes, what cannot be printed escaped, and not too much of it."""
-    quoted = ascii(text) if not text.isprintable() else repr(text)
-    return quoted if len(quoted) <= _SHOWN else f"{quoted[:_SHOWN]}...{quoted[0]}"
-
-
 def digits(cell: str) -> int:
     """Return the significant digits that are written."""
-    mantissa = re.split("[eE]", cell.strip())[0].lstrip("+-").replace(".", "")
+    mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
     return len(mantissa.lstrip("0"))

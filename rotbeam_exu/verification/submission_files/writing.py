@@ -7,13 +7,17 @@ import io
 import math
 import os
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ...files.results import writable_folder
+from ..cases import CASES, Asked
 from ..submission import Run, Submission
-from . import entry, runs
+from . import entry, histories, runs
+from .points import columns_of, tables_of
+from .tables import Column
 
 
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
@@ -55,50 +59,44 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     text = entry.entry_text(submission.declaration)
     (root / entry.FILE).write_text(text, encoding="utf-8", newline="\n")
-    if submission.frequencies:
-        header = ("elements", "speed", "frequency", "failure")
-        rows = [(f.elements, f.speed, f.frequency, f.failure) for f in submission.frequencies]
-        _write(root / "L.csv", header, rows)
-    if submission.backbone:
-        header = ("elements", "speed", "amplitude", "frequency")
-        points = [(p.elements, p.speed, p.amplitude, p.frequency) for p in submission.backbone]
-        _write(root / "B.csv", header, points)
-    if submission.runs:
-        listed = list(map(_row, submission.runs, files))
-        _write(root / runs.FILE, (*runs.REQUIRED, *runs.OPTIONAL), listed)
-    for run, file in zip(submission.runs, files, strict=True):
+    for table, case in tables_of(CASES).items():
+        one = case.asked is Asked.FREQUENCIES
+        points = submission.frequencies if one else submission.backbone
+        _write(root / table, columns_of(case), points)
+    named = [replace(run, file=file) for run, file in zip(submission.runs, files, strict=True)]
+    _write(root / runs.FILE, runs.columns_of(CASES), named)
+    for run in named:
         if not run.failure:
-            _write_history(run, root / file)
+            _write_history(run, root / run.file)
     return root
 
 
-def _row(run: Run, file: str) -> tuple[object, ...]:
-    cost = (run.dof, run.wall, run.cpu)
-    return (file, run.elements, run.step, *cost, run.failure, run.remark)
-
-
-def _write(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    """Write a table; what is not known is an empty cell, a sentence has one line."""
+def _write(path: Path, columns: Iterable[Column], things: Sequence[object]) -> None:
+    """Write a table of the attributes of things, if there are any."""
+    if not things:
+        return
+    held = [column for column in columns if hasattr(things[0], column.field)]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows([_cell(cell) for cell in row] for row in rows)
+    writer.writerow(column.name for column in held)
+    writer.writerows([_cell(getattr(one, column.field)) for column in held] for one in things)
     path.write_text(text.getvalue(), encoding="utf-8", newline="\n")
 
 
+def _write_history(run: Run, path: Path) -> None:
+    """Write 17 digits of each number, which are enough in any spacing of the samples."""
+    held = [column for column in histories.COLUMNS if getattr(run, column.field) is not None]
+    numbers = np.column_stack([getattr(run, column.field) for column in held])
+    path.parent.mkdir(exist_ok=True)
+    with path.open("w", encoding="utf-8", newline="\n") as file:
+        header = ",".join(column.name for column in held)
+        np.savetxt(file, numbers, fmt="%.17g", delimiter=",", header=header, comments="")
+
+
 def _cell(cell: object) -> str:
+    """Return a cell, empty of what is not known; a sentence has one line."""
     if cell is None or (isinstance(cell, float) and math.isnan(cell)):
         return ""
     if isinstance(cell, str):
         return " ".join(cell.split())
     return repr(cell.item() if isinstance(cell, np.generic) else cell)
-
-
-def _write_history(run: Run, path: Path) -> None:
-    columns = {"time": run.time, "q": run.q}
-    if run.q_dot is not None:
-        columns["q_dot"] = run.q_dot
-    path.parent.mkdir(exist_ok=True)
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        numbers = np.column_stack(list(columns.values()))
-        np.savetxt(file, numbers, fmt="%.17g", delimiter=",", header=",".join(columns), comments="")
