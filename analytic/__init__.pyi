@@ -3,8 +3,6 @@ from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .damping import Damping as Damping
 from .exact.backbone import Backbone as Backbone
-from .exact.backbone_map import BackboneMap as BackboneMap
-from .exact.backbone_map import backbone_map as backbone_map
 from .exact.backbone_series import BackboneCurve as BackboneCurve
 from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch

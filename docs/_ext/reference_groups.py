@@ -43,7 +43,7 @@ GROUPS = (
         "Backbone",
         "Frequency against amplitude, exactly: orbit by orbit, as a series, beyond folds.",
         analytic="periodic_orbits Backbone BeamState AmplitudeNotReachedError backbone_curve "
-        "BackboneCurve backbone_map BackboneMap backbone_branch BackboneBranch Resonance",
+        "BackboneCurve backbone_branch BackboneBranch Resonance",
     ),
     _group(
         "Forced response",
