@@ -29,8 +29,6 @@ from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
 from .exact.stability_limit import Tongue as Tongue
 from .exact.stability_limit import stability_limit as stability_limit
-from .exact.stability_maps import growth_map as growth_map
-from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
 from .exact.tracking import Crossing as Crossing
 from .loads import DistributedForce as DistributedForce

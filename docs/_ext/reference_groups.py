@@ -61,7 +61,7 @@ GROUPS = (
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
         analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue "
-        "limit_map growth_map planar_note",
+        "planar_note",
     ),
     _group(
         "Reduced models",
