@@ -3,8 +3,6 @@ from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .damping import Damping as Damping
 from .exact.backbone import Backbone as Backbone
-from .exact.backbone_map import BackboneMap as BackboneMap
-from .exact.backbone_map import backbone_map as backbone_map
 from .exact.backbone_series import BackboneCurve as BackboneCurve
 from .exact.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.branches import BackboneBranch as BackboneBranch
@@ -31,8 +29,6 @@ from .exact.response import spin_up_response as spin_up_response
 from .exact.stability_limit import StabilityLimit as StabilityLimit
 from .exact.stability_limit import Tongue as Tongue
 from .exact.stability_limit import stability_limit as stability_limit
-from .exact.stability_maps import growth_map as growth_map
-from .exact.stability_maps import limit_map as limit_map
 from .exact.state import BeamState as BeamState
 from .exact.tracking import Crossing as Crossing
 from .loads import DistributedForce as DistributedForce

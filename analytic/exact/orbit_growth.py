@@ -8,14 +8,16 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..beam import AnyBlade, require_blade
 from ..blade import Blade
 from ..input_checks import rotation_speed
 from ..methods.harmonic_balance import NoOrbitError
+from ..threads import one_thread
 from .branch import AmplitudeNotReachedError, branch_of
 from .growth import STEPS, Growth, grown, settled_functions
 from .modes import resolved_model
-from .space import out_of_plane_of
+from .space import out_of_plane_of, require_out_of_plane
 from .steady import BeamOrbit
 
 LEAST_GROWTH = 0.01
@@ -63,6 +65,26 @@ def _orbits(
 ) -> Callable[[float], BeamOrbit]:
     model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
+
+
+@one_thread
+def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> FloatArray:
+    """Return the growth rates [1/s] about orbits of the first mode, zero where stable.
+
+    On as many functions and steps as `planar_stability` begins with, for maps; NaN from the first
+    amplitude on that no orbit was found for.
+    """
+    require_out_of_plane(blade)
+    orbit = planar_orbits(blade, rotation_speed(omega), 1)
+    rates = np.full(amplitudes.size, np.nan)
+    for k, a in enumerate(amplitudes.tolist()):
+        try:
+            at = orbit(a)
+        except NoOrbitError:
+            break
+        found = grown(blade, at, settled_functions(blade, at.system), STEPS)
+        rates[k] = found.rate(at.frequency * blade.frequency_scale)
+    return rates
 
 
 def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:

@@ -43,7 +43,7 @@ GROUPS = (
         "Backbone",
         "Frequency against amplitude, exactly: orbit by orbit, as a series, beyond folds.",
         analytic="periodic_orbits Backbone BeamState AmplitudeNotReachedError backbone_curve "
-        "BackboneCurve backbone_map BackboneMap backbone_branch BackboneBranch Resonance",
+        "BackboneCurve backbone_branch BackboneBranch Resonance",
     ),
     _group(
         "Forced response",
@@ -61,7 +61,7 @@ GROUPS = (
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
         analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue "
-        "limit_map growth_map planar_note",
+        "planar_note",
     ),
     _group(
         "Reduced models",

@@ -5,7 +5,6 @@ Each function returns a Dataset; `rotbeam_exu.figures` draws it.
 
 from __future__ import annotations
 
-from .backbone_map import backbone_map_data, backbone_map_of
 from .backbones import figure_5, figure_14, finite_element_points, fitted_softening
 from .budget import finite_element_budget, model_budget
 from .exact_spin_up import exact_spin_up
@@ -18,8 +17,6 @@ from .softening_map import softening_by_plane, softening_map
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
-    "backbone_map_data",
-    "backbone_map_of",
     "exact_spin_up",
     "figure_3",
     "figure_4",

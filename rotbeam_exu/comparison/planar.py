@@ -10,13 +10,15 @@ import numpy as np
 from analytic import (
     AnyBlade,
     Beam,
+    OutOfPlane,
     PlanarStability,
     StabilityLimit,
-    growth_map,
-    limit_map,
     linear_modes,
+    stability_limit,
 )
+from analytic.exact.orbit_growth import growth_rates
 from analytic.exact.stability_limit import LARGEST
+from analytic.input_checks import finite_values
 
 from ..lazily import xr
 from ..paper import SPEEDS
@@ -108,10 +110,14 @@ def growth_out_of_plane(
         `growth_rate`, zero where stable, over (omega, a).
     """
     blade = Beam.reference().rectangle() if blade is None else blade
-    speeds = np.linspace(0.0, 8.0, 25) if omegas is None else np.asarray(omegas, dtype=float)
-    peaks = np.geomspace(0.01, 0.4, 24) if amplitudes is None else np.asarray(amplitudes)
+    speeds, peaks = np.linspace(0.0, 8.0, 25), np.geomspace(0.01, 0.4, 24)
+    if omegas is not None:
+        speeds = finite_values("omegas", omegas, "rad/s")
+    if amplitudes is not None:
+        peaks = finite_values("amplitudes", amplitudes)
+    rates = np.array([growth_rates(blade, omega, peaks) for omega in speeds.tolist()])
     return xr.Dataset(
-        {"growth_rate": (("omega", "a"), growth_map(blade, speeds, peaks), _GROWTH)},
+        {"growth_rate": (("omega", "a"), rates, _GROWTH)},
         coords={"omega": ("omega", speeds, _OMEGA), "a": ("a", peaks, _AMPLITUDE)},
         attrs=beam_attributes(blade),
     )
@@ -141,11 +147,13 @@ def stability_limits(
         `limit` |q|/L over (ratio, omega), infinite where the largest orbit stays in the plane.
     """
     beam = Beam.reference() if beam is None else beam
+    blades = [beam.with_out_of_plane(OutOfPlane.rectangle(ratio)) for ratio in ratios]
+    found = [[stability_limit(blade, w, largest=largest) for w in omegas] for blade in blades]
     return xr.Dataset(
         {
             "limit": (
                 ("ratio", "omega"),
-                limit_map(beam, ratios, omegas, largest=largest),
+                [[limit.amplitude for limit in row] for row in found],
                 {"units": "1", "long_name": "amplitude |q|/L from which on the plane is left"},
             )
         },

@@ -1,4 +1,4 @@
-"""Results on disk: netCDF and CSV that load back equal; whole or not at all."""
+"""Results on disk: netCDF that loads back equal, and CSV for reading; whole or not at all."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ OUTCOMES = frozenset(
 def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     """Write a Dataset as netCDF (.nc) or CSV (.csv), by the ending of `path`, and return the path.
 
-    `load` gives back what was written: variables, coordinates, attributes, every bit of every
-    number; text comes back as NumPy's text, tuples as lists. The CSV has one row per sample, units
-    in the header of its columns, and all else in lines above that begin with "#".
+    netCDF is to be loaded: `load` gives back variables, coordinates, attributes, every bit of every
+    number; text comes back as NumPy's text, tuples as lists. CSV is for reading: one row per
+    sample, units in the header of the columns, and attributes in lines above that begin with "#".
 
     Raises
     ------
     ValueError
-        If the ending is neither; if something would not come back as it is, which the sentence
-        names.
+        If the ending is neither; if something would not come back from netCDF as it is, which the
+        sentence names.
     OSError
         If the file cannot be written; what stood there before then still stands.
 
@@ -52,16 +52,22 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     if target.suffix not in (".nc", ".csv"):
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
-    try:
-        content = (netcdf if target.suffix == ".nc" else table).encode(run)
-        lost = difference(run, _decoded(target, content)[0])
-    except (LookupError, TypeError, ValueError) as error:
-        raise ValueError(f"cannot write {target.name!r}: {error}") from error
-    if lost:
-        raise ValueError(f"cannot write {target.name!r}: {lost}")
+    content = table.encode(run) if target.suffix == ".csv" else _restorable(run, target.name)
     with whole_file(target) as partial:
         partial.write_bytes(content)
     return target
+
+
+def _restorable(run: xr.Dataset, name: str) -> bytes:
+    """Return the netCDF file that gives a result back; refuse what none does."""
+    try:
+        content = netcdf.encode(run)
+        lost = difference(run, netcdf.decode(content)[0])
+    except (LookupError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot write {name!r}: {error}") from error
+    if lost:
+        raise ValueError(f"cannot write {name!r}: {lost}")
+    return content
 
 
 def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
@@ -81,20 +87,20 @@ def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read a Dataset that `save` wrote, attributes included.
+    """Read a Dataset that `save` wrote as netCDF, attributes included.
 
     Raises
     ------
     ValueError
-        If the file cannot be read, was damaged or changed since it was written, or names other
-        files to read from.
+        If the file is a table, cannot be read, was damaged or changed since it was written, or
+        names other files to read from.
     FileNotFoundError
         If there is none.
 
     Warns
     -----
     RotbeamWarning
-        If a netCDF file was not written by `save`, so that nothing tells whether it is damaged.
+        If the file was not written by `save`, so that nothing tells whether it is damaged.
 
     Examples
     --------
@@ -104,7 +110,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     >>> from rotbeam_exu import load, save
     >>> data = xr.Dataset({"q": ("time", [0.0, 0.1])}, {"time": [0.0, 1.0]}, {"omega": 6.0})
     >>> with TemporaryDirectory() as folder:
-    ...     print(load(save(data, Path(folder) / "mine.csv")).q.values)
+    ...     print(load(save(data, Path(folder) / "mine.nc")).q.values)
     [0.  0.1]
     """
     run, sealed = read(path)
@@ -121,21 +127,17 @@ def read(path: str | os.PathLike[str]) -> tuple[xr.Dataset, bool]:
     source = Path(path)
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
+    if source.suffix == ".csv":
+        raise ValueError(
+            f"{source} is a table for reading: load the netCDF file instead, or read the table by "
+            "pandas.read_csv(path, comment='#')"
+        )
     try:
-        return _decoded(source, source.read_bytes())
+        return netcdf.decode(source.read_bytes())
     except (LookupError, TypeError, ValueError) as error:
-        if source.suffix == ".csv":
-            raise ValueError(
-                f"{source} cannot be loaded: {error}; pandas.read_csv(path, comment='#') reads any "
-                "table, without units and attributes"
-            ) from error
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
-
-
-def _decoded(path: Path, content: bytes) -> tuple[xr.Dataset, bool]:
-    return (table.decode(content), True) if path.suffix == ".csv" else netcdf.decode(content)
 
 
 def differing_inputs(
@@ -151,7 +153,7 @@ def differing_inputs(
     run : Dataset or mapping
         A result, or only its inputs by name, where it is not computed yet.
     path : path
-        A file that `save` wrote, or none.
+        A file that `save` wrote, or none. For a table the netCDF file of its name answers.
 
     Returns
     -------
@@ -160,10 +162,12 @@ def differing_inputs(
         input that differs; `variables`, if the file has some that the result lacks; `file`, if it
         cannot be read. Empty if there is no file, or if it may be replaced without loss.
     """
-    if not Path(path).exists():
+    target = Path(path)
+    kept = target.with_suffix(".nc") if target.suffix == ".csv" else target
+    if not target.exists() and not kept.exists():
         return {}
     try:
-        there, _ = read(path)
+        there, _ = read(kept)
     except (OSError, ValueError) as error:
         return {"file": (None, str(error))}
     mine, theirs = _inputs(run), _inputs(there)

@@ -36,13 +36,6 @@ def same(one: Any, other: Any, *, exact: bool = False) -> bool:
     return bool(one == other or (one != one and other != other))  # noqa: PLR0124
 
 
-def is_text(values: np.ndarray[Any, Any]) -> bool:
-    """Whether an array holds text and nothing else, in whatever dtype."""
-    return values.dtype.kind in "UT" or (
-        values.dtype == object and all(isinstance(value, str) for value in values.flat)
-    )
-
-
 def attributes(data: xr.Dataset) -> Iterator[tuple[str, Any]]:
     """Every attribute with its name in words, those of the variables after the Dataset's own."""
     for name, value in data.attrs.items():
@@ -79,12 +72,19 @@ def difference(given: xr.Dataset, kept: xr.Dataset) -> str | None:
     return None
 
 
+def _is_text(values: np.ndarray[Any, Any]) -> bool:
+    """Whether an array holds text and nothing else, in whatever dtype."""
+    return values.dtype.kind in "UT" or (
+        values.dtype == object and all(isinstance(value, str) for value in values.flat)
+    )
+
+
 def _same_array(one: xr.Variable, other: xr.Variable) -> bool:
     if one.dims != other.dims or one.shape != other.shape:
         return False
     a, b = one.to_numpy(), other.to_numpy()
-    if is_text(a):
-        return is_text(b) and a.tolist() == b.tolist()
+    if _is_text(a):
+        return _is_text(b) and a.tolist() == b.tolist()
     return a.dtype.newbyteorder("=") == b.dtype.newbyteorder("=") and np.array_equal(
         a, b, equal_nan=a.dtype.kind in "fc"
     )

@@ -32,10 +32,10 @@ MEASURED = {
 def maker(element: str | Formulation) -> dict[str, str] | None:
     """Return what besides its inputs makes the result of a case: the element's class and the code.
 
-    None if the source does not tell what the class does; see `provenance.code_of`.
+    None if the files do not tell what the class does; see `provenance.code_of`.
     """
     cls = type(formulation(element))
-    code = code_of(cls, __name__)
+    code = code_of(cls)
     return None if code is None else {"class": f"{cls.__module__}.{cls.__qualname__}", "code": code}
 
 

@@ -1,69 +1,46 @@
-"""What code a number comes from: the source of every module that may have had a part in it."""
+"""The code that a number comes from, as a digest of files."""
 
 from __future__ import annotations
 
-import ast
 import dataclasses
 import hashlib
 import inspect
-import site
 import sys
-import sysconfig
-from functools import lru_cache
-from importlib.machinery import ModuleSpec, PathFinder
-from importlib.util import find_spec, resolve_name
+from modulefinder import ModuleFinder
 from pathlib import Path
 from types import FunctionType
 
-_OURS = ("rotbeam_exu", "analytic")
-_DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+_OURS = ("analytic", "rotbeam_exu")
 
 
-def code_of(cls: type, *modules: str) -> str | None:
-    """Return a digest of the code of a class, its bases, `modules`, and all that they import.
+def code_of(cls: type) -> str | None:
+    """Return a digest of both packages' files, and of those of a class and its bases.
 
-    Followed are this project's modules, those of the package of the class, and whatever lies
-    outside of the folders of installed libraries, for which their versions speak. Comments,
-    docstrings, layout and what stands under ``if __name__ == "__main__":`` do not count.
+    The files of a class are those of its package; or its module, and what that imports from the
+    same folder. Any change of a file counts, that of a docstring too.
 
     Returns
     -------
     str or None
-        None if the source does not tell what the class does: it is not on file, as in an
-        interactive session; made inside of a function, whose values it may use; or patched.
+        None if the files do not tell what the class does: it is not on file, as in an interactive
+        session; made inside of a function, whose values it may use; or patched.
     """
-    bases = [base for base in cls.__mro__ if base.__module__ not in sys.stdlib_module_names]
-    if not all(map(_told_by_its_source, bases)):
+    names = {base: base.__module__.partition(".")[0] for base in cls.__mro__}
+    bases = [base for base, name in names.items() if name not in sys.stdlib_module_names]
+    if not all(map(_told_by_its_files, bases)):
         return None
-    names = {base.__module__ for base in bases}
-    packages = {name.partition(".")[0] for name in names} | set(_OURS)
-    code: dict[str, str] = {}
-    waiting = [*modules]
-    for name in names:
-        module = sys.modules[name]
-        code[name], imported = _parsed(inspect.getsource(module), module.__package__ or "")
-        waiting += imported
-    while waiting:
-        name = waiting.pop()
-        if name in code or not (name.partition(".")[0] in packages or _own(name)):
-            continue
-        spec = _spec(name)
-        if spec is None or not (spec.origin or "").endswith(".py"):
-            continue
-        package = name if spec.submodule_search_locations else name.rpartition(".")[0]
-        source = Path(str(spec.origin)).read_text(encoding="utf-8")
-        code[name], imported = _parsed(source, package)
-        waiting += imported
-    return hashlib.sha256(repr(sorted(code.items())).encode()).hexdigest()
+    files: dict[str, bytes] = {}
+    for name in {*_OURS, *(names[base] for base in bases)}:
+        files |= _files(name)
+    return hashlib.sha256(repr(sorted(files.items())).encode()).hexdigest()
 
 
-def _told_by_its_source(cls: type) -> bool:
+def _told_by_its_files(cls: type) -> bool:
     if "<locals>" in cls.__qualname__:
         return False
     try:
         inspect.getsource(cls)
-        inspect.getsource(sys.modules[cls.__module__])
-    except (KeyError, OSError, TypeError):
+    except (OSError, TypeError):
         return False
     # A method from elsewhere was put there later; dataclass() makes some from a "<string>".
     here = {inspect.getsourcefile(cls), dataclasses.__file__, "<string>"}
@@ -71,54 +48,18 @@ def _told_by_its_source(cls: type) -> bool:
     return all(method.__code__.co_filename in here for method in methods)
 
 
-@lru_cache(maxsize=256)
-def _parsed(source: str, package: str) -> tuple[str, frozenset[str]]:
-    """Return what importing a module runs, and the names of what it imports, at any place.
-
-    Names imported from a module may be modules themselves: both are returned.
-    """
-    tree = ast.parse(source)
-    tree.body = [
-        node
-        for node in tree.body
-        if not (isinstance(node, ast.If) and ast.unparse(node.test) == "__name__ == '__main__'")
-    ]
-    found: set[str] = set()
-    for node in ast.walk(tree):
-        if isinstance(node, _DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            del node.body[0]
-        if isinstance(node, ast.Import):
-            found.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            name = "." * node.level + (node.module or "")
-            base = resolve_name(name, package) if node.level else name
-            found.update({base, *(f"{base}.{alias.name}" for alias in node.names)})
-    return ast.dump(tree), frozenset(found)
-
-
-def _spec(name: str) -> ModuleSpec | None:
-    """Find a module without importing it or the packages around it, or return None."""
-    top, *rest = name.split(".")
-    try:
-        spec = find_spec(top)
-    except (ImportError, ValueError):
-        return None
-    for part in rest:
-        if spec is None or not spec.submodule_search_locations:
-            return None
-        spec = PathFinder.find_spec(f"{spec.name}.{part}", spec.submodule_search_locations)
-    return spec
-
-
-@lru_cache
-def _own(name: str) -> bool:
-    """Whether a module is neither Python's nor an installed library's."""
-    top = name.partition(".")[0]
-    if top in sys.stdlib_module_names:
-        return False
-    spec = _spec(top)
-    if spec is None or spec.origin is None:
-        return False
-    libraries = [sysconfig.get_path("purelib"), sysconfig.get_path("platlib")]
-    libraries += [*site.getsitepackages(), site.getusersitepackages()]
-    return not any(Path(spec.origin).is_relative_to(folder) for folder in libraries)
+def _files(name: str) -> dict[str, bytes]:
+    """Return the files of a package; or a module, and what it imports from its folder."""
+    module = sys.modules[name]
+    if hasattr(module, "__path__"):
+        folders = [Path(folder) for folder in module.__path__]
+        files = [file for folder in folders for file in folder.rglob("*.py")]
+        above = len(folders[0].parts) - 1
+    else:
+        own = Path(str(module.__file__))
+        finder = ModuleFinder([str(own.parent)], excludes=_OURS)
+        finder.run_script(str(own))
+        found = [vars(part)["__file__"] for part in finder.modules.values()]
+        files = [Path(file) for file in found if file]
+        above = len(own.parts) - 1
+    return {"/".join(file.parts[above:]): file.read_bytes() for file in files}

@@ -22,7 +22,6 @@ from analytic import (
     TipForce,
     backbone_branch,
     backbone_curve,
-    backbone_map,
     campbell,
     damping_ratios,
     forced_response,
@@ -64,9 +63,6 @@ ANSWERS = {
     "backbone_branch": lambda n: backbone_branch(
         BEAM, n(6), n(0.125), inextensible=True, functions=8
     ).frequency,
-    "backbone_map": lambda n: backbone_map(
-        BEAM, (n(5.5), n(6.5)), n(0.125), speeds=8, tolerance=n(2**-14), functions=8
-    ).frequency(n(6), n(0.0625)),
     "reduced_model": lambda n: reduced_model(BEAM, n(6), "FrM").frequency(n(0.125)),
     "its exact frequency": lambda n: reduced_model(BEAM, n(6), "FrE").exact_frequency(n(0.125)),
     "forced_response": lambda n: forced_response(

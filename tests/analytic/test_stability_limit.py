@@ -16,8 +16,6 @@ from analytic import (
     Section,
     SpinUp,
     campbell,
-    growth_map,
-    limit_map,
     linear_modes,
     periodic_orbits,
     planar_note,
@@ -25,6 +23,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
+from analytic.exact.orbit_growth import growth_rates
 from analytic.methods.continuation import Care
 
 ROOT = Path(__file__).parents[2]
@@ -173,8 +172,8 @@ def test_the_limit_lies_between_the_amplitudes_that_tell(beam):
     # Growth over a period is the largest multiplier.
     growth = math.exp(found.growth_rate[0] * 2.0 * math.pi / found.frequency[0])
     assert np.abs(found.multipliers[0]).max() == pytest.approx(growth, rel=1e-9)
-    same = growth_map(blade, [2.0], found.amplitude)
-    assert same[0] == pytest.approx(found.growth_rate, rel=0.01)
+    same = growth_rates(blade, 2.0, found.amplitude)
+    assert same == pytest.approx(found.growth_rate, rel=0.01)
 
 
 def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
@@ -199,12 +198,16 @@ def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
     assert planar_note(blade.with_damping(Damping(bending=0.01)), 2.0, 0.5) == ""
 
 
+@pytest.mark.slow
+def test_a_map_has_no_number_where_there_is_no_orbit(beam):
+    rates = growth_rates(beam.rectangle(), 8.0, np.array([0.02, 0.97]))
+    assert np.isnan(rates).tolist() == [False, True]
+
+
 def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
-    found = limit_map(beam, [1.0], [6.0], largest=0.03)
-    assert math.isinf(found[0, 0])
-    assert "stay in their plane, up to a = 0.03" in str(
-        stability_limit(beam.with_out_of_plane(OutOfPlane.rectangle(1.0)), 6.0, largest=0.03)
-    )
+    found = stability_limit(beam.with_out_of_plane(OutOfPlane.rectangle(1.0)), 6.0, largest=0.03)
+    assert math.isinf(found.amplitude)
+    assert "stay in their plane, up to a = 0.03" in str(found)
 
 
 @pytest.mark.parametrize("omega", [0.0, 1e-3])

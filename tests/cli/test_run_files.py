@@ -1,6 +1,7 @@
 """A TOML file with motion and numerics, and a run repeated from its own file."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from analytic import Beam, SpinUp
@@ -156,8 +157,9 @@ def test_the_reference_is_the_exact_spin_up(call, tmp_path):
     )
     code, _, _ = call("reference", *quick, "-o", tmp_path)
     assert code == 0
-    data, table = (load(tmp_path / f"exact-omega-2-ramp-4.{kind}") for kind in ("nc", "csv"))
-    assert data.equals(table)
+    data = load(tmp_path / "exact-omega-2-ramp-4.nc")
+    table = pd.read_csv(tmp_path / "exact-omega-2-ramp-4.csv", comment="#")
+    assert np.array_equal(table["q [m]"], data["q"])
     assert np.array_equal(data["time"], np.arange(7.0))
     # 16 elements of fourth order and 1 ms: 1e-4 of the largest deflection is plenty.
     run = simulate(Beam.reference(), SpinUp(omega=2.0, ramp_time=4.0), duration=6.0, step=1e-3)

@@ -61,13 +61,12 @@ def test_an_element_with_the_name_of_ours_is_computed(beam, tmp_path, author):
     assert len(list(tmp_path.glob("*.nc"))) == 2
 
 
-def test_any_change_of_code_makes_another_case_and_nothing_else_does(author):
+def test_any_change_of_code_makes_another_case_and_nothing_else_does(author, tmp_path):
     first = maker(author())
     assert first == maker(author())
-    assert first == maker(author(MINE.replace("class Softer", "# a remark\n\nclass Softer")))
-    assert first == maker(author(MINE.replace("elements):", "elements):\n        'Lay it.'")))
-    script = "\nif __name__ == '__main__':\n    print('the grid of the day')\n"
-    assert first == maker(author(MINE + script))
+    # A file beside the element that it has no use for, as the script with the grid of the day.
+    (tmp_path / "author" / "run.py").write_text("import mine")
+    assert first == maker(author())
     changed = [
         maker(author(MINE.replace("SHARE *", "2.0 * SHARE *"))),
         maker(author(MINE + "\ntwice = 2.0\n")),
@@ -75,6 +74,27 @@ def test_any_change_of_code_makes_another_case_and_nothing_else_does(author):
         maker("cable"),
     ]
     assert len({made["code"] for made in [first, *changed]}) == 5
+
+
+def test_an_element_in_a_package_is_all_of_the_package(tmp_path, monkeypatch):
+    """What a package reads of itself while it runs stands in no import."""
+    package = tmp_path / "stiffness"
+    (package / "shares").mkdir(parents=True)
+    read = (
+        "from importlib import import_module\nSHARE = import_module('stiffness.shares.one').SHARE"
+    )
+    body = MINE.replace("from softness import SHARE", read).replace("Softer", "SofterStill")
+    (package / "mine.py").write_text(body)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    codes = []
+    for share in (0.5, 0.25):
+        (package / "shares" / "one.py").write_text(f"SHARE = {share}")
+        codes.append(maker(importlib.import_module("stiffness.mine").SofterStill())["code"])
+        for name in [name for name in sys.modules if name.startswith("stiffness")]:
+            monkeypatch.delitem(sys.modules, name)
+        importlib.invalidate_caches()
+    assert codes[0] != codes[1]
 
 
 def test_ours_are_cached_and_looking_at_their_code_imports_nothing():

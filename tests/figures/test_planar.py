@@ -46,6 +46,13 @@ def test_the_map_has_a_color_where_it_grows_only(beam):
     assert axes.get_ylim() == pytest.approx((0.0, 0.08), abs=1e-3)
 
 
+def test_a_map_of_an_unknown_section_is_refused(beam):
+    with pytest.raises(ValueError, match="out of its plane is unknown: give its section"):
+        comparison.growth_out_of_plane(beam, omegas=[2.0], amplitudes=[0.02])
+    with pytest.raises(ValueError, match="omegas must be"):
+        comparison.growth_out_of_plane(omegas=[], amplitudes=[0.02])
+
+
 def test_limits_over_the_shape(beam):
     data = comparison.stability_limits(ratios=[1.0, 18.5], omegas=[0.0], largest=0.012)
     assert np.isinf(data["limit"].sel(ratio=1.0)).all()
