@@ -91,6 +91,23 @@ class BladeFunctions:
         return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))
 
 
+_FEWEST, _MOST = 16, 120
+_A_ROOT = 3.5
+"""Rotation bends the blade in a layer √2/w̄ thin: 3.5 √w̄ functions have ten digits of λ_ω."""
+_ON_PANEL = 3, 20
+"""Least and most functions on each panel, whatever their sum."""
+
+
+def basis_sizes(blade: UnitBlade, w_bar: float) -> list[int]:
+    """Return the numbers of functions to try at w̄, each half as many again as the last."""
+    fewest = min(max(_FEWEST, _A_ROOT * math.sqrt(w_bar)), 2 * _MOST / 3)
+    panels = blade.panel_count
+    sizes = [max(_ON_PANEL[0], math.ceil(fewest / panels))]
+    while (more := math.ceil(1.5 * sizes[-1])) <= max(_ON_PANEL[1], _MOST // panels):
+        sizes.append(more)
+    return [panels * size for size in sizes]
+
+
 @lru_cache(maxsize=16)
 def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
     """Return at least `count` functions of the blade."""

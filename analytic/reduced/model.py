@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
@@ -38,9 +37,6 @@ class ReducedModel:
     variant : Variant
     oscillator : Oscillator
         Eq. 41 with its coefficients, nondimensional.
-    tip_coupling : float
-        Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
-        second order.
 
     Examples
     --------
@@ -54,7 +50,6 @@ class ReducedModel:
     omega: float
     variant: Variant
     oscillator: Oscillator
-    tip_coupling: float = 0.0
 
     @property
     def speed_ratio(self) -> float:
@@ -111,13 +106,11 @@ class ReducedModel:
 
         Those of Eq. 41 in one-mode models; of FrM with the other modes' share in h2 and h3.
         """
-        lambda_omega = self.lambda_omega
-        if not self.variant.has_all_modes:
-            h2 = 0.5 * self.w_n * self.tip_coupling
-            return Perturbation(lambda_omega=lambda_omega, h2=h2, h3=self.oscillator.lambda_x)
+        if not self.variant.coriolis:
+            return Perturbation(lambda_omega=self.lambda_omega, h3=self.oscillator.lambda_x)
         mode = self._normal_mode
         kappa = mode.kappa if self.variant.order == 5 else 0.0
-        return Perturbation(lambda_omega=lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
+        return Perturbation(lambda_omega=self.lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
 
     @property
     def largest_amplitude(self) -> float:
@@ -265,36 +258,20 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     require_undamped(beam, "the reduced models have no damping")
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
-    others = None
-    if beam.unit != UNIFORM:
-        kept = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
-        others = np.array(kept.others)
-    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega, others)
+    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
     return model
 
 
 def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
-    if beam.unit != UNIFORM:
-        return _of_blade(beam, omega, variant)
-    oscillator, tip = uniform_oscillator(beam, omega, variant)
-    return ReducedModel(
-        beam=beam, omega=omega, variant=variant, oscillator=oscillator, tip_coupling=tip
-    )
-
-
-def _of_blade(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
-    """Return FrC or FrM of a blade; the other variants are for the uniform beam without a hub."""
-    if variant.shape != "rotating" or variant.axial != "consistent":
+    if variant.is_of_any_blade:
+        w_bar = omega / beam.frequency_scale
+        oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
+    elif beam.unit == UNIFORM:
+        oscillator = uniform_oscillator(beam, omega, variant)
+    else:
         raise ValueError(
             f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
             f"{beam.unit.differences}: take FrM"
         )
-    found = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
-    return ReducedModel(
-        beam=beam,
-        omega=omega,
-        variant=variant,
-        oscillator=found.oscillator,
-        tip_coupling=found.tip,
-    )
+    return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
