@@ -52,8 +52,10 @@ class BladeFunctions:
     slope, slope_turning, slope_bent : ndarray (inner, n), (turning, n), (points, n)
     curvature : ndarray (points, n)
     tip : ndarray (n,)
-    mass, bending, turning : ndarray (n, n)
-        M, the bending's part of K, and the rotary inertia's of M.
+    mass, bending, centrifugal, turning : ndarray (n, n)
+        M; the parts of K = bending + w̄² centrifugal; and the rotary inertia's part of M.
+    euler : ndarray (n,)
+        ∫(δ + x) φ dm + ∫φ' dj: over c, what the Euler force -θ̈ does work on.
     """
 
     blade: UnitBlade
@@ -73,14 +75,13 @@ class BladeFunctions:
     tip: FloatArray
     mass: FloatArray
     bending: FloatArray
+    centrifugal: FloatArray
     turning: FloatArray
+    euler: FloatArray
 
     def stiffness(self, w_bar: float) -> FloatArray:
         """Return K (n, n) at w̄: bending, tension, and the softening of the plane of rotation."""
-        phi, slope = self.deflection, self.slope
-        softening = self.blade.setting**2 * w_bar**2 * (phi.T @ (self.dm[:, None] * phi))
-        stiffening = w_bar**2 * slope.T @ (self.tension[:, None] * slope)
-        return np.asarray(self.bending + stiffening - softening)
+        return np.asarray(self.bending + w_bar**2 * self.centrifugal)
 
     def first_mode(self, w_bar: float) -> FirstMode:
         """Return the first mode at w̄."""
@@ -121,8 +122,13 @@ def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
     # Values at these points to integrals from the clamp to the masses: products of two slopes.
     to_masses = inner.integral(at)
 
-    phi, slope_turning = across.twice(at), across.once(turning_at)
+    phi, slope, slope_turning = (
+        across.twice(at), across.once(inner.points), across.once(turning_at)
+    )  # fmt: skip
     curvature = across.strain(x)
+    lever = (blade.hub + at) * dm
+    tension = lever @ to_masses
+    moved = phi.T @ (dm[:, None] * phi)
     turning = slope_turning.T @ (dj[:, None] * slope_turning)
     return BladeFunctions(
         blade=blade,
@@ -133,14 +139,16 @@ def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
         bent=bent,
         weights=inner.weights,
         to_masses=to_masses,
-        tension=((blade.hub + at) * dm) @ to_masses,
+        tension=tension,
         deflection=phi,
-        slope=across.once(inner.points),
+        slope=slope,
         slope_turning=slope_turning,
         slope_bent=across.once(x),
         curvature=curvature,
         tip=across.twice(np.ones(1))[0],
-        mass=phi.T @ (dm[:, None] * phi) + turning,
+        mass=moved + turning,
         bending=curvature.T @ (bent[:, None] * curvature),
+        centrifugal=slope.T @ (tension[:, None] * slope) - blade.setting**2 * moved,
         turning=turning,
+        euler=lever @ phi + dj @ slope_turning,
     )
