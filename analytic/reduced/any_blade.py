@@ -12,6 +12,7 @@ Coriolis coupling to all other modes. Inextensible; of the uniform beam this is 
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -20,12 +21,11 @@ import numpy as np
 from ..arrays import FloatArray
 from ..lazily import linalg
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, basis_sizes, blade_functions
+from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 from .oscillator import Oscillator
 
 _SETTLED = 1e-9
 """Change of ω_n and λ from one basis to the next; those of smooth blades settle at once."""
-_ROUGHLY = 1e-5
 
 
 class BladeOscillator(NamedTuple):
@@ -44,21 +44,12 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
     ValueError
         If as many functions as are taken do not settle it to 1e-5.
     """
-    first, *finer = basis_sizes(blade, w_bar)
-    found = _with_functions(blade, w_bar, coriolis, first)
-    for count in finer:
-        before, found = found, _with_functions(blade, w_bar, coriolis, count)
-        change = max(
-            abs(found.oscillator.w_n / before.oscillator.w_n - 1.0),
-            abs(found.oscillator.lambda_omega - before.oscillator.lambda_omega),
-        )
-        if change <= _SETTLED:
-            return found
-    if change < _ROUGHLY:
-        return found  # kinks of the section leave an algebraic tail, of this size
-    raise ValueError(
-        f"the first mode has not settled with {count} functions: the last third of them changes it "
-        f"by {change:.1e}; rotate slower, or smooth the section"
+    return settled(
+        basis_sizes(blade, w_bar),
+        lambda count: _with_functions(blade, w_bar, coriolis, count),
+        lambda found: (math.log(found.oscillator.w_n), found.oscillator.lambda_omega),
+        _SETTLED,
+        "the first mode",
     )
 
 

@@ -6,9 +6,10 @@ Everywhere two measures, dm and EI dx, and the rotary inertia dj, point masses i
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -92,6 +93,10 @@ class BladeFunctions:
         return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))
 
 
+FoundT = TypeVar("FoundT")
+
+_KINKED = 1e-5
+"""Change that is left where a section has kinks, with an algebraic tail."""
 _FEWEST, _MOST = 16, 120
 _A_ROOT = 3.5
 """Rotation bends the blade in a layer √2/w̄ thin: 3.5 √w̄ functions have ten digits of λ_ω."""
@@ -107,6 +112,34 @@ def basis_sizes(blade: UnitBlade, w_bar: float) -> list[int]:
     while (more := math.ceil(1.5 * sizes[-1])) <= max(_ON_PANEL[1], _MOST // panels):
         sizes.append(more)
     return [panels * size for size in sizes]
+
+
+def settled(
+    sizes: list[int],
+    solve: Callable[[int], FoundT],
+    numbers: Callable[[FoundT], tuple[float, ...]],
+    tolerance: float,
+    name: str,
+) -> FoundT:
+    """Return what `solve` finds with the first number of functions that settles its `numbers`.
+
+    Raises
+    ------
+    ValueError
+        If the most functions still change them by more than 1e-5.
+    """
+    found, change = solve(sizes[0]), math.inf
+    for count in sizes[1:]:
+        before, found = found, solve(count)
+        change = max(abs(a - b) for a, b in zip(numbers(found), numbers(before), strict=True))
+        if change <= tolerance:
+            return found
+    if change <= _KINKED:
+        return found
+    raise ValueError(
+        f"{name} has not settled with {sizes[-1]} functions: the last third of them changes it by "
+        f"{change:.1e}; rotate slower, or smooth the section"
+    )
 
 
 @lru_cache(maxsize=16)

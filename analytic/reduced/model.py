@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,11 +16,11 @@ from ..input_checks import finite_array, finite_number, not_negative, rotation_s
 from ..threads import one_thread
 from ..unit_blade import UNIFORM
 from .any_blade import blade_oscillator
-from .model_range import amplitudes_within, warn_beyond_range
+from .lagrangian import energy_coefficients
+from .model_range import amplitudes_within, better_model, warn_beyond_range
 from .normal_mode import NormalMode, normal_mode
 from .oscillator import Oscillator
 from .perturbation import Perturbation
-from .uniform_beam import uniform_oscillator
 from .variants import Variant, variant_named
 
 _NO_ORBIT = "Eq. 41 has no periodic orbit"
@@ -264,14 +265,21 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
 
 def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
+    w_bar = omega / beam.frequency_scale
     if variant.is_of_any_blade:
-        w_bar = omega / beam.frequency_scale
         oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
-    elif beam.unit == UNIFORM:
-        oscillator = uniform_oscillator(beam, omega, variant)
-    else:
+        return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
+    if beam.unit != UNIFORM:
         raise ValueError(
             f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
             f"{beam.unit.differences}: take FrM"
         )
+    energy = energy_coefficients(variant.shape_at(w_bar), variant.axial)
+    square = energy.omega_n_squared(w_bar, beam.slenderness)
+    if square <= 0.0:
+        raise ValueError(
+            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
+            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
+        )
+    oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
     return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)

@@ -26,13 +26,12 @@ from ..lazily import linalg
 from ..methods.fourier import half_period
 from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, basis_sizes, blade_functions
+from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 
 _ORDER = 5
 _HARMONICS = 3
 _SETTLED = 1e-8
 """Change of λ and κ from one basis to the next."""
-_KINKED = 1e-5  # change that is left where a section has kinks, with an algebraic tail
 
 
 class NormalMode(NamedTuple):
@@ -69,21 +68,12 @@ def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
     ValueError
         If as many functions as are taken do not settle λ and κ, as where a section has steps.
     """
-    first, *finer = basis_sizes(blade, w_bar)
-    found = _with_functions(blade, w_bar, first)
-    for count in finer:
-        before, found = found, _with_functions(blade, w_bar, count)
-        change = max(
-            abs(found.lambda_omega - before.lambda_omega),
-            abs(found.kappa_of_peak - before.kappa_of_peak),
-        )
-        if change <= _SETTLED:
-            return found
-    if change <= _KINKED:
-        return found
-    raise ValueError(
-        f"the nonlinear normal mode has not settled with {count} functions: the last third of them "
-        f"changes λ or κ by {change:.1e}; rotate slower, or smooth the section"
+    return settled(
+        basis_sizes(blade, w_bar),
+        lambda count: _with_functions(blade, w_bar, count),
+        lambda found: (found.lambda_omega, found.kappa_of_peak),
+        _SETTLED,
+        "the nonlinear normal mode",
     )
 
 

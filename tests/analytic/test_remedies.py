@@ -62,6 +62,13 @@ def test_beyond_the_power_series_of_the_rotating_mode_frm_goes_on():
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_a_mode_that_no_number_of_functions_settles():
+    beam = unit_beam(1e-10)
+    assert "with 120 functions: the last third" in complaint(reduced_model, beam, 3e3, "FrM")
+    assert reduced_model(beam, 1e3, "FrM").perturbation.h3 > 0.0  # rotate slower
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 def test_no_oscillation(beam):
     linear = Variant(name="linear", shape="cantilever", axial="none")
     said = complaint(reduced_model, beam, 3.0, linear)
