@@ -49,7 +49,6 @@ from .reduced.speeds import critical_speed as critical_speed
 from .reduced.speeds import divergence_speed as divergence_speed
 from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table
-from .reduced.timoshenko import timoshenko_frequencies as timoshenko_frequencies
 from .reduced.unstretched import unstretched_frequencies as unstretched_frequencies
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant

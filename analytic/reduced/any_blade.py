@@ -12,6 +12,7 @@ Coriolis coupling to all other modes. Inextensible; of the uniform beam this is 
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -20,20 +21,17 @@ import numpy as np
 from ..arrays import FloatArray
 from ..lazily import linalg
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, blade_functions
+from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 from .oscillator import Oscillator
 
-_FEWEST, _MORE, _STEPS = 20, 12, 5
 _SETTLED = 1e-9
 """Change of ω_n and λ from one basis to the next; those of smooth blades settle at once."""
-_ROUGHLY = 1e-5
 
 
 class BladeOscillator(NamedTuple):
-    """Eq. 41, the tip displacement per x·dx/dτ of all other modes, and their lowest two w̄_j."""
+    """Eq. 41, and the lowest two w̄_j of all other modes."""
 
     oscillator: Oscillator
-    tip: float
     others: tuple[float, float]
 
 
@@ -44,24 +42,14 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
     Raises
     ------
     ValueError
-        If 80 functions, more on many panels, do not settle it to 1e-5.
+        If as many functions as are taken do not settle it to 1e-5.
     """
-    # More on every panel, or they would confirm themselves.
-    counts = [_FEWEST + k * max(_MORE, blade.panel_count) for k in range(_STEPS + 1)]
-    found = _with_functions(blade, w_bar, coriolis, counts[0])
-    for count in counts[1:]:
-        before, found = found, _with_functions(blade, w_bar, coriolis, count)
-        change = max(
-            abs(found.oscillator.w_n / before.oscillator.w_n - 1.0),
-            abs(found.oscillator.lambda_omega - before.oscillator.lambda_omega),
-        )
-        if change <= _SETTLED:
-            return found
-    if change < _ROUGHLY:
-        return found  # kinks of the section leave an algebraic tail, of this size
-    raise ValueError(
-        f"the first mode has not settled with {count} functions: the last {count - counts[-2]} "
-        f"change it by {change:.1e}; rotate slower, or smooth the section"
+    return settled(
+        basis_sizes(blade, w_bar),
+        lambda count: _with_functions(blade, w_bar, coriolis, count),
+        lambda found: (math.log(found.oscillator.w_n), found.oscillator.lambda_omega),
+        _SETTLED,
+        "the first mode",
     )
 
 
@@ -78,21 +66,20 @@ def _with_functions(blade: UnitBlade, w_bar: float, coriolis: bool, count: int) 
         - 0.5 * w_bar**2 * M2
     )
     g2 = 4.0 * (M2 + 0.25 * float(of.dj @ s_j**4)) / M1
-    tip = 0.0
     if coriolis:
         rate = blade.setting * w_bar
-        d = _coupling(of, s_in, v, foreshortening)
+        d = coupling_vector(of, first)
         dynamic = of.stiffness(w_bar) - 4.0 * w_n**2 * of.mass
         follow = linalg.solve(dynamic, 4.0 * rate * d, assume_a="sym")
         g2 += float(4.0 * rate * (d @ follow) / M1)
-        tip = float(of.tip @ follow)
     oscillator = Oscillator(w_n=w_n, g1=float(4.0 * quartic / M1), g2=g2)
-    return BladeOscillator(oscillator, tip, others)
+    return BladeOscillator(oscillator, others)
 
 
-def _coupling(
-    of: BladeFunctions, slope: FloatArray, v: FloatArray, foreshortening: FloatArray
-) -> FloatArray:
-    """Return d[φ_k] = ∫(A[φ_k]φ - A[φ]φ_k) dm for every function."""
+def coupling_vector(of: BladeFunctions, first: FloatArray) -> FloatArray:
+    """Return d[φ_k] = ∫(A[φ_k]φ - A[φ]φ_k) dm (n,) for every function, φ the mode `first`."""
+    v, slope = of.deflection @ first, of.slope @ first
     mixed = -0.5 * of.to_masses @ (slope[:, None] * of.slope)
-    return np.asarray((of.dm * v) @ mixed + 0.5 * (of.dm * foreshortening) @ of.deflection)
+    return np.asarray(
+        (of.dm * v) @ mixed + 0.5 * (of.dm * (of.to_masses @ slope**2)) @ of.deflection
+    )

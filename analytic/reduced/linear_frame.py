@@ -109,20 +109,18 @@ def linear_response(
     along = points_of_beam("points", points, beam.length)
     blade = beam.unit
     of = blade_functions(blade, _FUNCTIONS)
-    rotation = -(blade.setting**2) * of.deflection.T @ (of.dm[:, None] * of.deflection)
-    if foreshortening:
-        rotation = of.stiffness(1.0) - of.bending
+    softening = -(blade.setting**2) * (of.mass - of.turning)
+    rotation = of.centrifugal if foreshortening else softening
     # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q. M is
     # nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
     pulled = (fastest(spin_up) / beam.frequency_scale) ** 2 * foreshortening
     reciprocal, vectors = linalg.eigh(of.mass, of.bending + pulled * rotation)
     modes = vectors[:, : -_MODES - 1 : -1] / np.sqrt(reciprocal[: -_MODES - 1 : -1])
-    lever = ((blade.hub + of.at) * of.dm) @ of.deflection + of.dj @ of.slope_turning
     coordinates = _integrated(
         beam, spin_up, time,
         bending=modes.T @ of.bending @ modes,
         rotation=modes.T @ rotation @ modes,
-        lever=blade.setting * lever @ modes,
+        lever=blade.setting * of.euler @ modes,
     )  # fmt: skip
     across = coordinates @ (of.across.twice(along) @ modes).T
     axis = np.stack(np.broadcast_arrays(along, across), axis=-1)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
@@ -16,11 +16,11 @@ from ..input_checks import finite_array, finite_number, not_negative, rotation_s
 from ..threads import one_thread
 from ..unit_blade import UNIFORM
 from .any_blade import blade_oscillator
-from .model_range import amplitudes_within, warn_beyond_range
+from .lagrangian import energy_coefficients
+from .model_range import amplitudes_within, better_model, warn_beyond_range
 from .normal_mode import NormalMode, normal_mode
 from .oscillator import Oscillator
 from .perturbation import Perturbation
-from .uniform_beam import uniform_oscillator
 from .variants import Variant, variant_named
 
 _NO_ORBIT = "Eq. 41 has no periodic orbit"
@@ -38,9 +38,6 @@ class ReducedModel:
     variant : Variant
     oscillator : Oscillator
         Eq. 41 with its coefficients, nondimensional.
-    tip_coupling : float
-        Of FrM: the tip is at x + tip_coupling x dx/dτ, in units of L, the other modes included to
-        second order.
 
     Examples
     --------
@@ -54,7 +51,6 @@ class ReducedModel:
     omega: float
     variant: Variant
     oscillator: Oscillator
-    tip_coupling: float = 0.0
 
     @property
     def speed_ratio(self) -> float:
@@ -111,13 +107,11 @@ class ReducedModel:
 
         Those of Eq. 41 in one-mode models; of FrM with the other modes' share in h2 and h3.
         """
-        lambda_omega = self.lambda_omega
-        if not self.variant.has_all_modes:
-            h2 = 0.5 * self.w_n * self.tip_coupling
-            return Perturbation(lambda_omega=lambda_omega, h2=h2, h3=self.oscillator.lambda_x)
+        if not self.variant.coriolis:
+            return Perturbation(lambda_omega=self.lambda_omega, h3=self.oscillator.lambda_x)
         mode = self._normal_mode
         kappa = mode.kappa if self.variant.order == 5 else 0.0
-        return Perturbation(lambda_omega=lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
+        return Perturbation(lambda_omega=self.lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
 
     @property
     def largest_amplitude(self) -> float:
@@ -265,36 +259,27 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     require_undamped(beam, "the reduced models have no damping")
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
-    others = None
-    if beam.unit != UNIFORM:
-        kept = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
-        others = np.array(kept.others)
-    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega, others)
+    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
     return model
 
 
 def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
+    w_bar = omega / beam.frequency_scale
+    if variant.is_of_any_blade:
+        oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
+        return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
     if beam.unit != UNIFORM:
-        return _of_blade(beam, omega, variant)
-    oscillator, tip = uniform_oscillator(beam, omega, variant)
-    return ReducedModel(
-        beam=beam, omega=omega, variant=variant, oscillator=oscillator, tip_coupling=tip
-    )
-
-
-def _of_blade(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
-    """Return FrC or FrM of a blade; the other variants are for the uniform beam without a hub."""
-    if variant.shape != "rotating" or variant.axial != "consistent":
         raise ValueError(
             f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
             f"{beam.unit.differences}: take FrM"
         )
-    found = blade_oscillator(beam.unit, omega / beam.frequency_scale, variant.coriolis)
-    return ReducedModel(
-        beam=beam,
-        omega=omega,
-        variant=variant,
-        oscillator=found.oscillator,
-        tip_coupling=found.tip,
-    )
+    energy = energy_coefficients(variant.shape_at(w_bar), variant.axial)
+    square = energy.omega_n_squared(w_bar, beam.slenderness)
+    if square <= 0.0:
+        raise ValueError(
+            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
+            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
+        )
+    oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
+    return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)

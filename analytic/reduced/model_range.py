@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..beam import AnyBlade
 from ..input_checks import finite_array, not_negative
+from ..unit_blade import UNIFORM
 from ..warning import warn
-from .coriolis import rotating_frequencies
-from .rotating_mode import MAX_W_BAR
+from .any_blade import blade_oscillator
 from .variants import Variant
 
 _PAPER_SPEED_RATIO = 2.0
@@ -20,8 +20,8 @@ _NOTICEABLE_SHIFT = 2e-4
 """Of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
 _NOTICEABLE_STRETCH = 2e-3
 """Relative change of ω_n by the extension."""
-_FASTEST_ORBITS = 500.0
-"""w̄ up to which `periodic_orbits` has enough functions for slender beams."""
+_FASTEST = 500.0
+"""w̄ up to which FrM and `periodic_orbits` have enough functions, of slender beams."""
 
 
 _MEANT = {3: 0.2, 5: 0.4}
@@ -54,11 +54,7 @@ def amplitudes_within(a: ArrayLike, largest: float, beyond: str, order: int) -> 
 
 def better_model(w_bar: float) -> str:
     """Return what goes further than a one-mode model at w̄, as the end of a sentence."""
-    if w_bar <= MAX_W_BAR:
-        return "take FrM"
-    if w_bar <= _FASTEST_ORBITS:
-        return "take periodic_orbits"
-    return "rotate slower"
+    return "take FrM" if w_bar <= _FASTEST else "rotate slower"
 
 
 def warn_beyond_range(
@@ -67,12 +63,8 @@ def warn_beyond_range(
     variant: Variant,
     w_n: float,
     lambda_omega: float,
-    others: FloatArray | None = None,
 ) -> None:
-    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant.
-
-    `others` are the other modes' w̄_j, of a blade that is not the uniform beam.
-    """
+    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant."""
     scale = beam.frequency_scale
     w_bar = omega / scale
     if omega >= beam.burst_speed:
@@ -83,13 +75,14 @@ def warn_beyond_range(
         )
     elif variant.coriolis:
         _warn_if_extended(beam, w_bar, lambda_omega)
-        others = rotating_frequencies(w_bar)[1:] if others is None else others
-        warn_if_resonant(w_n * scale, others * scale)
-    elif others is None and omega > _PAPER_SPEED_RATIO * beam.omega_0:
+        others = blade_oscillator(beam.unit, w_bar, True).others
+        warn_if_resonant(w_n * scale, scale * np.array(others))
+    elif beam.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * beam.omega_0:
         # The rotating beam's first frequency is never below ω0, so it is needed only here. Beyond
         # what its basis resolves, the values there are lower bounds, of the ratio as well.
-        at = min(w_bar, _FASTEST_ORBITS)
-        first, second = rotating_frequencies(at, 2) * scale
+        at = min(w_bar, _FASTEST)
+        mode = blade_oscillator(UNIFORM, at, False)
+        first, second = scale * mode.oscillator.w_n, scale * mode.others[0]
         if at * scale > _PAPER_SPEED_RATIO * first:
             more, above = ("more than ", "above ") if w_bar > at else ("", "")
             warn(

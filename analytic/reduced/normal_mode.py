@@ -26,14 +26,12 @@ from ..lazily import linalg
 from ..methods.fourier import half_period
 from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, blade_functions
+from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 
 _ORDER = 5
 _HARMONICS = 3
-_FUNCTIONS, _MORE, _MOST = 20, 12, 80
 _SETTLED = 1e-8
 """Change of λ and κ from one basis to the next."""
-_KINKED = 1e-5  # change that is left where a section has kinks, with an algebraic tail
 
 
 class NormalMode(NamedTuple):
@@ -68,26 +66,15 @@ def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
     Raises
     ------
     ValueError
-        If 80 functions do not settle λ and κ, as where a section changes in steps.
+        If as many functions as are taken do not settle λ and κ, as where a section has steps.
     """
-    count = _FUNCTIONS
-    found = _with_functions(blade, w_bar, count)
-    while True:
-        count += _MORE
-        finer = _with_functions(blade, w_bar, count)
-        change = max(
-            abs(finer.lambda_omega - found.lambda_omega),
-            abs(finer.kappa_of_peak - found.kappa_of_peak),
-        )
-        last = count + _MORE > _MOST
-        if change <= (_KINKED if last else _SETTLED):
-            return finer
-        if last:
-            raise ValueError(
-                f"the nonlinear normal mode has not settled with {count} functions: {_MORE} more "
-                f"change λ or κ by {change:.1e}; rotate slower, or smooth the section"
-            )
-        found = finer
+    return settled(
+        basis_sizes(blade, w_bar),
+        lambda count: _with_functions(blade, w_bar, count),
+        lambda found: (found.lambda_omega, found.kappa_of_peak),
+        _SETTLED,
+        "the nonlinear normal mode",
+    )
 
 
 def _with_functions(blade: UnitBlade, w_bar: float, count: int) -> NormalMode:

@@ -101,8 +101,7 @@ def converged_degree(w_bar: float) -> int:
     if w_bar > MAX_W_BAR:
         raise ValueError(
             f"the power series of the rotating mode keeps its digits up to w_bar = ω/√(EI/mL³) = "
-            f"{MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take linear_modes "
-            f"for the frequency and periodic_orbits for the backbone"
+            f"{MAX_W_BAR:g}, got {w_bar:.4g}: lower omega, or take FrM"
         )
     k = np.arange(_MAX_DEGREE + 1.0)
     # Third derivatives converge last, and at the upper bound for w̄_n the terms are the largest.

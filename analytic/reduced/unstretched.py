@@ -26,6 +26,7 @@ from ..profiles import evaluated
 from ..shape_functions import shape_functions
 from ..threads import one_thread
 from ..unit_blade import UnitBlade
+from .blade_functions import blade_functions
 
 _FEWEST, _MOST = 24, 96
 _SETTLED = 1e-5
@@ -90,35 +91,19 @@ def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int)
 
     With v in the sine and s in the cosine of Ωτ, K - ΩC - Ω²M is real and symmetric.
     """
-    functions, strains = shape_functions(blade, count), shape_functions(blade, count, "axial")
-    count, points = functions.count, functions.a_panel + 4
-    x, dx = blade.quadrature(points)
-    at, dm = blade.inertia(points)
-    across, along = functions.twice(at), strains.once(at)
-    bent, pulled = functions.strain(x), strains.strain(x)
-
-    # ∫N f dx = ∫(δ + ξ) ∫_0^ξ f dx dm, for f the product of two slopes.
-    inner = blade.grid(2 * functions.a_panel + 3, 4)
-    lever = w_bar**2 * (blade.hub + at) * dm
-    tension = lever @ inner.integral(at)
-    slope = functions.once(inner.points)
-    turns, dj = blade.turning(points)
-    turning = functions.once(turns)
+    of, strains = blade_functions(blade, count), shape_functions(blade, count, "axial")
+    x, dx = blade.quadrature(2 * (strains.a_panel + 4))
+    along, pulled = strains.once(of.at), strains.strain(x)
 
     def product(left: FloatArray, measure: FloatArray, right: FloatArray) -> FloatArray:
         return np.asarray(left.T @ (measure[:, None] * right))
 
-    inertia, inertia_along = product(across, dm, across), product(along, dm, along)
-    root, setting = math.sqrt(slenderness), blade.setting
-    K = linalg.block_diag(
-        product(bent, dx * evaluated(blade.bending, x), bent)
-        + product(slope, tension, slope)
-        - (setting * w_bar) ** 2 * inertia,
-        product(pulled, dx * evaluated(blade.axial, x), pulled)
-        - slenderness * w_bar**2 * inertia_along,
-    )
-    M = linalg.block_diag(inertia + product(turning, dj, turning), slenderness * inertia_along)
+    inertia_along = slenderness * product(along, of.dm, along)
+    stiffness_along = product(pulled, dx * evaluated(blade.axial, x), pulled)
+    K = linalg.block_diag(of.stiffness(w_bar), stiffness_along - w_bar**2 * inertia_along)
+    M = linalg.block_diag(of.mass, inertia_along)
     C = np.zeros_like(K)
-    C[:count, count:] = 2.0 * setting * w_bar * root * product(across, dm, along)
+    rate = blade.setting * w_bar * math.sqrt(slenderness)
+    C[: of.tip.size, of.tip.size :] = 2.0 * rate * product(of.deflection, of.dm, along)
     C += C.T
     return 1.0 / reciprocal_modes(K, C, M)[0]

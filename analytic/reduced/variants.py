@@ -10,10 +10,10 @@
     FrM     rotating mode               FrC with the Coriolis coupling to all other bending modes
     FrM5    rotating mode               FrM with the fifth order, κ a⁴ of the frequency
 
-Only FrM and FrM5 have the right λ_ω to leading order, for the inextensible beam and up to w̄ = 30,
-where the power series of the rotating mode ends: -v'⁴/8 and the other modes both enter at that
-order. So does the extension: the extensible beam's λ_ω is higher by 3.9 μ at rest and 5.4 μ at
-w̄ = 12, 1e-5 for the paper's beam, and its ω_n is lower by about μw̄² of it.
+Only FrM and FrM5 have the right λ_ω to leading order, for the inextensible beam: -v'⁴/8 and the
+other modes both enter at that order. So does the extension: the extensible beam's λ_ω is higher by
+3.9 μ at rest and 5.4 μ at w̄ = 12, 1e-5 for the paper's beam, and its ω_n is lower by about μw̄² of
+it.
 """
 
 from __future__ import annotations
@@ -40,10 +40,11 @@ class Variant:
     axial : str
         One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
-        Whether the other bending modes are eliminated to cubic order; rotating mode only.
+        Whether the other bending modes are eliminated to cubic order; rotating mode and consistent
+        foreshortening only.
     order : int
-        3, or 5 with the next term of the frequency, -κ a⁴; with consistent foreshortening and the
-        other modes only, for without them it would be of no use.
+        3, or 5 with the next term of the frequency, -κ a⁴; with the other modes only, for without
+        them it would be of no use.
 
     Examples
     --------
@@ -63,23 +64,23 @@ class Variant:
         axial_model(self.axial)
         if self.shape not in {"cantilever", "rotating", "3", "4", "5"}:
             raise ValueError(f"shape must be cantilever, rotating, 3, 4 or 5, got {self.shape!r}")
-        if flag("coriolis", self.coriolis) and self.shape != "rotating":
+        if flag("coriolis", self.coriolis) and not self.is_of_any_blade:
             raise ValueError(
-                f"the Coriolis coupling is eliminated about the rotating mode, got shape "
-                f'{self.shape!r}: take shape "rotating"'
+                f"the Coriolis coupling is eliminated about the rotating mode with consistent "
+                f"foreshortening, got shape {self.shape!r} and axial {self.axial!r}: take shape "
+                f'"rotating" and axial "consistent"'
             )
         if self.order not in {3, 5}:
             raise ValueError(f"order must be 3 or 5, got {self.order!r}")
-        if self.order == 5 and not self.has_all_modes:
+        if self.order == 5 and not self.coriolis:
             raise ValueError(
-                f"the fifth order needs consistent foreshortening and the other modes, got axial "
-                f"{self.axial!r} and coriolis={self.coriolis}: take FrM5, or order 3"
+                "the fifth order needs the other modes, got coriolis=False: take FrM5, or order 3"
             )
 
     @property
-    def has_all_modes(self) -> bool:
-        """Whether it is right to its order, for the inextensible beam: FrM's setting."""
-        return self.axial == "consistent" and self.coriolis
+    def is_of_any_blade(self) -> bool:
+        """Whether it assumes no more than a straight, inextensible blade: FrC's and FrM's."""
+        return self.shape == "rotating" and self.axial == "consistent"
 
     def shape_at(self, w_bar: float) -> Shape:
         """Return φ_v; only the rotating mode depends on the normalized speed `w_bar`."""

@@ -13,8 +13,7 @@ from numpy.polynomial import chebyshev
 
 from ..arrays import FloatArray
 from ..lazily import linalg
-from ..profiles import evaluated
-from ..shape_functions import shape_functions
+from ..reduced.blade_functions import blade_functions
 from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8
@@ -89,32 +88,20 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
 def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float], FloatArray]:
     """Return what finds the modes at one speed w̄, (quantities, modes) in the order of `ModesAt`."""
     functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
-    across = shape_functions(blade, functions)
-    points = 2 * (across.a_panel + 4)
-    x, dx = blade.quadrature(points)
-    at, dm = blade.inertia(points)
-    jx, dj = blade.turning(points)
-    lever = (blade.hub + at) * dm
-    inner = blade.grid(points, 4)
-    tension = lever @ inner.integral(at)  # over w̄², times the weights
-
-    phi, along, curvature = across.twice(at), across.twice(x), across.strain(x)
-    slope, turn, tip = across.once(inner.points), across.once(jx), across.twice(np.ones(1))[0]
-    mass = phi.T @ (dm[:, None] * phi)
-    M = mass + turn.T @ (dj[:, None] * turn)
-    bending = curvature.T @ ((dx * evaluated(blade.bending, x))[:, None] * curvature)
-    centrifugal = slope.T @ (tension[:, None] * slope) - blade.setting**2 * mass
-    euler = blade.setting * (lever @ phi + dj @ turn)
+    of = blade_functions(blade, functions)
+    x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
+    along = of.across.twice(x)
     viscosity, _, air = blade.damping
-    damping = viscosity * bending + air * along.T @ (dx[:, None] * along)
+    damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
 
     def solve(w: float) -> FloatArray:
         # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-        inverse, vectors = linalg.eigh(M, bending + w**2 * centrifugal)
+        inverse, vectors = linalg.eigh(of.mass, of.stiffness(w))
         inverse, vectors = inverse[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
         # They have unit stiffness; unit mass is what their action is measured by.
-        vectors = vectors * np.sign(tip @ vectors) / np.sqrt(inverse)
+        vectors = vectors * np.sign(of.tip @ vectors) / np.sqrt(inverse)
         decay = 0.5 * np.sum(vectors * (damping @ vectors), axis=0)
-        return np.stack([1.0 / np.sqrt(inverse), euler @ vectors, tip @ vectors, decay])
+        euler = blade.setting * of.euler @ vectors
+        return np.stack([1.0 / np.sqrt(inverse), euler, of.tip @ vectors, decay])
 
     return solve

@@ -37,7 +37,7 @@ GROUPS = (
         "Linear vibration",
         "Small vibration about steady rotation.",
         analytic="linear_modes LinearModes TorsionModes campbell Campbell Crossing damping_ratios "
-        "timoshenko_frequencies unstretched_frequencies",
+        "unstretched_frequencies",
     ),
     _group(
         "Backbone",

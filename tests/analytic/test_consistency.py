@@ -4,18 +4,22 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from analytic import Variant, reduced_model, softening_speed
+from analytic import (
+    Beam,
+    Variant,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    softening_speed,
+)
 from analytic.beam import BETA_1
 from analytic.quadrature import gauss_points, transverse_basis
-from analytic.reduced.coriolis import (
-    coriolis_coupling,
-    coupling_vector,
-    rotating_eigenproblem,
-    rotating_frequencies,
-)
+from analytic.reduced.any_blade import blade_oscillator, coupling_vector
+from analytic.reduced.blade_functions import blade_functions
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
+from analytic.unit_blade import UNIFORM
 
 STATIC = Variant(name="static", shape="rotating", axial="static")
 
@@ -43,39 +47,81 @@ def test_consistent_foreshortening_of_the_cantilever_mode():
     assert c.cubic_spin * BETA_1**4 == pytest.approx(2.86208, abs=5e-6)
 
 
-@pytest.mark.parametrize("w_bar", [2.0, 6.0, 12.0])
-def test_one_solve_is_the_sum_over_modes(w_bar):
-    """Mode by mode, with D from its definition by nested quadrature."""
+def rotating_eigenproblem(w_bar, count):
+    """Return K and M on polynomials of the deflection: K c = w̄_j² M c."""
+    x, weights = gauss_points(count + 4)
+    phi, slope, curvature = transverse_basis(count, x)
+    M = phi.T * weights @ phi
+    stiffening = 0.5 * w_bar**2 * slope.T * (weights * (1.0 - x**2)) @ slope
+    return curvature.T * weights @ curvature + stiffening - w_bar**2 * M, M
+
+
+def coupling_by_definition(w_bar, count):
+    """Return D of every polynomial about Frobenius' mode, by nested quadrature."""
     x, weights = gauss_points(48)
     mode = rotating_mode(w_bar)
+    inner = x[:, np.newaxis] * x
+    basis = transverse_basis(count, inner.ravel()).slope.reshape(48, 48, count)
+    # A(φ) = -½ ∫₀ˣ φ₁' φ' dξ for every basis function.
+    a_basis = -0.5 * x[:, np.newaxis] * np.einsum("ijk,ij,j->ik", basis, mode.slope(inner), weights)
+    phi, phi_1 = transverse_basis(count, x).value, mode.deflection(x)
+    d = weights @ (a_basis * phi_1[:, np.newaxis] - mode.foreshortening(x)[:, np.newaxis] * phi)
+    return d, weights @ phi_1**2
+
+
+@pytest.mark.parametrize("w_bar", [2.0, 6.0, 12.0])
+def test_one_solve_is_the_sum_over_modes(w_bar):
+    """Mode by mode, with the mode by power series: nothing is shared with the solve."""
     K, M = rotating_eigenproblem(w_bar, 20)
     # M is nearly singular, so the modes come from M c = K c / w̄_j², normalized to cᵀ K c = 1.
     reciprocal, vectors = eigh(M, K)
     reciprocal, vectors = reciprocal[::-1], vectors[:, ::-1]
-    inner = x[:, np.newaxis] * x
-    basis = transverse_basis(20, inner.ravel()).slope.reshape(48, 48, 20)
-    # A(φ) = -½ ∫₀ˣ φ₁' φ' dξ for every basis function.
-    a_basis = -0.5 * x[:, np.newaxis] * np.einsum("ijk,ij,j->ik", basis, mode.slope(inner), weights)
-    phi, phi_1 = transverse_basis(20, x).value, mode.deflection(x)
-    d = weights @ (a_basis * phi_1[:, np.newaxis] - mode.foreshortening(x)[:, np.newaxis] * phi)
+    d, M_1 = coupling_by_definition(w_bar, 20)
     D = vectors.T @ d
     assert abs(D[0]) < 1e-10 * np.abs(D).max()
-    terms = 4 * w_bar**2 * D**2 / (weights @ phi_1**2) / (1 - 4 * mode.w_n**2 * reciprocal)
-    expected = coriolis_coupling(mode).g2 / 4
+    terms = 4 * w_bar**2 * D**2 / M_1 / (1 - 4 * rotating_mode(w_bar).w_n ** 2 * reciprocal)
+    one_mode, all_modes = (blade_oscillator(UNIFORM, w_bar, flag).oscillator for flag in (0, 1))
+    expected = (all_modes.g2 - one_mode.g2) / 4
     assert terms.sum() == pytest.approx(expected, rel=1e-10)
     # Every mode but the first pushes toward softening, and the second does not carry it alone.
     assert (terms[1:] >= 0).all()
     assert terms[1] < 0.9999 * expected
 
 
-@pytest.mark.parametrize("w_bar", [1.0, 5.0, 12.0])
-def test_the_solve_converges_spectrally(w_bar):
-    mode = rotating_mode(w_bar)
-    reference = coriolis_coupling(mode, 24).g2
-    errors = [abs(coriolis_coupling(mode, n).g2 / reference - 1) for n in (4, 8, 12)]
-    assert errors[1] < 1e-2 * errors[0]
-    assert errors[2] < 1e-2 * errors[1] or errors[2] < 1e-13
-    assert coriolis_coupling(mode).g2 == pytest.approx(reference, rel=1e-11)
+@pytest.mark.parametrize("w_bar", [0.0, 3.0, 9.7])
+def test_frc_is_the_lagrangian_with_the_rotating_mode(w_bar):
+    """By Sec. 5's mode and the energy of Sec. 3: another route to w̄_n, g1 and g2."""
+    terms = energy_coefficients(rotating_mode(w_bar), "consistent")
+    found = blade_oscillator(UNIFORM, w_bar, False).oscillator
+    assert found.w_n**2 == pytest.approx(terms.omega_n_squared(w_bar, 0.0), rel=1e-12)
+    assert found.g1 == pytest.approx(terms.g1(w_bar), rel=2e-12)
+    assert found.g2 == pytest.approx(terms.g2, rel=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("w_bar", [100.0, 500.0])
+def test_frm_goes_far_beyond_the_power_series(w_bar):
+    beam = Beam.from_stiffness(
+        length=1.0, axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0
+    )
+    model = reduced_model(beam, w_bar, "FrM")
+    orbits = periodic_orbits(beam, w_bar, [0.05], inextensible=True)
+    assert model.omega_n == pytest.approx(orbits.omega_n, rel=1e-10)
+    # What a shift of 4e-5 leaves of an orbit's frequency, settled to 1e-12 or so.
+    assert model.lambda_omega == pytest.approx(orbits.lambda_omega, abs=1e-8)
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+@pytest.mark.parametrize("w_bar", [40.0, 200.0])
+def test_many_point_masses_do_not_let_functions_confirm_themselves(beam, w_bar):
+    """Masses cut the blade into panels, and more functions mean more on every one."""
+    blade = beam
+    for k in range(1, 13):
+        blade = blade.with_point_mass(0.02 * beam.mass, k * beam.length / 12.0)
+    omega = w_bar * beam.frequency_scale
+    exact = linear_modes(blade, omega, 1, inextensible=True, functions=100).frequencies[0]
+    # 36 functions, three on each panel, are 4e-4 and 12 % off.
+    assert reduced_model(blade, omega, "FrM").omega_n == pytest.approx(exact, rel=1e-9)
 
 
 def test_hardening_turns_to_softening(beam):
@@ -101,8 +147,8 @@ def test_hardening_turns_to_softening(beam):
 
 
 def test_no_other_mode_of_the_cantilever_comes_near_2_omega_n():
-    ratios = [w[1] / (2 * w[0]) for w in map(rotating_frequencies, np.linspace(0.0, 30.0, 61))]
-    assert min(ratios) > 3.0
+    found = [blade_functions(UNIFORM, 24).first_mode(w) for w in np.linspace(0.0, 30.0, 61)]
+    assert min(mode.others[0] / (2 * mode.w_n) for mode in found) > 3.0
 
 
 def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
@@ -134,19 +180,22 @@ def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
         return (energy(q, 0, q_dot, 1) - energy(q, 0, q_dot, -1)) / 2
 
     force = in_p - q_dot * (momentum(q + 1) - momentum(q - 1)) / 2
-    assert coupling_vector(mode, 3)[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
+    of = blade_functions(UNIFORM, 20)
+    found = coupling_vector(of, of.first_mode(w_bar).coefficients)
+    assert found[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
 
 
 def test_tip_of_frm_carries_the_other_modes(beam):
     """It vanishes at rest; in rotation the tip's share is that of p in (K + M d²/dτ²) p = f."""
-    assert reduced_model(beam, 0.0, "FrM").tip_coupling == 0.0
-    assert reduced_model(beam, 6.0, "FrC").tip_coupling == 0.0
+    assert reduced_model(beam, 0.0, "FrM").perturbation.h2 == pytest.approx(0.0, abs=1e-14)
+    assert reduced_model(beam, 6.0, "FrC").perturbation.h2 == 0.0
     model = reduced_model(beam, 6.0, "FrM")
     w_bar = 6.0 / beam.frequency_scale
     K, M = rotating_eigenproblem(w_bar, 14)
-    force = 4 * w_bar * coupling_vector(rotating_mode(w_bar), 14)
+    force = 4 * w_bar * coupling_by_definition(w_bar, 14)[0]
     # Forced at 2ω_n, mode by mode.
     reciprocal, vectors = eigh(M, K)
     p = vectors @ (vectors.T @ force / (1 - 4 * model.w_n**2 * reciprocal))
     tip = transverse_basis(14, np.array([1.0])).value[0]
-    assert model.tip_coupling == pytest.approx(tip @ p, rel=1e-8)
+    # q q̇ of q = a cos ψ is -½ω_n a² sin 2ψ.
+    assert model.perturbation.h2 == pytest.approx(0.5 * model.w_n * (tip @ p), rel=1e-8)

@@ -32,7 +32,6 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
     stability_limit,
-    timoshenko_frequencies,
 )  # fmt: skip
 from rotbeam_exu import natural_frequencies, simulate, simulate_3d, sweep
 
@@ -89,9 +88,6 @@ FLAGS = {
     "planar_stability": lambda f: planar_stability(STRIP, 6.0, 0.1, inextensible=f),
     "stability_limit": lambda f: stability_limit(STRIP, 6.0, inextensible=f),
     "spin_up_response": lambda f: spin_up_response(BEAM, SLOW, [1.0], rotary_inertia=f),
-    "timoshenko_frequencies": lambda f: timoshenko_frequencies(
-        BEAM, 6.0, shear_share=0.3, rotary_inertia=f
-    ),
     "linear_response": lambda f: linear_response(BEAM, SLOW, [1.0], foreshortening=f),
     "residual_amplitude": lambda f: residual_amplitude(BEAM, SLOW, corrected=f),
     "Variant": lambda f: Variant(name="mine", shape="rotating", axial="consistent", coriolis=f),

@@ -37,7 +37,6 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
     stability_limit,
-    timoshenko_frequencies,
     unstretched_frequencies,
 )  # fmt: skip
 
@@ -54,7 +53,6 @@ ANSWERS = {
     "shear": lambda n: linear_modes(BEAM, n(6), 2, shear_share=n(0.25)).frequencies,
     "damping_ratios": lambda n: damping_ratios(DAMPED, n(6), 2),
     "campbell": lambda n: campbell(BEAM, [n(0), n(6)], 1, 2).frequencies,
-    "timoshenko": lambda n: timoshenko_frequencies(BEAM, n(6), shear_share=n(0.25)),
     "unstretched": lambda n: unstretched_frequencies(BEAM, n(6), 2),
     "periodic_orbits": lambda n: periodic_orbits(BEAM, n(6), [n(0.25)]).frequency,
     "backbone_curve": lambda n: backbone_curve(BEAM, n(6), n(0.25), tolerance=n(2**-14)).frequency(
