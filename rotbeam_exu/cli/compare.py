@@ -11,10 +11,11 @@ from analytic import AnyBlade, Beam
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import save, save_tables, writable_folder
+from ..files.results import writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured
+from .job import data_file, saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
 from .options import Results, Workers
 from .output import new_console, print_columns, print_note, print_written
@@ -59,7 +60,7 @@ def compare(
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
     models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
     models = models.assign_attrs(mine)
-    refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
+    refuse_to_replace(models, data_file(folder / "budget_models"), force=results.force)
     motion = _even(grid_motion(beam, omegas, ramp_times))
     main = chosen_motion(beam)
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
@@ -77,10 +78,9 @@ def compare(
             "budget_models": models,
             "budget_finite_elements": comparison.finite_element_budget(beam, **options),
         }  # fmt: skip
-    written = []
+    written: list[Path] = []
     for name, table in data.items():
-        written.append(save(table.assign_attrs(mine), folder / f"{name}.nc"))
-        written += save_tables(table.assign_attrs(mine), folder / f"{name}.csv")
+        written += saved(table.assign_attrs(mine), folder / name)
     _print_models(models, amplitude)
     _print_elements(data["budget_finite_elements"], motion.step)
     print_written(console, written)
