@@ -15,7 +15,7 @@ from ..files.results import writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured
-from .job import data_file, saved
+from .job import saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
 from .options import Results, Workers
 from .output import new_console, print_columns, print_note, print_written
@@ -60,7 +60,7 @@ def compare(
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
     models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
     models = models.assign_attrs(mine)
-    refuse_to_replace(models, data_file(folder / "budget_models"), force=results.force)
+    refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
     motion = _even(grid_motion(beam, omegas, ramp_times))
     main = chosen_motion(beam)
     spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"

@@ -91,7 +91,7 @@ def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
             partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
         return *figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, path), words
 
-    # Its inputs come with it: refused is what others would replace, not what takes long.
+    # The data tells its inputs, so files are compared with it after it is computed.
     Job(
         path=folder / f"figure_{n}", inputs=data, force=force, compute=lambda: data,
         dataset=lambda data: data, show=lambda *_: None, draw=drawn,

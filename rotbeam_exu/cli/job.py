@@ -17,35 +17,28 @@ T = TypeVar("T")
 
 
 class UnfinishedError(Exception):
-    """An error that ends a computation and leaves a part of its result.
+    """End of a computation that leaves a part of its result.
 
-    Parameters
-    ----------
-    part
-        The part, in the form of a whole result.
-    computed
-        The word for what the part is: "computed" or "found".
+    Its cause is the error, its arguments are the part and the word "computed" or "found".
     """
 
-    def __init__(self, part: Any, computed: str) -> None:
-        super().__init__(computed)
-        self.part = part
-        self.computed = computed
 
+def drawn(draw: Callable[[Any, xr.Dataset], Any]) -> Callable[[xr.Dataset, Path], Iterable[Path]]:
+    """Return a drawing of a Dataset into files; `draw` is given `figures`, which is slow to import."""
 
-def data_file(path: Path) -> Path:
-    """Return the netCDF file of a result; the ending is added, for a name may have a point."""
-    return path.with_name(f"{path.name}.nc")
+    def files(data: xr.Dataset, path: Path) -> Iterable[Path]:
+        from .. import figures
 
+        return figures.save_figure(draw(figures, data), path)
 
-def _table_file(path: Path) -> Path:
-    return path.with_name(f"{path.name}.csv")
+    return files
 
 
 def saved(data: xr.Dataset, path: Path, table: xr.Dataset | None = None) -> list[Path]:
     """Write all as netCDF, and the table, or all, as CSV; return the files."""
-    whole = save(data, data_file(path))
-    return [whole, *save_tables(data if table is None else table, _table_file(path))]
+    # The endings are added, not replaced: a name may have a point in it.
+    whole = save(data, Path(f"{path}.nc"))
+    return [whole, *save_tables(data if table is None else table, Path(f"{path}.csv"))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +77,7 @@ class Job(Generic[R, T]):
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
         writable_folder(self.path.parent)
-        targets = data_file(self.path), _table_file(self.path)
+        targets = Path(f"{self.path}.nc"), Path(f"{self.path}.csv")
         refuse_to_replace(self.inputs, *targets, force=self.force)
         try:
             result = self.compute()
@@ -101,8 +94,8 @@ class Job(Generic[R, T]):
 
     def _kept(self, end: UnfinishedError) -> str:
         """Save the part of a result, marked failed, and return why it ended and where it is."""
-        error = end.__cause__
-        part = self.dataset(end.part).assign_attrs(verdict=f"failed: {error}")
+        error, (found, word) = end.__cause__, end.args
+        part = self.dataset(found).assign_attrs(verdict=f"failed: {error}")
         name = free_name(part, self.path.parent, f"{self.path.name}-failed")
         kept = saved(part, self.path.with_name(name), self.table(part))[0]
-        return f"{error}; what was {end.computed} is in {kept}, marked failed"
+        return f"{error}; what was {word} is in {kept}, marked failed"

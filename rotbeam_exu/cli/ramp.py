@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured, motion_of
-from .job import Job
+from .job import Job, drawn
 from .motion import chosen_times, refuse_rest
 from .options import Discretization, Element, Results, Whole
 from .output import new_console, print_columns, print_note
@@ -96,14 +95,8 @@ def ramp(
         compute=computed,
         dataset=lambda data: data.assign_attrs(inputs),
         show=lambda data, _: _print(beam, omega, longest, data),
-        draw=_drawn,
+        draw=drawn(lambda figures, data: figures.residual(data)),
     ).run()
-
-
-def _drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
-    from .. import figures
-
-    return figures.save_figure(figures.residual(data), path)
 
 
 def _require_exudyn() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -19,7 +18,7 @@ from analytic.loads import HarmonicLoad, Load
 
 from ..lazily import xr
 from .configuration import configured, omega_of
-from .job import Job, UnfinishedError
+from .job import Job, UnfinishedError, drawn
 from .options import Flag, NoFigure, Results, Whole
 from .output import print_columns
 
@@ -199,14 +198,8 @@ def respond(
         dataset=lambda found: comparison.forced_response(found).assign_attrs(inputs),
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         show=lambda found, data: _print(data, str(found)),
-        draw=None if no_figure else _drawn,
+        draw=None if no_figure else drawn(lambda figures, data: figures.forced_response(data)),
     ).run()
-
-
-def _drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
-    from .. import figures
-
-    return figures.save_figure(figures.forced_response(data), path)
 
 
 def _response(

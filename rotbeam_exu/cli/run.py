@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,7 +14,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..verdict import SimulationError
 from .configuration import configured, motion_of
-from .job import Job, UnfinishedError, data_file
+from .job import Job, UnfinishedError, drawn
 from .motion import refuse_rest
 from .options import Discretization, NoFigure, Results, given
 from .output import new_console, print_line
@@ -90,12 +89,7 @@ def run(
         if config is not None:
             where = "(where not given, the paper's, scaled by ω_0)"
             print_line(console, "motion", f"{motion} {where}")
-        try:
-            return _computed(case, console)
-        except SimulationError as error:
-            if error.run is None:
-                raise
-            raise UnfinishedError(error.run, "computed") from error
+        return _computed(case, console)
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
@@ -108,16 +102,11 @@ def run(
 
     found = Job(
         path=path, inputs=case.describe(), force=results.force, compute=computed,
-        dataset=lambda data: data, show=shown, draw=None if no_figure else _drawn,
+        dataset=lambda data: data, show=shown,
+        draw=None if no_figure else drawn(lambda figures, data: figures.spin_up(data)[0]),
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)
-
-
-def _drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
-    from .. import figures
-
-    return figures.save_figure(figures.spin_up(data)[0], path)
 
 
 def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
@@ -127,12 +116,17 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
     try:
         return steady_oscillation(data)
     except ValueError as error:
-        raise RuntimeError(f"{error}; the run itself is in {data_file(path)}") from error
+        raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
 def _computed(case: Case, console: Console) -> xr.Dataset:
     from ..fem.simulation import run_case
 
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("spinning up", total=1.0)
-        return run_case(case, progress=lambda done: bar.update(task, completed=done))
+    try:
+        with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+            task = bar.add_task("spinning up", total=1.0)
+            return run_case(case, progress=lambda done: bar.update(task, completed=done))
+    except SimulationError as error:
+        if error.run is None:
+            raise
+        raise UnfinishedError(error.run, "computed") from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,9 @@ import analytic
 from analytic.exact.orbit_growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
-from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured, omega_of
-from .job import Job
+from .job import Job, drawn
 from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns, print_text
 from .sections import SectionShape
@@ -85,14 +83,8 @@ def stability(
         dataset=lambda pair: comparison.planar_stability(*pair).assign_attrs(inputs),
         table=lambda data: data.drop_vars(["multipliers", "part"]),
         show=lambda pair, _: _print(*pair),
-        draw=_drawn,
+        draw=drawn(lambda figures, data: figures.planar_stability(data)),
     ).run()
-
-
-def _drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
-    from .. import figures
-
-    return figures.save_figure(figures.planar_stability(data), path)
 
 
 def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:

@@ -13,7 +13,7 @@ from .. import paper
 from ..files.run_file import RunFile
 from ..lazily import xr
 from .configuration import configured
-from .job import Job, data_file
+from .job import Job
 from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
 from .output import choice, new_console, print_columns, print_line, print_text
@@ -112,8 +112,7 @@ def sweep(
     ).run()
     if failed:
         raise RuntimeError(
-            f"{failed} of {count} spin-ups failed; why is above, and as `failure` in "
-            f"{data_file(path)}"
+            f"{failed} of {count} spin-ups failed; why is above, and as `failure` in {path}.nc"
         )
 
 
