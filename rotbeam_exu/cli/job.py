@@ -24,7 +24,7 @@ class UnfinishedError(Exception):
 
 
 def drawn(draw: Callable[[Any, xr.Dataset], Any]) -> Callable[[xr.Dataset, Path], Iterable[Path]]:
-    """Return a drawing of a Dataset into files; `draw` is given `figures`, which is slow to import."""
+    """Return a drawing of a Dataset into files; `draw` is given `figures`, imported late."""
 
     def files(data: xr.Dataset, path: Path) -> Iterable[Path]:
         from .. import figures
