@@ -15,16 +15,10 @@ from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
 from .configuration import configured, motion_of
-from .cost import require_affordable
 from .motion import chosen_times, slower_than_paper
 from .options import Whole
 from .output import new_console, print_text
 from .targets import Force, refuse_to_replace_unread
-
-_PICTURE = 640 * 520 * 4
-"""Bytes of a picture; all are kept until the file is written."""
-
-_SECONDS_PER_PICTURE = 0.02
 
 
 def animate(
@@ -120,16 +114,10 @@ def animate(
 
 
 def _require_film(duration: float, rate: float, slower: float) -> None:
-    """Refuse a film of one picture, and one of more than can be kept."""
+    """Refuse a film of one picture."""
     pictures = duration * slower * rate
     if pictures < 1.0:
         raise ValueError(
             f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
             f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
         )
-    require_affordable(
-        f"{pictures:.3g} pictures",
-        memory=_PICTURE * pictures,
-        seconds=_SECONDS_PER_PICTURE * pictures,
-        remedy="take a shorter duration, a lower rate or less slow motion",
-    )

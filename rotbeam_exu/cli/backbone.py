@@ -16,14 +16,12 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .configuration import configured, omega_of
-from .cost import require_affordable
 from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, print_columns, print_note
 
 Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
 
-_SECONDS_PER_ORBIT = 0.05
 _NOTE = (
     "a/L is the first harmonic of q in Eq. 63, its peak in Eq. 41 and of the exact beam; λ_ω > 0 "
     "softens"
@@ -137,12 +135,6 @@ def _exact(
     beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
 ) -> tuple[analytic.Backbone, str]:
     """Return the orbits that were found, and why others were not."""
-    require_affordable(
-        f"{len(amplitude)} exact orbits with {functions} functions",
-        memory=8.0 * (16.0 * functions) ** 2,
-        seconds=_SECONDS_PER_ORBIT * len(amplitude) * (functions / 16.0) ** 2,
-        remedy="take fewer",
-    )
     try:
         return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
     except analytic.AmplitudeNotReachedError as error:

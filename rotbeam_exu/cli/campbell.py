@@ -17,7 +17,6 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from ..files.results import writable_folder
 from .configuration import configured
-from .cost import require_affordable
 from .motion import chosen_speeds
 from .options import Whole
 from .output import Format, new_console, print_columns, print_written
@@ -27,9 +26,6 @@ from .targets import Force, refuse_to_replace_unread
 _GIVEN = SectionShape()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
-_SECONDS_PER_SPEED = 1e-3
-_SECONDS_PER_LINE = 5e-3
-"""And per mode squared: what finds the crossings; both from below."""
 
 
 def campbell(
@@ -89,12 +85,6 @@ def campbell(
         positive("frequency_max", frequency_max, "rad/s")
     if omega_max is not None:
         rotation_speed(omega_max, "omega_max")
-    require_affordable(
-        f"{points} speeds, {count} modes and {orders} lines",
-        memory=8.0 * (points * (count + 20.0) * 40.0 + 16.0 * count**2),
-        seconds=_SECONDS_PER_SPEED * points + _SECONDS_PER_LINE * orders * count**2,
-        remedy="take fewer",
-    )
     beam = shape.of(configured(config).beam)
     highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
     speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)

@@ -11,10 +11,11 @@ from analytic import AnyBlade, Beam
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import save, save_tables, writable_folder
+from ..files.results import writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured
+from .job import saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
 from .options import Results, Workers
 from .output import new_console, print_columns, print_note, print_written
@@ -77,10 +78,9 @@ def compare(
             "budget_models": models,
             "budget_finite_elements": comparison.finite_element_budget(beam, **options),
         }  # fmt: skip
-    written = []
+    written: list[Path] = []
     for name, table in data.items():
-        written.append(save(table.assign_attrs(mine), folder / f"{name}.nc"))
-        written += save_tables(table.assign_attrs(mine), folder / f"{name}.csv")
+        written += saved(table.assign_attrs(mine), folder / name)
     _print_models(models, amplitude)
     _print_elements(data["budget_finite_elements"], motion.step)
     print_written(console, written)

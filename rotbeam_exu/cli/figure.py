@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
-from rich.console import Console
 
-from ..files.results import save, save_tables, whole_file, writable_folder
+from ..files.results import whole_file, writable_folder
+from ..lazily import xr
+from .job import Job
 from .options import Results, Workers, spelled_as
-from .output import new_console, print_written
+from .output import new_console
 from .progress import counter
-from .targets import listed, refuse_to_replace, telling_what_is_kept
+from .targets import telling_what_is_kept
 
 _WORKERS, _RESULTS = Workers(), Results()
 
@@ -63,37 +64,35 @@ def figure(
             "and all"
         )
     folder = writable_folder(results.out)
-    console = new_console()
-    done: list[Path] = []
-    spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
-    kept = telling_what_is_kept(lambda: "; ".join([spin_ups, *([listed(done)] if done else [])]))
-    with figures.style(style), kept:
+    kept = f"finished spin-ups are kept in the cache {workers.cache}"
+    with figures.style(style), telling_what_is_kept(lambda: kept):
         for n in wanted:
-            done += _made(n, folder, console, workers, force=results.force)
+            _made(n, folder, workers, force=results.force)
 
 
-def _made(n: int, folder: Path, console: Console, workers: Workers, *, force: bool) -> list[Path]:
-    """Make one figure and return its files."""
+def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
+    """Make one figure."""
     from .. import figures
     from ..paper_figures import PAPER_FIGURES
 
     made = PAPER_FIGURES[n]
-    with counter(console, f"figure {n}") as progress:
+    with counter(new_console(), f"figure {n}") as progress:
         options = (
             {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
             if made.sweeps
             else {}
         )
         data = made.data(**options)
-    name = folder / f"figure_{n}"
-    refuse_to_replace(data, name.with_suffix(".nc"), force=force)
-    written = [save(data, name.with_suffix(".nc"))]
-    written += save_tables(data, name.with_suffix(".csv"))
-    axes = made.draw(data)
-    written += figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, name)
-    words = name.with_suffix(".txt")
-    with whole_file(words) as partial:
-        partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
-    written.append(words)
-    print_written(console, written)
-    return written
+
+    def drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
+        axes = made.draw(data)
+        words = path.with_name(f"{path.name}.txt")
+        with whole_file(words) as partial:
+            partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
+        return *figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, path), words
+
+    # The data tells its inputs, so files are compared with it after it is computed.
+    Job(
+        path=folder / f"figure_{n}", inputs=data, force=force, compute=lambda: data,
+        dataset=lambda data: data, show=lambda *_: None, draw=drawn,
+    ).run()  # fmt: skip

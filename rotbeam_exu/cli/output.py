@@ -36,9 +36,6 @@ Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
 _TITLE = 22
 """Width of the titles ahead of single lines."""
 
-_MOST_LINES = 40
-"""Of a cell: one that needs more is given its longest word's width."""
-
 _DIGITS = 7
 """Of a float in a table."""
 
@@ -78,7 +75,11 @@ def harmless(text: str) -> str:
 
 
 def ready_streams() -> None:
-    """Let standard output and error be there, and spell what they cannot encode, omega for ω."""
+    """Let standard output and error be there, and spell what they cannot encode, omega for ω.
+
+    On Windows a pipe and a file take the letters of one region only, as cp1252, which has no ω; in
+    place of "omega_NL" and "lambda" a reader would find "?_NL" and "?".
+    """
     # Closed ones, as by >&-, are None; a new file takes their number, which no other then gets.
     nowhere = Path(os.devnull)
     sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
@@ -136,11 +137,11 @@ def print_columns(
     least = [max(map(_longest_word, (name, *readable[name]))) for name in names]
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
+    most = [max(map(_longest_line, (name, *readable[name]))) for name in names]
     room = console.width
     for part in _parts(least, room):
-        widths = _widths(
-            [(names[i], *readable[names[i]]) for i in part], [least[i] for i in part], room
-        )
+        bare = _total([0] * len(part))
+        widths = _widths([least[i] for i in part], [most[i] for i in part], room - bare)
         table = Table(box=frame)
         for i, width in zip(part, widths, strict=True):
             table.add_column(names[i], width=width, justify="right" if numeric[i] else "left")
@@ -218,6 +219,21 @@ def _longest_word(text: str) -> int:
     return max(map(cell_len, text.split()), default=1)
 
 
+def _longest_line(text: str) -> int:
+    return max(map(cell_len, text.split("\n")))
+
+
+def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
+    """Return what the columns want, less what the widest texts can give for the table to fit.
+
+    Rich does not know how long words are where it shrinks columns, and breaks numbers.
+    """
+    widths = list(most)
+    while sum(widths) > room and widths != list(least):
+        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
+    return widths
+
+
 def _total(widths: Sequence[int]) -> int:
     return sum(widths) + _FRAME * len(widths) + 1
 
@@ -230,32 +246,3 @@ def _parts(least: Sequence[int], room: int) -> list[list[int]]:
             parts.append([0])
         parts[-1].append(column)
     return parts
-
-
-def _widths(columns: Sequence[Sequence[str]], least: Sequence[int], room: int) -> list[int]:
-    """Return the widths at which no cell needs more lines than it must for the table to fit."""
-    for lines in range(1, _MOST_LINES):
-        widths = [max(_narrowest(cell, lines) for cell in cells) for cells in columns]
-        if _total(widths) <= room:
-            return widths
-    return list(least)
-
-
-def _narrowest(text: str, lines: int) -> int:
-    """Return the least width at which a text, broken between words only, has so many lines."""
-    parts = [[cell_len(word) for word in part.split()] or [0] for part in text.split("\n")]
-    longest = max(sum(words) + len(words) for words in parts)
-    for width in range(max(map(max, parts)), longest):
-        if sum(_lines(words, width) for words in parts) <= lines:
-            return width
-    return longest - 1
-
-
-def _lines(words: Sequence[int], width: int) -> int:
-    """Return how many lines words of these lengths take."""
-    used, free = 0, -1
-    for word in words:
-        if word > free:
-            used, free = used + 1, width
-        free -= word + 1
-    return used

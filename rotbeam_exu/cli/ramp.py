@@ -11,20 +11,16 @@ from analytic import AnyBlade, SpinUp
 from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
-from ..files.results import save, save_tables, writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .configuration import configured, motion_of
-from .cost import require_affordable
+from .job import Job, drawn
 from .motion import chosen_times, refuse_rest
 from .options import Discretization, Element, Results, Whole
-from .output import new_console, print_columns, print_note, print_written
+from .output import new_console, print_columns, print_note
 from .progress import counter
-from .targets import refuse_to_replace
 
 _LONGEST = 10.0  # of the paper's beam [s]
-_SECONDS_PER_RUN = 0.3
-"""From below."""
 _RESULTS = Results()
 
 
@@ -77,11 +73,6 @@ def ramp(
     longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
     for name, count in (("points", points), ("finite-element-points", finite_element_points)):
         whole_number(name, count, least=0)
-    require_affordable(
-        f"{points} exact transients and {finite_element_points} runs",
-        seconds=_SECONDS_PER_RUN * (points + finite_element_points),
-        remedy="take fewer points",
-    )
     inputs = {
         **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
         "finite_element_points": finite_element_points, "element": formulation(element).name,
@@ -89,25 +80,23 @@ def ramp(
     }  # fmt: skip
     if finite_element_points:
         _require_exudyn()
-    path = writable_folder(results.out) / f"ramp-omega-{omega:g}-longest-{longest:g}"
-    whole = path.with_name(f"{path.name}.nc")
-    refuse_to_replace(inputs, whole, force=results.force)
-    console = new_console()
-    with counter(console, "transients") as progress:
-        data = comparison.residual(
-            beam, omega, longest=longest, points=points, element=element, elements=elements,
-            finite_element_points=finite_element_points, progress=progress,
-        )  # fmt: skip
-    data = data.assign_attrs(inputs)
-    # One table for each set of ramp times; each keeps its own coordinate only.
-    tables = path.with_name(f"{path.name}.csv")
-    written = [save(data, whole), *save_tables(data, tables)]
 
-    from .. import figures
+    def computed() -> xr.Dataset:
+        with counter(new_console(), "transients") as progress:
+            return comparison.residual(
+                beam, omega, longest=longest, points=points, element=element, elements=elements,
+                finite_element_points=finite_element_points, progress=progress,
+            )  # fmt: skip
 
-    written += figures.save_figure(figures.residual(data), path)
-    _print(beam, data)
-    print_written(console, written)
+    Job(
+        path=results.out / f"ramp-omega-{omega:g}-longest-{longest:g}",
+        inputs=inputs,
+        force=results.force,
+        compute=computed,
+        dataset=lambda data: data.assign_attrs(inputs),
+        show=lambda data, _: _print(beam, omega, longest, data),
+        draw=drawn(lambda figures, data: figures.residual(data)),
+    ).run()
 
 
 def _require_exudyn() -> None:
@@ -118,9 +107,9 @@ def _require_exudyn() -> None:
         raise ImportError(f"{error}; take --finite-element-points 0") from error
 
 
-def _print(beam: AnyBlade, data: xr.Dataset) -> None:
+def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> None:
     """Print the quiet ramps, then the points."""
-    one = SpinUp(omega=data.attrs["omega"], ramp_time=data.attrs["longest"])
+    one = SpinUp(omega=omega, ramp_time=longest)
     quiet = data["quiet_ramp_time"].to_numpy()
     print_columns(
         {
@@ -155,7 +144,7 @@ def _print(beam: AnyBlade, data: xr.Dataset) -> None:
             "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],
         },
         "table",
-        title=f"Amplitude left over L, ω = {data.attrs['omega']:g} rad/s",
+        title=f"Amplitude left over L, ω = {omega:g} rad/s",
     )
     print_note(
         "closed form: of the linear beam; with the backbone: its action for that of FrM's orbit; "

@@ -9,12 +9,11 @@ import numpy as np
 import analytic
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .configuration import configured, motion_of
+from .job import Job
 from .options import Results, Whole
-from .output import new_console, print_line, print_written
-from .targets import refuse_to_replace
+from .output import new_console, print_line
 
 _RESULTS = Results()
 
@@ -63,27 +62,29 @@ def reference(
     samples = whole_number("samples", samples, least=2)
     motion = motion_of(file, omega=omega, ramp_time=ramp_time, duration=duration)
     spin_up = motion.spin_up
-    path = writable_folder(results.out) / (
-        f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
-    )
-    files = [path.with_name(f"{path.name}.{kind}") for kind in ("nc", "csv")]
     inputs = {
         **beam_attributes(file.beam), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
         "duration": motion.duration, "samples": samples, "tolerance": tolerance,
     }  # fmt: skip
-    refuse_to_replace(inputs, *files, force=results.force)
     times = np.linspace(0.0, motion.duration, samples)
-    response = analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
-    data = comparison.exact_spin_up(response).assign_attrs(tolerance=tolerance)
-    written = [save(data, file) for file in files]
-    console = new_console()
+    Job(
+        path=results.out / f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}",
+        inputs=inputs,
+        force=results.force,
+        compute=lambda: analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance),
+        dataset=lambda found: comparison.exact_spin_up(found).assign_attrs(tolerance=tolerance),
+        show=lambda found, _: _print(found),
+    ).run()
+
+
+def _print(response: analytic.SpinUpResponse) -> None:
+    console, spin_up = new_console(), response.spin_up
     farthest = int(np.abs(response.q).argmax())
     print_line(console, "spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
-    print_line(console, "samples", f"{samples}, up to t = {motion.duration:g} s")
+    print_line(console, "samples", f"{response.time.size}, up to t = {response.time[-1]:g} s")
     print_line(
         console,
         "largest |q|",
         f"{abs(response.q[farthest]):.9g} m at t = {response.time[farthest]:g} s, of the samples",
     )
     print_line(console, "error of the tip", f"at most {response.error:.1e} of the largest |q|")
-    print_written(console, written)

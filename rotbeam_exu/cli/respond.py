@@ -16,16 +16,11 @@ from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
 from analytic.loads import HarmonicLoad, Load
 
-from ..files.results import save, writable_folder
 from ..lazily import xr
 from .configuration import configured, omega_of
-from .cost import require_affordable
+from .job import Job, UnfinishedError, drawn
 from .options import Flag, NoFigure, Results, Whole
-from .output import new_console, print_columns, print_written
-from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
-
-_SECONDS_PER_POINT = 0.02
-"""From below."""
+from .output import print_columns
 
 
 def _option(kind: type[Load]) -> str:
@@ -184,30 +179,27 @@ def respond(
         "from": first, "to": last, "points": points, "inextensible": int(inextensible),
         "functions": functions,
     }  # fmt: skip
-    path = writable_folder(results.out) / f"{_name(load, omega)}-from-{first:g}-to-{last:g}"
-    refuse_to_replace(inputs, *_data_files(path), force=results.force)
-    try:
-        found = _response(
-            beam, omega, load, frequencies, inextensible=inextensible, functions=functions
-        )
-    except analytic.ResponseNotReachedError as error:
-        if error.response is None:
-            raise
-        part = comparison.forced_response(error.response).assign_attrs(
-            inputs, verdict=f"failed: {error}"
-        )
-        name = free_name(part, path.parent, f"{path.name}-failed")
-        kept = _saved(part, path.with_name(name))[0]
-        raise RuntimeError(f"{error}; what was found is in {kept}, marked failed") from error
-    data = comparison.forced_response(found).assign_attrs(inputs)
-    written = _saved(data, path)
-    with telling_what_is_kept(lambda: f"kept: {listed(written)}"):
-        _print(data, str(found))
-        if not no_figure:
-            from .. import figures
 
-            written += figures.save_figure(figures.forced_response(data), path)
-    print_written(new_console(), written)
+    def computed() -> analytic.ForcedResponse:
+        try:
+            return _response(
+                beam, omega, load, frequencies, inextensible=inextensible, functions=functions
+            )
+        except analytic.ResponseNotReachedError as error:
+            if error.response is None:
+                raise
+            raise UnfinishedError(error.response, "found") from error
+
+    Job(
+        path=results.out / f"{_name(load, omega)}-from-{first:g}-to-{last:g}",
+        inputs=inputs,
+        force=results.force,
+        compute=computed,
+        dataset=lambda found: comparison.forced_response(found).assign_attrs(inputs),
+        table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
+        show=lambda found, data: _print(data, str(found)),
+        draw=None if no_figure else drawn(lambda figures, data: figures.forced_response(data)),
+    ).run()
 
 
 def _response(
@@ -228,29 +220,12 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     if whole_number("points", points) < 2:
         raise ValueError(f"points must be at least 2, got {points}")
-    require_affordable(
-        f"a curve through {points} frequencies",
-        seconds=_SECONDS_PER_POINT * points,
-        remedy="take fewer points",
-    )
     return np.linspace(first, last, points)
 
 
 def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
     turning = "" if omega is None else f"omega-{omega:g}-"
     return f"response-{turning}{_option(type(load))}-{load.size:g}"
-
-
-def _data_files(path: Path) -> tuple[Path, Path]:
-    # Appended, not replaced: a name may have a point in it.
-    return path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
-
-
-def _saved(data: xr.Dataset, path: Path) -> list[Path]:
-    """Write all as netCDF, the curve as CSV."""
-    whole, table = _data_files(path)
-    curve = data.drop_dims(["harmonic", "orbit"], errors="ignore")
-    return [save(data, whole), save(curve, table)]
 
 
 def _print(data: xr.Dataset, title: str) -> None:

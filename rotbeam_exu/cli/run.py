@@ -11,18 +11,18 @@ from rich.progress import Progress
 
 from analytic.warning import warn
 
-from ..files.results import save, writable_folder
 from ..lazily import xr
 from ..verdict import SimulationError
 from .configuration import configured, motion_of
+from .job import Job, UnfinishedError, drawn
 from .motion import refuse_rest
 from .options import Discretization, NoFigure, Results, given
-from .output import new_console, print_line, print_written
-from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
+from .output import new_console, print_line
 
 if TYPE_CHECKING:
     from ..fem.case import Case
     from ..oscillation import SteadyOscillation
+    from .assessment import Assessment
 
 _DISCRETIZATION, _RESULTS = Discretization(), Results()
 
@@ -64,6 +64,7 @@ def run(
     from .repeat import likeness, recorded_case, recorded_title
     from .summary import print_inputs, print_results
 
+    console = new_console()
     if recorded is not None:
         others = given(omega=omega, ramp_time=ramp_time, config=config)
         if others or discretization != _DISCRETIZATION:
@@ -82,60 +83,50 @@ def run(
         refuse_rest(motion.spin_up.omega)
         case, title = numerics.case(file.beam, motion), numerics.title
         name = f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
-    path = writable_folder(results.out) / name
-    refuse_to_replace(case.describe(), *_data_files(path), force=results.force)
-    console = new_console()
-    if config is not None:
-        print_line(console, "motion", f"{motion} (where not given, the paper's, scaled by ω_0)")
-    written: list[Path] = []
-    with telling_what_is_kept(lambda: f"kept: {listed(written)}" if written else ""):
-        data, steady = _measured(case, path, written, console)
-        if not no_figure:
-            from .. import figures
+    path = results.out / name
 
-            written += figures.save_figure(figures.spin_up(data)[0], path)
+    def computed() -> xr.Dataset:
+        if config is not None:
+            where = "(where not given, the paper's, scaled by ω_0)"
+            print_line(console, "motion", f"{motion} {where}")
+        return _computed(case, console)
+
+    def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
+        steady = _measured(data, path)
         assessment = assess(case, steady)
-    print_inputs(console, case, title)
-    print_results(console, data, steady, assessment)
-    if before is not None:
-        print_line(console, "repeats", f"{recorded}: {likeness(data, before)}")
-    print_written(console, written)
-    for sentence in assessment.warnings(case.elements, case.step):
+        print_inputs(console, case, title)
+        print_results(console, data, steady, assessment)
+        if before is not None:
+            print_line(console, "repeats", f"{recorded}: {likeness(data, before)}")
+        return assessment
+
+    found = Job(
+        path=path, inputs=case.describe(), force=results.force, compute=computed,
+        dataset=lambda data: data, show=shown,
+        draw=None if no_figure else drawn(lambda figures, data: figures.spin_up(data)[0]),
+    ).run()  # fmt: skip
+    for sentence in found.warnings(case.elements, case.step):
         warn(sentence)
 
 
-def _measured(
-    case: Case, path: Path, written: list[Path], console: Console
-) -> tuple[xr.Dataset, SteadyOscillation]:
-    """Compute, save, then measure: what was computed is safe before anything else is tried."""
+def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
+    """Measure what is safe on file; a window that is too short loses nothing."""
     from ..oscillation import steady_oscillation
 
     try:
-        data = _computed(case, console)
-    except SimulationError as error:
-        if error.run is None:
-            raise
-        failed = error.run.assign_attrs(verdict=f"failed: {error}")
-        name = free_name(failed, path.parent, f"{path.name}-failed")
-        written += [save(failed, file) for file in _data_files(path.with_name(name))]
-        raise RuntimeError(
-            f"{error}; what was computed is in {written[0]}, marked failed"
-        ) from error
-    written += [save(data, file) for file in _data_files(path)]
-    try:
-        return data, steady_oscillation(data)
+        return steady_oscillation(data)
     except ValueError as error:
-        raise RuntimeError(f"{error}; the run itself is in {written[0]}") from error
-
-
-def _data_files(path: Path) -> tuple[Path, Path]:
-    # Appended, not replaced: a name may have a point in it.
-    return path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
+        raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
 def _computed(case: Case, console: Console) -> xr.Dataset:
     from ..fem.simulation import run_case
 
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("spinning up", total=1.0)
-        return run_case(case, progress=lambda done: bar.update(task, completed=done))
+    try:
+        with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+            task = bar.add_task("spinning up", total=1.0)
+            return run_case(case, progress=lambda done: bar.update(task, completed=done))
+    except SimulationError as error:
+        if error.run is None:
+            raise
+        raise UnfinishedError(error.run, "computed") from error

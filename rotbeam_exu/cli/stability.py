@@ -11,17 +11,13 @@ import analytic
 from analytic.exact.orbit_growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import save, writable_folder
 from ..verdict import beam_attributes
 from .configuration import configured, omega_of
-from .cost import require_affordable
+from .job import Job, drawn
 from .options import Amplitudes, Results, Whole
-from .output import new_console, print_columns, print_text, print_written
+from .output import new_console, print_columns, print_text
 from .sections import SectionShape
-from .targets import refuse_to_replace
 
-_SECONDS_PER_ORBIT = 0.1
-"""From below."""
 _RESULTS = Results()
 _GIVEN = SectionShape()
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
@@ -65,29 +61,33 @@ def stability(
 
     whole_number("mode", mode)
     positive("growth", growth)
-    require_affordable(
-        f"{len(amplitude)} orbits",
-        seconds=_SECONDS_PER_ORBIT * len(amplitude),
-        remedy="take fewer amplitudes",
-    )
     file = configured(config)
     omega = omega_of(file, omega)
     blade = shape.required_of(file.beam)
     amplitudes = sorted(set(amplitude))
-    path = writable_folder(results.out) / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}"
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     inputs["growth"] = growth
-    files = path.with_name(f"{path.name}.nc"), path.with_name(f"{path.name}.csv")
-    refuse_to_replace(inputs, *files, force=results.force)
-    found = analytic.planar_stability(blade, omega, amplitudes, mode)
-    limit = analytic.stability_limit(blade, omega, mode, growth=growth, largest=amplitudes[-1])
-    data = comparison.planar_stability(found, limit).assign_attrs(inputs)
-    written = [save(data, files[0]), save(data.drop_vars(["multipliers", "part"]), files[1])]
 
-    from .. import figures
+    def computed() -> tuple[analytic.PlanarStability, analytic.StabilityLimit]:
+        found = analytic.planar_stability(blade, omega, amplitudes, mode)
+        return found, analytic.stability_limit(
+            blade, omega, mode, growth=growth, largest=amplitudes[-1]
+        )
 
-    written += figures.save_figure(figures.planar_stability(data), path)
+    Job(
+        path=results.out / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}",
+        inputs=inputs,
+        force=results.force,
+        compute=computed,
+        dataset=lambda pair: comparison.planar_stability(*pair).assign_attrs(inputs),
+        table=lambda data: data.drop_vars(["multipliers", "part"]),
+        show=lambda pair, _: _print(*pair),
+        draw=drawn(lambda figures, data: figures.planar_stability(data)),
+    ).run()
+
+
+def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:
     console = new_console()
     print_text(console, f"{limit}.")
     print_columns(
@@ -109,7 +109,6 @@ def stability(
     if not np.all(found.converged):
         print_text(console, "! not confirmed within 1 % by more functions and steps")
     _print_tongues(limit)
-    print_written(console, written)
 
 
 def _print_tongues(limit: analytic.StabilityLimit) -> None:

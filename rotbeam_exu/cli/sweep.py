@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
-import math
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
-from rich.console import Console
-
-from analytic.input_checks import whole_number
 
 from .. import paper
-from ..files.results import save, writable_folder
 from ..files.run_file import RunFile
 from ..lazily import xr
 from .configuration import configured
-from .cost import require_affordable
+from .job import Job
 from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_line, print_text, print_written
+from .output import choice, new_console, print_columns, print_line, print_text
 from .progress import counter
-from .targets import refuse_to_replace, telling_what_is_kept
+from .targets import telling_what_is_kept
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
-
-_BYTES_PER_CASE = 2e3
-_SECONDS_PER_ELEMENT_STEP = 2e-6
-"""From below: a process manages less."""
-
 
 _DISCRETIZATION, _RESULTS, _WORKERS = Discretization(), Results(), Workers()
 
@@ -93,40 +82,38 @@ def sweep(
     if executor == "dask" and scheduler is None:
         raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
     count = len(omegas) * len(ramp_times)
-    at_once = math.inf if executor == "dask" else _cores(workers.jobs)
-    steps = numerics.elements * motion.duration / motion.step
-    _require_affordable(steps, count, count // part[1], at_once)
     one = numerics.case(beam, motion)
+
+    def computed() -> xr.Dataset:
+        if config is not None:
+            print_line(new_console(), "motion", _described(motion, omegas, ramp_times))
+        with (
+            _executor(scheduler if executor == "dask" else None) as pool,
+            _kept_and_counted(workers.cache, count // part[1]) as progress,
+        ):
+            return run_sweep(
+                beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
+                elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
+                executor=pool, jobs=workers.jobs, cache=workers.cache, progress=progress,
+                on_error="record", shard=part, history=history,
+            )  # fmt: skip
+
     name = f"sweep-{numerics.name}"
     name += "" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}"
-    path = writable_folder(results.out) / f"{name}.nc"
-    grid = {"omega": omegas, "ramp_time": ramp_times}
-    refuse_to_replace({**one.describe(), **grid}, path, force=results.force)
-    console = new_console()
-    if config is not None:
-        print_line(console, "motion", _described(motion, omegas, ramp_times))
-    with (
-        _executor(scheduler if executor == "dask" else None) as pool,
-        _kept_and_counted(console, workers.cache, count // part[1]) as progress,
-    ):
-        result = run_sweep(
-            beam,
-            omegas=omegas,
-            ramp_times=ramp_times,
-            element=one.element,
-            elements=one.elements,
-            duration=one.duration,
-            step=one.step,
-            frame=one.frame,
-            executor=pool,
-            jobs=workers.jobs,
-            cache=workers.cache,
-            progress=progress,
-            on_error="record",
-            shard=part,
-            history=history,
+    path = results.out / name
+    failed = Job(
+        path=path,
+        inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
+        force=results.force,
+        compute=computed,
+        dataset=lambda result: result,
+        table=_measured,
+        show=_print,
+    ).run()
+    if failed:
+        raise RuntimeError(
+            f"{failed} of {count} spin-ups failed; why is above, and as `failure` in {path}.nc"
         )
-    _finish(console, result, path)
 
 
 def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float], list[float]]:
@@ -141,39 +128,21 @@ def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float],
     return omega, ramp_time
 
 
-def _finish(console: Console, result: xr.Dataset, path: Path) -> None:
-    """Write and print the result; a sweep with a failed case is no success."""
+def _measured(result: xr.Dataset) -> xr.Dataset:
+    return result.drop_dims("time", errors="ignore")
+
+
+def _print(result: xr.Dataset, _: xr.Dataset) -> int:
+    """Print the result, and why cases failed; return how many did."""
     from ..sweeps.grid import failed_cases
 
-    measured = result.drop_dims("time", errors="ignore")
-    written = [save(result, path), save(measured, path.with_name(f"{path.stem}.csv"))]
+    measured = _measured(result)
     _print_result(measured)
     failed = failed_cases(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        print_text(console, f"failed at {where}: {sentence}")
-    print_written(console, written)
-    if failed:
-        count = sum(map(len, failed.values()))
-        cases = measured["verdict"].size
-        raise RuntimeError(
-            f"{count} of {cases} spin-ups failed; why is above, and as `failure` in {written[0]}"
-        )
-
-
-def _cores(jobs: int | None) -> int:
-    return os.cpu_count() or 1 if jobs is None else whole_number("jobs", jobs)
-
-
-def _require_affordable(steps: float, count: int, mine: int, at_once: float) -> None:
-    """Refuse `mine` of `count` spin-ups of so many steps, times elements, by an estimate."""
-    require_affordable(
-        f"a sweep of {mine} spin-ups",
-        memory=_BYTES_PER_CASE * count,
-        seconds=_SECONDS_PER_ELEMENT_STEP * steps * mine / at_once,
-        days=30.0,
-        remedy="take fewer speeds and ramp times, or parts of them with --shard",
-    )
+        print_text(new_console(), f"failed at {where}: {sentence}")
+    return sum(map(len, failed.values()))
 
 
 @contextmanager
@@ -192,9 +161,7 @@ def _executor(scheduler: str | None) -> Iterator[Executor | None]:
 
 
 @contextmanager
-def _kept_and_counted(
-    console: Console, cache: Path, cases: int
-) -> Iterator[Callable[[int, int], None]]:
+def _kept_and_counted(cache: Path, cases: int) -> Iterator[Callable[[int, int], None]]:
     """Show how many spin-ups are done, and say where they are should they not all be."""
     finished = 0
 
@@ -202,7 +169,7 @@ def _kept_and_counted(
         where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
         return f"{where}; the same command goes on from there" if finished else ""
 
-    with telling_what_is_kept(kept), counter(console, "spin-ups") as shown:
+    with telling_what_is_kept(kept), counter(new_console(), "spin-ups") as shown:
 
         def progress(done: int, number: int) -> None:
             nonlocal finished, cases

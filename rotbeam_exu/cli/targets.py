@@ -71,8 +71,9 @@ def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
     """Let Ctrl-C say what it leaves behind: `kept` is asked then, and empty for nothing."""
     try:
         yield
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(kept()) from None
+    except KeyboardInterrupt as interrupt:
+        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
 def listed(paths: list[Path]) -> str:

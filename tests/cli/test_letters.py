@@ -15,6 +15,8 @@ from rotbeam_exu.cli.output import ready_streams
     [
         ("ascii", "omega_NL Omega +- x m^2 theta lambda ... - e ? ?"),
         ("latin-1", "omega_NL Omega ± × m² theta lambda ... - é ? ?"),
+        # Of a pipe or a file on Windows.
+        ("cp1252", "omega_NL Omega ± × m² theta lambda … - é ? ?"),
         ("utf-8", "ω_NL Ω ± × m² ϑ λ … − é 中 ?"),
     ],
 )

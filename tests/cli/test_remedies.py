@@ -4,7 +4,6 @@ import re
 
 import pytest
 
-import rotbeam_exu.cli.sweep as sweep_job
 from rotbeam_exu.fem import simulation
 from rotbeam_exu.sweeps.cache import Cache
 
@@ -88,16 +87,6 @@ def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
     assert call(*short, "--step", "0.02", "--out", tmp_path, "--force")[0] == 0
 
 
-def test_what_would_take_too_long_is_let_through_when_there_is_less_of_it(call):
-    few = {"--points": "2", "--count": "1", "--orders": "1"}
-    for option in few:
-        arguments = {**few, option: "1000000000"}
-        code, _, error = call("compare-modes", *(t for pair in arguments.items() for t in pair))
-        assert code == 2
-        assert error.strip().endswith("take fewer")
-    assert call("compare-modes", *(text for pair in few.items() for text in pair))[0] == 0
-
-
 def test_more_functions_are_on_offer(call):
     code, out, _ = call(
         "backbone", "--omega", "6", "--amplitude", "0.1", "--exact", "--functions", "20"
@@ -128,15 +117,6 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
     low, high = re.search(r"between (\d) and (\d)", error).groups()
     for part in (low, high):
         assert small_sweep("--shard", f"{part}/2")[0] == 0
-
-
-def test_a_sweep_too_large_is_let_through_in_parts(small_sweep, monkeypatch):
-    # As if a step of an element took an hour.
-    monkeypatch.setattr(sweep_job, "_SECONDS_PER_ELEMENT_STEP", 3000.0)
-    code, _, error = small_sweep()
-    assert code == 2
-    assert "or parts of them with --shard" in error
-    assert small_sweep("--shard", "1/2")[0] == 0
 
 
 def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):

@@ -1,10 +1,13 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
+from dataclasses import replace
+
 import pytest
 
 import rotbeam_exu.cli.figure as figure_job
-from rotbeam_exu import load, oscillation
+from rotbeam_exu import figures, load, oscillation
 from rotbeam_exu.fem import simulation
+from rotbeam_exu.paper_figures import PAPER_FIGURES
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
@@ -107,6 +110,34 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
+
+
+@pytest.mark.parametrize(
+    ("command", "drawing", "name"),
+    [
+        (
+            "ramp --omega 2 --longest 3 --points 0 --finite-element-points 0",
+            "residual", "ramp-omega-2-longest-3",
+        ),
+        (
+            "stability --omega 6 --section tube --amplitude 0.02",
+            "planar_stability", "stability-tube-omega-6-mode-1",
+        ),
+        ("figure 8", "figure_8", "figure_8"),
+    ],
+)  # fmt: skip
+def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
+    call, tmp_path, monkeypatch, command, drawing, name
+):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(figures, drawing, stopped)
+    monkeypatch.setitem(PAPER_FIGURES, 8, replace(PAPER_FIGURES[8], draw=stopped))
+    code, _, error = call(*command.split(), "--out", tmp_path)
+    assert code == 130
+    assert f"kept: {tmp_path}/{name}.nc, {tmp_path}/{name}" in error
+    assert all(str(path) in error for path in tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("command", ["animate", "explore"])

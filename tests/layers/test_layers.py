@@ -1,6 +1,7 @@
 """Who may import whom: what keeps the theory free of Exudyn, and each room free of those above."""
 
 import graphlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -95,6 +96,13 @@ def test_no_arrow_points_up_and_each_library_has_its_room():
 )
 def test_an_import_the_wrong_way_is_found(name, target):
     assert forbidden(name, target)
+
+
+def test_a_command_writes_its_results_by_a_job():
+    """What is refused, kept by Ctrl-C and listed is then the same in every command."""
+    commands = (ROOT / "rotbeam_exu" / "cli").glob("*.py")
+    writing = re.compile(r"from \.\.files\.results import .*\bsave", re.MULTILINE)
+    assert {path.stem for path in commands if writing.search(path.read_text("utf-8"))} == {"job"}
 
 
 def test_there_is_no_circle():
