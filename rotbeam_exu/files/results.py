@@ -171,6 +171,9 @@ def differing_inputs(
     except (OSError, ValueError) as error:
         return {"file": (None, str(error))}
     mine, theirs = _inputs(run), _inputs(there)
+    if not isinstance(run, xr.Dataset):
+        # The grid of what is not computed yet is known where it is among the inputs.
+        theirs = {name: theirs[name] for name in theirs if name in mine or name not in there.coords}
     differing = {
         name: (mine.get(name), theirs.get(name))
         for name in sorted(mine.keys() | theirs.keys())

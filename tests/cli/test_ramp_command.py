@@ -47,3 +47,14 @@ def test_what_it_refuses(call, tmp_path):
         code, _, error = call("ramp", *arguments, "--out", tmp_path)
         assert code == 2
         assert sentence in error
+
+
+def test_the_same_ramps_may_be_asked_for_again_and_others_not(call, tmp_path):
+    """Its grids are no inputs: the second call was refused."""
+    asked = ("ramp", "--omega", "4", "--longest", "2.5", "--finite-element-points", "0")
+    for _ in range(2):
+        code, _, error = call(*asked, "--points", "2", "--out", tmp_path)
+        assert code == 0, error
+    code, _, error = call(*asked, "--points", "3", "--out", tmp_path)
+    assert code != 0
+    assert "points 2 instead of 3" in error
