@@ -68,7 +68,10 @@ def answers(blade):
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-@pytest.mark.parametrize("count", [2, 30, pytest.param(60, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "count",
+    [2, 30, pytest.param(60, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.slow)],
+)
 def test_no_answer_depends_on_where_the_section_is_cut(count):
     """A random blade of polynomials, and the same with its mass at random stations."""
     random = np.random.default_rng(count)

@@ -11,7 +11,6 @@ from analytic.reduced.shapes import static_deflection
 from analytic.reduced.symbolic import MU, OMEGA, X
 from analytic.reduced.symbolic import symbolic_forms as exact_forms
 
-
 PAIRS = {(3, "static"), (3, "consistent"), (4, "inextensible"), (5, "none")}
 
 
