@@ -31,7 +31,7 @@ test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
-	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site"
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site" --hypothesis-profile all
 
 test-oldest: $(OLDEST)/.made  ## the default suite on the lowest versions that pyproject.toml allows
 	$(subst $(VENV),$(OLDEST),$(BIN))/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
