@@ -144,6 +144,10 @@ def test_the_noise_of_each_run_has_its_place_in_the_bar():
     # Runs may come in any order, their noise with them.
     again = convergence((0.1, 0.4, 0.2), series((0.1, 0.4, 0.2)), noise=(1e-3, 3e-3, 2e-3))
     assert again.bar == pytest.approx(found.bar)
+    # That of a fourth and coarsest has no part in it.
+    four = (0.8, 0.4, 0.2, 0.1)
+    longer = convergence(four, series(four), noise=(0.5, *NOISE))
+    assert (longer.limit, longer.bar) == pytest.approx((found.limit, found.bar))
 
 
 def test_a_declared_order_keeps_twice_its_correction():
