@@ -8,7 +8,7 @@ OLDEST := .venv-oldest
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run figures images golden references test test-all test-oldest coverage bench bench-peers lint docs check-site check clean
+.PHONY: run figures images golden references test test-all test-oldest coverage bench bench-peers lint docs docs-draft check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -23,7 +23,7 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py
 	$(BIN)/python tests/golden/test_paper_beam.py
 
-references: $(VENV)/.docs  ## the benchmark's reference data and its problem statement
+references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
 	$(BIN)/python -m rotbeam_exu.verification.regenerate
 	$(BIN)/python -m rotbeam_exu.verification.problem_statement
 
@@ -31,7 +31,7 @@ test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
 test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
-	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site"
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site" --hypothesis-profile all
 
 test-oldest: $(OLDEST)/.made  ## the default suite on the lowest versions that pyproject.toml allows
 	$(subst $(VENV),$(OLDEST),$(BIN))/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
@@ -52,7 +52,10 @@ lint: $(VENV)/.dev  ## linters and type checks
 	$(BIN)/mypy
 
 docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
-	$(BIN)/python -m sphinx -j auto -E -W --keep-going -q docs docs/_build/html
+	$(BIN)/python -m sphinx -j auto -E -W --keep-going -q -d docs/_build/doctrees docs docs/_build/html
+
+docs-draft: $(VENV)/.docs  ## text, links and formulas of the site, in docs/_build/draft: half a minute
+	$(BIN)/python -m sphinx -j auto -q -D computed_runs=0 -D plot_gallery=0 -d docs/_build/draft-doctrees docs docs/_build/draft
 
 check-site: docs $(VENV)/.dev  ## the built site in a browser without a network
 	$(BIN)/python -m pytest -m site tests/docs/test_site.py
@@ -75,6 +78,10 @@ $(VENV)/.dev: pyproject.toml constraints.txt | $(VENV)/.pip
 $(VENV)/.docs: pyproject.toml constraints.txt | $(VENV)/.pip
 	$(PIP) install -c constraints.txt -e . --group docs
 	touch $@ $(VENV)/.run
+
+$(VENV)/.kit: $(VENV)/.run
+	$(PIP) install -c constraints.txt -e . --group kit
+	touch $@
 
 $(VENV)/.peers: $(VENV)/.dev
 	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev

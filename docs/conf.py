@@ -1,4 +1,7 @@
-"""The site: `make docs`. Nothing is fetched; pages compute their numbers, models/*.py run."""
+"""The site: `make docs`. Nothing is fetched; pages compute their numbers, models/*.py run.
+
+`make docs-draft` sets computed_runs to 0: text, links and formulas alone, nothing is computed.
+"""
 
 from __future__ import annotations
 
@@ -152,8 +155,10 @@ def spread(app: Any, env: Any, pages: list[str]) -> None:
     pages[:] = [page for first in range(_HANDS) for page in pages[first::_HANDS]]
 
 
-def write_interactive() -> None:
+def write_interactive(app: Any) -> None:
     """Write the explorer and the animations that the pages embed, by the command line itself."""
+    if not app.config.computed_runs:
+        return
     rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
     for lines in (
         ("explore --cache _build/runs --out _static/explorer.html",),  # takes all cores
@@ -179,4 +184,4 @@ def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("env-before-read-docs", spread)
-    app.connect("builder-inited", lambda _: write_interactive(), priority=100)
+    app.connect("builder-inited", write_interactive, priority=100)

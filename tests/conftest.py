@@ -1,7 +1,13 @@
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from analytic import Beam, SpinUp
+
+# Random examples of a statement that names no number of its own; `make test-all` takes "all".
+settings.register_profile("quick", max_examples=20, deadline=None)
+settings.register_profile("all", max_examples=100, deadline=None)
+settings.load_profile("quick")
 
 
 @pytest.fixture(scope="session")

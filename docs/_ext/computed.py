@@ -1,7 +1,8 @@
 """The directive ``computed``: a page's numbers are computed when the page is built.
 
 It runs Python and inserts the Markdown that is printed. With ``:show:`` the code is shown, and what
-it prints appears beneath as it is. The blocks of a page share their names, in order.
+it prints appears beneath as it is. The blocks of a page share their names, in order. A draft
+(`make docs-draft`) runs the reference alone, and shows the code in place of what others print.
 """
 
 from __future__ import annotations
@@ -27,6 +28,10 @@ class Computed(SphinxDirective):
         """Return the nodes of what the block prints."""
         source, line = self.get_source_info()
         text, where = "\n".join(self.content), f"{source}:{line}"
+        code = nodes.literal_block(text, text, language="python")
+        # The reference only lists names, which links lead to.
+        if not (self.config.computed_runs or self.env.docname.startswith("reference/")):
+            return [code]
         namespace = self.env.temp_data.setdefault("computed", names(Path(self.env.srcdir)))
         try:
             output = printed(text, namespace, where)
@@ -34,12 +39,12 @@ class Computed(SphinxDirective):
             raise ExtensionError(f"{where}: {type(error).__name__}: {error}") from error
         if "show" not in self.options:
             return self.parse_text_to_nodes(output, allow_section_headings=True)
-        code = nodes.literal_block(text, text, language="python")
         result = nodes.literal_block(output, output, language="text", classes=["output"])
         return [code, result] if output else [code]
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directive."""
+    app.add_config_value("computed_runs", True, "env")  # whether the site computes anything
     app.add_directive("computed", Computed)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

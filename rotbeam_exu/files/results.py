@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -197,17 +198,11 @@ def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
 @contextmanager
 def whole_file(target: Path) -> Iterator[Path]:
     """Give a path to write to; move it to `target` at the end, or remove it on any failure."""
-    handle, name = tempfile.mkstemp(
-        prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
-    )
-    os.close(handle)
-    partial = Path(name)
+    # Named before it is made: a signal in between would leave what nobody knows.
+    partial = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
+        partial.touch(exist_ok=False)
         yield partial
-        # mkstemp makes files private; results are meant to be shared as other files are.
-        umask = os.umask(0)
-        os.umask(umask)
-        partial.chmod(0o666 & ~umask)
         partial.replace(target)
     except OSError as error:
         if error.filename is None:  # as of a full disk

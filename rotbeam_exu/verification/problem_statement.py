@@ -1,6 +1,6 @@
 """PROBLEM.pdf, typeset anew by `python -m rotbeam_exu.verification.problem_statement`.
 
-Needs the package typst, which is a dependency of the site and not of the package.
+Needs the package typst: the group `kit`, which `make references` installs.
 """
 
 from __future__ import annotations

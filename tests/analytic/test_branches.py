@@ -18,15 +18,31 @@ def orbits(beam, omega, amplitudes, **options):
         return periodic_orbits(beam, omega, amplitudes, **options)
 
 
-def test_the_answer_does_not_depend_on_the_list(beam):
-    """Beyond the tongue of 6:1, at 2 rad/s."""
-    found = [orbits(beam, 2.0, asked).frequency[-1] for asked in ([0.6, 0.7], [0.65, 0.7], [0.7])]
-    assert found[1:] == pytest.approx(found[:1] * 2, rel=1e-12)
+@pytest.fixture(
+    scope="module", params=[True, pytest.param(False, marks=pytest.mark.slow)], ids="{}".format
+)
+def inextensible(request):
+    """Extension changes these frequencies by 2e-5 of themselves, for three times the work."""
+    return request.param
 
 
-def test_across_a_resonance_its_harmonic_turns_around(beam):
+@pytest.fixture(scope="module")
+def around_a_tongue(beam, inextensible):
+    """Below, beyond and within the tongue of 6:1, at 2 rad/s."""
+    return orbits(beam, 2.0, [0.63, 0.7, 0.64], inextensible=inextensible)
+
+
+def test_the_answer_does_not_depend_on_the_list(beam, inextensible, around_a_tongue):
+    found = [
+        orbits(beam, 2.0, asked, inextensible=inextensible).frequency[-1]
+        for asked in ([0.6, 0.7], [0.7])
+    ]
+    assert found == pytest.approx([around_a_tongue.frequency[1]] * 2, rel=1e-12)
+
+
+def test_across_a_resonance_its_harmonic_turns_around(around_a_tongue):
     """Driven through resonance, mode 2 answers against the sixth harmonic, then with it."""
-    found = orbits(beam, 2.0, [0.63, 0.7, 0.64])
+    found = around_a_tongue
     sixth = found.harmonics[:, 5] / found.harmonics[:, 0]
     assert sixth[:2] == pytest.approx([-7.3e-3, 6.8e-3], abs=1e-4)
     # Beyond the fold of the lower side, at 0.6374, there is only the upper one.
@@ -47,7 +63,8 @@ def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
 
 @pytest.fixture(scope="module")
 def branch():
-    return backbone_branch(Beam.reference(), 2.0, up_to=0.7, inextensible=True, functions=12)
+    # The fold of twelve functions is this one to 1e-10.
+    return backbone_branch(Beam.reference(), 2.0, up_to=0.68, inextensible=True, functions=8)
 
 
 def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):

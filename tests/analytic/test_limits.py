@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from analytic import VARIANTS, Beam, Variant, reduced_model
@@ -73,7 +73,6 @@ def test_difference_to_the_consistent_model_falls_with_slenderness(fitted_order)
 factors = st.floats(min_value=-3.0, max_value=3.0).map(lambda e: 10.0**e)
 
 
-@settings(max_examples=30, deadline=None)
 @given(
     length=factors,
     modulus=factors,

@@ -96,6 +96,7 @@ def strip_at_6(beam):
     return stability_limit(beam.rectangle(), 6.0, largest=0.1)
 
 
+@pytest.mark.slow  # cheaper sections below have a tongue and a limit that their edges tell
 def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, strip_at_6):
     """The referee's amplitudes: 0.0705 by another code; tongues and windows of stability below."""
     limit = strip_at_6
@@ -132,6 +133,7 @@ def test_a_tongue_in_the_range_is_no_limit(beam):
     found = stability_limit(blade, 4.43 * beam.frequency_scale)
     assert math.isinf(found.amplitude)
     (tongue,) = found.tongues
+    assert 0.0 < tongue.growth < found.growth == 0.01
     edges = planar_stability(blade, found.omega, [tongue.low, tongue.high, 0.6])
     assert edges.stable.tolist() == [False, False, True]
     assert "stay in their plane, up to a = 0.6, but for one tongue from" in str(found)

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from analytic import Beam
@@ -20,7 +20,6 @@ def test_the_paper_s_beam_keeps_the_paper_s_motion():
 
 
 @pytest.mark.filterwarnings("ignore:youngs_modulus = .* in GPa:analytic.RotbeamWarning")
-@settings(max_examples=100, deadline=None)
 @given(scale=st.floats(1e-6, 1e6), ramp=st.none() | st.floats(1e-3, 1e3))
 def test_ratios_to_omega_0_are_the_paper_s(scale, ramp):
     paper = Beam.reference()

@@ -33,7 +33,7 @@ def files_of_at_most(size):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-@pytest.mark.parametrize("name", ["SIGHUP", "SIGTERM"])
+@pytest.mark.parametrize("name", ["SIGHUP", pytest.param("SIGTERM", marks=pytest.mark.slow)])
 def test_a_closed_terminal_and_a_kill_leave_nothing(tmp_path, name):
     """As Ctrl-C; the shell that is closed sends SIGHUP as well, after the terminal."""
     number = getattr(signal, name)

@@ -81,7 +81,7 @@ THEORY = {
     "animate --duration 0.1 --rate 10 -o out/film.gif": "written",
     "figure 8 -o out": "written",
     "kit out/kit": "files in",
-    "judge out/kit/sample": "outcome",
+    "judge out/kit/sample --report out/page.html": "outcome",
 }
 NEEDS_EXUDYN = (
     "run --elements 2 -o out", "verify --element cable", "explore -o out/explorer.html",

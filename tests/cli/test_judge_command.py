@@ -1,8 +1,6 @@
 """`rotbeam judge`: faults, mistakes, tables, files; without Exudyn."""
 
 import json
-import subprocess
-import sys
 import unicodedata
 from pathlib import Path
 
@@ -152,17 +150,3 @@ def test_an_error_about_a_file_steers_no_terminal(call, tmp_path):
     code, out, err = call("run", "--config", path)
     assert code == 2
     assert set(steers(out + err)) == {"\n"}
-
-
-def test_no_exudyn_is_needed(folder, tmp_path):
-    """What is None in sys.modules cannot be imported: as if it were not installed."""
-    page = tmp_path / "out.html"
-    text = (
-        "import sys; sys.modules['exudyn'] = None; from rotbeam_exu.cli import main; "
-        f"main(['judge', {str(folder)!r}, '--report', {str(page)!r}])"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", text], cwd=ROOT, capture_output=True, text=True, check=False
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    assert page.stat().st_size > 50_000

@@ -30,11 +30,12 @@ def test_letters_are_spelled_where_they_must_be(monkeypatch, encoding, shown):
     assert raw.getvalue().decode(encoding) == shown
 
 
+@pytest.mark.slow  # a child that runs and draws; the streams it prints to are tested above
 @pytest.mark.parametrize(
     "locale",
     [
         {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
-        pytest.param({"PYTHONIOENCODING": "latin-1"}, marks=pytest.mark.slow),
+        {"PYTHONIOENCODING": "latin-1"},
     ],
     ids=["POSIX", "latin-1"],
 )

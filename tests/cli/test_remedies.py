@@ -128,6 +128,7 @@ def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path
     assert call(*short, tmp_path / "free")[0] == 0
 
 
+@pytest.mark.slow  # seconds of waiting; a sweep by Dask is among the sweep's own tests
 def test_dask_asks_for_its_scheduler_and_then_for_one_that_answers(small_sweep):
     distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
     dask = ("--executor", "dask")

@@ -101,27 +101,22 @@ def test_models_and_exact_beam_are_taken_at_one_amplitude(beam, lines):
         assert (np.abs(right) < np.abs(wrong)).all()
 
 
-def test_the_papers_mesh_agrees_with_the_golden_data(beam):
-    kept = golden("figure_14-amplitude")
-    points = comparison.finite_element_points(
-        beam, omegas=(6.0,), ramp_times=(3.0, 2.5), mesh="paper", jobs=1
-    )
-    for ramp_time in (3.0, 2.5):
-        row = kept[
-            (kept["mesh"] == "paper")
-            & (kept["omega [rad/s]"] == 6.0)
-            & (kept["ramp_time [s]"] == ramp_time)
-        ].iloc[0]
-        here = points.sel(omega=6.0, ramp_time=ramp_time)
-        # Deterministic on one machine; another's round-off grows to 1e-9 in 15 000 steps.
-        assert here["ratio"].item() == pytest.approx(row["ratio"], abs=1e-7)
-        assert here["amplitude"].item() == pytest.approx(row["amplitude"], abs=1e-6)
-        # The bars hold what step and mesh do, 1.6e-5 where the two do not cancel.
-        assert here["ratio_error"].item() == pytest.approx(row["ratio_error"], rel=0.05)
-        exact = periodic_orbits(beam, 6.0, [here["amplitude"].item()])
-        distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
-        assert here["estimator_error"] < 0.1 * here["ratio_error"]
-        assert distance < here["ratio_error"]
+@pytest.mark.parametrize("ramp_time", [3.0, pytest.param(2.5, marks=pytest.mark.slow)])
+def test_the_papers_mesh_agrees_with_the_golden_data(beam, ramp_time):
+    kept = golden("figure_14-amplitude").set_index(["mesh", "omega [rad/s]", "ramp_time [s]"])
+    row = kept.loc[("paper", 6.0, ramp_time)]
+    here = comparison.finite_element_points(
+        beam, omegas=(6.0,), ramp_times=(ramp_time,), mesh="paper", jobs=1
+    ).squeeze()
+    # Deterministic on one machine; another's round-off grows to 1e-9 in 15 000 steps.
+    assert here["ratio"].item() == pytest.approx(row["ratio"], abs=1e-7)
+    assert here["amplitude"].item() == pytest.approx(row["amplitude"], abs=1e-6)
+    # The bars hold what step and mesh do, 1.6e-5 where the two do not cancel.
+    assert here["ratio_error"].item() == pytest.approx(row["ratio_error"], rel=0.05)
+    exact = periodic_orbits(beam, 6.0, [here["amplitude"].item()])
+    distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
+    assert here["estimator_error"] < 0.1 * here["ratio_error"]
+    assert distance < here["ratio_error"]
 
 
 def test_bars_of_the_papers_mesh_hold_the_converged_points():
@@ -160,17 +155,17 @@ def test_figure_5_is_fitted_where_its_curve_holds(monkeypatch):
 
 
 def test_converged_points_lie_on_the_exact_backbone(beam):
-    """One point of the grid with all its meshes; the others are in the slow test."""
+    """One point of the grid by its largest steps; at 1 ms it and the others are in a slow test."""
     point = comparison.finite_element_points(
-        beam, omegas=(6.0,), ramp_times=(3.375,), mesh="converged", jobs=1
+        beam, omegas=(6.0,), ramp_times=(3.375,), mesh="converged", jobs=1, step=5e-3, duration=12.0
     ).squeeze()
     a, ratio = point["amplitude"].item(), point["ratio"].item()
     assert a == pytest.approx(0.19558, abs=5e-6)
     assert ratio == pytest.approx(0.999236, abs=1e-6)
     exact = periodic_orbits(beam, 6.0, [a])
     bar = point["ratio_error"].item()
-    assert bar < 1e-6
-    assert abs(ratio - exact.frequency[0] / exact.omega_n) < 1e-5 + bar
+    assert bar < 1e-5  # a tenth of what goes with the square of the step
+    assert abs(ratio - exact.frequency[0] / exact.omega_n) < bar
 
 
 def test_figure_15_closes_where_the_frequency_is_right(beam):

@@ -11,7 +11,7 @@ from rotbeam_exu import simulate, steady_oscillation
     ("omega", "amplitude"),
     [
         (2.0, 0.3),
-        (8.0, 0.1),
+        pytest.param(8.0, 0.1, marks=pytest.mark.slow),
         pytest.param(2.0, 0.1, marks=pytest.mark.slow),
         pytest.param(8.0, 0.3, marks=pytest.mark.slow),
     ],

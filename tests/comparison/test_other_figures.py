@@ -158,7 +158,11 @@ def test_figure_13_mode_straightens_with_speed():
     assert "by up to 0.008, 0.027, 0.050 and 0.070, there at η/L = 0.46" in words
 
 
-@pytest.mark.parametrize("number", [8, 9, 10, 11, 12, 13])
+@pytest.mark.parametrize(
+    # All are drawn on given axes below.
+    "number",
+    [8, 13, *(pytest.param(n, marks=pytest.mark.slow) for n in (9, 10, 11, 12))],
+)
 def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
     main(["figure", str(number), "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
     kinds = {path.suffix for path in tmp_path.iterdir() if path.is_file()}

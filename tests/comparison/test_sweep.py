@@ -61,7 +61,7 @@ def test_dask_gives_the_same_bits(beam, serial):
     distributed = pytest.importorskip("distributed")
     with (
         distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+            n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
@@ -262,8 +262,11 @@ def living(group):
 
 
 @pytest.mark.parametrize(
-    "signal_number", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT]
+    # Slow: nine seconds of processes. A worker that dies, and a run that is interrupted, are not.
+    "signal_number",
+    [signal.SIGKILL, signal.SIGINT],
 )
+@pytest.mark.slow
 def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
     arguments = [
         sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "8",

@@ -1,4 +1,4 @@
-"""Every block of code in the README and the pages runs, and every command shown exists."""
+"""Every block of code in the pages runs, as test_readme.py does for the README; commands exist."""
 
 import importlib.util
 import os
@@ -14,10 +14,10 @@ from rotbeam_exu.cli import app
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
-# Pages that run finite elements in number, long exact spin-ups, or a cluster of processes.
-SLOW = ("index", "gotchas", "validation", "theory/comparison", "theory/continuum",
-        "theory/finite_element", "theory/harmonic_balance", "theory/spin_up", "howto/own_element",
-        "howto/paper_figures", "howto/sweeps")  # fmt: skip
+# Pages that run finite elements in number, long exact spin-ups, limits of stability, or a cluster.
+SLOW = ("theory/continuum", "theory/harmonic_balance", "theory/planar", "howto/forced_response",
+        "howto/own_element", "howto/paper_figures", "howto/quiet_spin_up",
+        "howto/sweeps")  # fmt: skip
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
 
 
@@ -33,11 +33,11 @@ def load(name):
 blocks = load("blocks")
 
 
-def page_cases():
+def page_cases(language, slow=()):
     for page in PAGES:
         found = list(blocks.fenced(page.read_text(encoding="utf-8")))
-        if any(block.language in ("python", "{computed}") for block in found):
-            marks = [pytest.mark.slow] if page in SLOW_PAGES else []
+        if page.name != "README.md" and any(block.language == language for block in found):
+            marks = [pytest.mark.slow] if page in slow else []
             yield pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks)
 
 
@@ -53,19 +53,33 @@ def slurm(folder):
     return folder
 
 
-@pytest.mark.parametrize("page", list(page_cases()))
-def test_blocks_run_in_order(page, tmp_path, monkeypatch):
-    """What a page computes and what it shows, each in names of its own, in a temporary folder."""
+@pytest.fixture
+def printed_by(tmp_path, monkeypatch):
+    """Return what each block of a page prints, in names of its own and a temporary folder."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
     monkeypatch.setenv("PATH", str(slurm(tmp_path / "bin")), prepend=os.pathsep)
-    computed, shown = blocks.names(tmp_path), blocks.names(tmp_path)
-    for block in blocks.fenced(page.read_text(encoding="utf-8")):
-        where = f"{page.name}:{block.line}"
-        if block.language == "{computed}":
-            assert blocks.printed(block.text, computed, where).strip(), f"{where} prints nothing"
-        elif block.language == "python":
-            blocks.printed(block.text, shown, where)
+
+    def run(page, language):
+        names = blocks.names(tmp_path)
+        for block in blocks.fenced(page.read_text(encoding="utf-8")):
+            if block.language == language:
+                where = f"{page.name}:{block.line}"
+                yield where, blocks.printed(block.text, names, where)
+
+    return run
+
+
+@pytest.mark.parametrize("page", list(page_cases("python", SLOW_PAGES)))
+def test_blocks_that_are_shown_run_in_order(page, printed_by):
+    assert list(printed_by(page, "python"))
+
+
+@pytest.mark.slow  # the site's build runs the same blocks
+@pytest.mark.parametrize("page", list(page_cases("{computed}")))
+def test_blocks_that_compute_print_something(page, printed_by):
+    for where, output in printed_by(page, "{computed}"):
+        assert output.strip(), f"{where} prints nothing"
 
 
 def commands():

@@ -61,6 +61,12 @@ def test_the_directive_inserts_what_is_printed_and_names_a_block_that_fails(tmp_
         assert '<span class="mi">1</span>' in html
         assert ">7\n" in html
         page.write_text("# Page\n\n```{computed}\n1 / 0\n```\n")
+        app.config.computed_runs = False
+        app.build()
+        drafted = (tmp_path / "_build" / "html" / "index.html").read_text()
+        assert '<span class="mi">1</span> <span class="o">/</span>' in drafted, "not run but shown"
+        app.config.computed_runs = True
+        page.write_text("# Page\n\n```{computed}\n2 / 0\n```\n")
         with pytest.raises(ExtensionError, match=r"index\.md:.*ZeroDivisionError"):
             app.build()
     finally:

@@ -34,6 +34,11 @@ class Asked(HTMLParser):
         self.urls += [given["href"]] if tag == "link" and given.get("href") else []
 
 
+def test_nothing_that_only_the_next_build_reads_is_published():
+    """If this fails: the folder is of an older build; remove docs/_build."""
+    assert not (SITE / ".doctrees").exists()
+
+
 def test_no_page_names_another_host_for_what_it_loads():
     pages = sorted(SITE.rglob("*.html"))
     assert len(pages) > 100

@@ -26,7 +26,7 @@ def data():
         exact_ramp_times=RAMPS,
         elements=4,
         step=2e-3,
-        jobs=2,
+        jobs=1,  # processes of its own would only import the same again
     )
 
 

@@ -122,7 +122,7 @@ LINES = st.tuples(
 ).map(" = ".join)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.one_of(
         st.lists(LINES, max_size=6)

@@ -53,13 +53,21 @@ def test_a_map_of_an_unknown_section_is_refused(beam):
         comparison.growth_out_of_plane(omegas=[], amplitudes=[0.02])
 
 
-def test_limits_over_the_shape(beam):
+def shown_limits(data):
+    return figures.stability_limits(data).lines[0].get_ydata().tolist()
+
+
+def test_limits_over_the_shape():
+    data = comparison.stability_limits(ratios=[1.0, 18.5], omegas=[0.0], largest=0.004)
+    assert np.isinf(data["limit"]).all()
+    data["limit"].loc[{"ratio": 18.5}] = 0.0078
+    assert shown_limits(data) == pytest.approx([np.nan, 0.0078], nan_ok=True)
+
+
+@pytest.mark.slow
+def test_a_strip_at_rest_has_a_limit_and_a_square_none():
     data = comparison.stability_limits(ratios=[1.0, 18.5], omegas=[0.0], largest=0.012)
-    assert np.isinf(data["limit"].sel(ratio=1.0)).all()
-    axes = figures.stability_limits(data)
-    shown = axes.lines[0].get_ydata()
-    assert np.isnan(shown[0])
-    assert shown[1] == data["limit"].sel(ratio=18.5, omega=0.0) < 0.01
+    assert shown_limits(data) == pytest.approx([np.nan, 0.00782], rel=1e-3, nan_ok=True)
 
 
 def test_lag_and_flap_change_sign_where_they_do():

@@ -1,4 +1,7 @@
-"""Each script of the gallery runs, and its number is right: against theory, not against itself."""
+"""Each script of the gallery runs, and its number is right: against theory, not against itself.
+
+Slow are those of more than a second: the site's build runs each script, too.
+"""
 
 import runpy
 from pathlib import Path
@@ -51,6 +54,7 @@ def test_out_of_plane(run):
     assert "<img" in found["animation"].to_jshtml()
 
 
+@pytest.mark.slow
 def test_quiet_spin_up(run, beam):
     left = run("quiet_spin_up")["left"]
     # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.
@@ -64,6 +68,7 @@ def test_mesh_convergence(run):
     assert run("mesh_convergence")["order"] == pytest.approx(4.0, abs=0.2)
 
 
+@pytest.mark.slow
 def test_phase_space(run):
     miss = run("phase_space")["miss"]
     assert abs(miss.sel(model="exact").item()) < 2e-4
@@ -79,6 +84,7 @@ def test_backbone(run, beam):
     assert found == pytest.approx(reduced_model(beam, 6.0, "FrM").lambda_omega, abs=2e-5)
 
 
+@pytest.mark.slow
 def test_tapered_blade(run):
     found = run("tapered_blade")
     # Inextensible, flap² - lag² is ω²; μ times squares of frequencies is left.
@@ -124,6 +130,7 @@ def test_softening_map(run):
     assert np.interp(4.0914, ratio.w_bar, ratio) == pytest.approx(3.0, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_simo_vu_quoc(run):
     found = run("simo_vu_quoc")
     # Both as printed in the literature, the lag to the digits of a converged run.
@@ -131,6 +138,7 @@ def test_simo_vu_quoc(run):
     assert found["lag"] == pytest.approx(-0.57375, abs=5e-5)
 
 
+@pytest.mark.slow
 def test_campbell_diagram(run, beam):
     found = run("campbell_diagram")
     crossing = found["first"]
@@ -151,6 +159,7 @@ def test_model_errors(run):
     assert abs(found["total"]["CI"]) > 50 * abs(found["total"]["FrM"])
 
 
+@pytest.mark.slow
 def test_linear_frame(run, beam):
     # One floating frame feels ω² as a negative stiffness; axial motion takes 4e-5 off.
     expected = np.sqrt(16.0 - beam.omega_0**2)
