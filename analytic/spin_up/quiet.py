@@ -9,8 +9,8 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_blade
-from ..exact.modes import linear_modes
-from ..exact.response import spin_up_response
+from ..exact.driven.response import spin_up_response
+from ..exact.linear.modes import linear_modes
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp

@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade, Blade
-from analytic.exact.modes import Plane
+from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from ..files.results import writable_folder

@@ -16,8 +16,8 @@ from analytic import (
     linear_modes,
     stability_limit,
 )
-from analytic.exact.orbit_growth import growth_rates
-from analytic.exact.stability_limit import LARGEST
+from analytic.exact.plane.orbit_growth import growth_rates
+from analytic.exact.plane.stability_limit import LARGEST
 from analytic.input_checks import finite_values
 
 from ..lazily import xr

@@ -14,7 +14,7 @@ import numpy as np
 from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
-from analytic.exact.state import stretched_state
+from analytic.exact.beam.state import stretched_state
 from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.ramps import AnyRamp

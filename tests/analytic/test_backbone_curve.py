@@ -9,9 +9,9 @@ from analytic import (
     periodic_orbits,
     reduced_model,
 )
-from analytic.exact.branch import branch_of
-from analytic.exact.curve import care_for, fitted_curve
-from analytic.exact.modes import resolved_model
+from analytic.exact.free.branch import branch_of
+from analytic.exact.free.curve import care_for, fitted_curve
+from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
 
 SPEEDS = (0.0, 4.0, 6.0, 8.0)

@@ -18,7 +18,7 @@ from analytic import (
     reduced_model,
     spin_up_response,
 )
-from analytic.exact.continuum import Continuum
+from analytic.exact.beam.continuum import Continuum
 from analytic.quadrature import gauss_points
 
 UNIFORM = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Damping, backbone_branch, periodic_orbits
-from analytic.exact.branch import branch_of
-from analytic.exact.internal_resonance import frequency_ratios
-from analytic.exact.modes import resolved_model
+from analytic.exact.free.branch import branch_of
+from analytic.exact.free.internal_resonance import frequency_ratios
+from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
 
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial import Legendre
 
 from analytic import periodic_orbits
-from analytic.exact.discretization import continuum
+from analytic.exact.beam.discretization import continuum
 from analytic.quadrature import axial_basis, gauss_points
 
 

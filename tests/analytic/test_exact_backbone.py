@@ -14,8 +14,8 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.branch import branch_of
-from analytic.exact.modes import resolved_model
+from analytic.exact.free.branch import branch_of
+from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
@@ -285,7 +285,7 @@ def test_amplitudes_in_any_order(beam):
 
 
 def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
+    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
         periodic_orbits(beam, 4.0, [0.2], mode=3, inextensible=True)
 

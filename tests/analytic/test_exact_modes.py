@@ -5,9 +5,9 @@ import pytest
 from scipy import linalg
 
 from analytic import Beam, linear_modes
-from analytic.exact.discretization import continuum
-from analytic.exact.modes import solve_modes
-from analytic.exact.steady import SteadyBeam
+from analytic.exact.beam.discretization import continuum
+from analytic.exact.beam.steady import SteadyBeam
+from analytic.exact.linear.modes import solve_modes
 from analytic.quadrature import gauss_points, transverse_basis
 
 # In-plane; Wright et al. 1982, Hodges and Rutkowski 1981 and Banerjee 2000 give the squares

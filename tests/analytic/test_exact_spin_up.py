@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, linear_modes, spin_up_response
-from analytic.exact.discretization import continuum
+from analytic.exact.beam.discretization import continuum
 from analytic.methods.collocation import radau
 
 

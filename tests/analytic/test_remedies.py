@@ -136,7 +136,7 @@ def test_unsettled_frequencies():
 
 
 def test_amplitude_not_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
     assert caught.value.backbone.amplitude.tolist() == [0.1]
@@ -150,13 +150,13 @@ def test_orbit_too_small(beam):
 
 
 def test_orbits_too_fast(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.MOST_FUNCTIONS", 16)
+    monkeypatch.setattr("analytic.exact.free.branch.MOST_FUNCTIONS", 16)
     assert complaint(periodic_orbits, beam, 80.0, [0.05]).endswith("rotate slower")
     assert complaint(periodic_orbits, beam, 8.0, [0.05]) == ""
 
 
 def test_spin_up_tolerance(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.response._REFINEMENTS", 2)
+    monkeypatch.setattr("analytic.exact.driven.response._REFINEMENTS", 2)
     jerk, times = SpinUp(omega=2.0, ramp_time=0.3), [0.5]
     said = complaint(spin_up_response, beam, jerk, times, tolerance=1e-10)
     tolerance = float(re.search(r"take tolerance=([0-9.e+-]+) or a longer ramp", said)[1])
@@ -174,7 +174,7 @@ def test_spin_up_before_anything_moves(beam):
 def test_spin_up_too_long(beam, monkeypatch):
     spin_up = SpinUp(omega=1.0, ramp_time=1.0)
     assert "1e+05 at most" in complaint(spin_up_response, beam, spin_up, [1e12])
-    monkeypatch.setattr("analytic.exact.response._MOST_STEPS", 30)
+    monkeypatch.setattr("analytic.exact.driven.response._MOST_STEPS", 30)
     said = complaint(spin_up_response, beam, spin_up, [100.0], tolerance=1e-4)
     end = float(re.search(r"ask for times up to ([0-9.e+-]+) s", said)[1])
     assert complaint(spin_up_response, beam, spin_up, [end], tolerance=1e-2) == ""

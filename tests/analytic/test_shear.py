@@ -15,7 +15,7 @@ from analytic import (
     periodic_orbits,
     spin_up_response,
 )
-from analytic.exact.discretization import continuum, finer_model
+from analytic.exact.beam.discretization import continuum, finer_model
 from analytic.methods.collocation import radau
 from analytic.quadrature import axial_basis, gauss_points
 

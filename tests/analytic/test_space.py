@@ -16,10 +16,10 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.exact.discretization import blade_continuum
-from analytic.exact.growth import STEPS, grown
-from analytic.exact.space import Space
-from analytic.exact.steady import SteadyBeam, steady_rotation
+from analytic.exact.beam.discretization import blade_continuum
+from analytic.exact.beam.space import Space
+from analytic.exact.beam.steady import SteadyBeam, steady_rotation
+from analytic.exact.plane.growth import STEPS, grown
 from analytic.profiles import evaluated
 from analytic.quadrature import axial_basis, gauss_points
 

@@ -23,7 +23,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.orbit_growth import growth_rates
+from analytic.exact.plane.orbit_growth import growth_rates
 from analytic.methods.continuation import Care
 
 ROOT = Path(__file__).parents[2]
@@ -308,6 +308,6 @@ def test_what_is_refused(ask, sentence):
 
 
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=30))
+    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.rectangle(), 4.0, 0.2, mode=3)

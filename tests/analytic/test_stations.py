@@ -24,8 +24,8 @@ from analytic import (
     spin_up_response,
     unstretched_frequencies,
 )
-from analytic.exact.modes import resolved_model, solve_modes
-from analytic.exact.steady import steady_rotation
+from analytic.exact.beam.steady import steady_rotation
+from analytic.exact.linear.modes import resolved_model, solve_modes
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 

@@ -16,7 +16,7 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 
 def test_orbits_found_are_attached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
     asked = [0.2, 0.6, 0.1]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
@@ -28,7 +28,7 @@ def test_orbits_found_are_attached(beam, monkeypatch):
 
 
 def test_no_orbit_no_backbone(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])
     assert caught.value.backbone is None

@@ -18,7 +18,7 @@ MODULES = sorted(
 
 
 # A limit of stability takes eight seconds; cheaper ones are asked for in its own tests.
-SLOW = {"analytic.exact.stability_limit"}
+SLOW = {"analytic.exact.plane.stability_limit"}
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import Blade, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.exact.steady import steady_rotation
+from analytic.exact.beam.steady import steady_rotation
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     load,

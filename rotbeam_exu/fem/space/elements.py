@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation as Turn
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.exact.space import require_out_of_plane
+from analytic.exact.beam.space import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..elements import Chain, Formulation, require_formulation

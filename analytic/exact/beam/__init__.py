@@ -1,0 +1,1 @@
+"""The beam itself: its shapes, its equations in the plane and out of it, its steady state."""

@@ -1,0 +1,300 @@
+"""The exact beam: geometrically exact, extensible, with shear or without, in the rotating frame.
+
+Unit length, EI = 1, ρA = 1 and time τ = t √(EI/mL³), so that the slenderness μ = I/(AL²) is the
+only parameter without shear. Written as a complex number the slope of the beam's axis is
+
+    z' = r_x' + i r_y' = s exp(iθ),      s = 1 + e + iγ,      z(0) = 0.
+
+Without shear, γ = 0: the beam is Bernoulli and Euler's, with the elongation e = |r'| - 1, the angle
+θ of the tangent and the curvature θ' = (r' × r'')/|r'|². With it the beam is Reissner's, θ is the
+angle of the section, and e and γ are the strains along and across its normal. The elastic energy
+V = ½∫ (e²/μ + σγ²/μ + θ'²) dx is quadratic, σ being the shear over the axial stiffness.
+With (θ, e, γ) as coordinates the stiffness is the identity and nothing locks: the inextensible beam
+is e = 0, μ = 0. In a frame that turns at the rate w(τ) the acceleration of the slope is p exp(iθ),
+
+    p = s̈ - s(θ̇ + w)² + i [s(θ̈ + ẇ) + 2ṡ(θ̇ + w)],
+
+and d'Alembert's principle with f = exp(-iθ) ∫ G(x, y) p exp(iθ) dy, G = 1 - max(x, y), reads
+
+    ∫ [δe (e/μ + Re f) + δγ (σγ/μ + Im f)] dx = 0,      ∫ [δθ' θ' + δθ Im(s* f)] dx = 0:
+
+-f is the internal force in the section's axes. External damping and loads are added to the
+acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear has none.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...arrays import ComplexArray, FloatArray
+from ...methods.system import Tangent
+from ...unit_blade import UNIFORM, UnitBlade
+from .kinematics import Kinematics
+
+
+class _Fields(NamedTuple):
+    """Fields at the Gauss points, each (samples, points)."""
+
+    turn: ComplexArray  # exp(iθ)
+    stretch: FloatArray | ComplexArray  # s = 1 + e + iγ, real without shear
+    stretch_rate: FloatArray | ComplexArray  # ṡ
+    spin: FloatArray  # θ̇ + w
+    spin_rate: FloatArray  # θ̈ + ẇ
+    acceleration: ComplexArray  # p
+    force: ComplexArray  # f, times the quadrature weights; external damping and loads included
+
+
+class Continuum(Kinematics):
+    """Galerkin discretization of the exact beam in polynomials of its moment and forces.
+
+    The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal in EI and
+    φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
+    first in every array.
+
+    Parameters
+    ----------
+    slenderness : float
+        μ = I/(AL²); zero for the inextensible beam.
+    bending, axial : int
+        Number of functions for θ and for e; with shear, as many for γ as for e.
+    rotary_inertia : float
+        Inertia of the cross-sections against rotation per length: μ, or 0 to leave it out.
+    blade : UnitBlade
+        What is not the uniform beam: section, point masses, hub radius, setting angle.
+    shear_share : float or None
+        σ = k_s GA/(EA); None to leave shear out.
+
+    Attributes
+    ----------
+    outboard : dict
+        What a load may act on beyond each Gauss point, times its weight (points,): "mass",
+        "length", and the "tip".
+    """
+
+    def __init__(
+        self,
+        slenderness: float,
+        bending: int,
+        axial: int,
+        *,
+        rotary_inertia: float = 0.0,
+        blade: UnitBlade = UNIFORM,
+        shear_share: float | None = None,
+    ) -> None:
+        super().__init__(slenderness, bending, axial, blade, shear_share)
+        self.rotary = rotary_inertia
+        # One point more integrates the square of the integrated interpolant exactly.
+        count = 2 * self._across.a_panel + 1
+        at, dm = blade.inertia(count)
+        integral = self.grid.integral(at)
+        self._green = integral.T @ (dm[:, None] * integral)
+        outboard = integral.T @ dm
+        x, dj = blade.turning(count, rotary_inertia)
+        phi = self._across.once(x)
+        self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
+        self._turns = bool(dj.any())
+        bend, stretch, air = blade.damping
+        self._viscosity = np.repeat([bend, stretch, 0.0], [bending, axial, self.shear])
+        along, dx = blade.quadrature(count)
+        integral = self.grid.integral(along)
+        self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
+        self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
+
+    def _fields(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray,
+        push: ComplexArray | None,
+    ) -> _Fields:
+        turn = np.exp(1j * self._angle(q))
+        stretch = 1.0 + self._strain(q)
+        stretch_rate = self._strain(q_dot)
+        # Coriolis and Euler forces know only what of the rotation is normal to the plane, c w.
+        turning = self.blade.setting * np.asarray(rate)
+        turning_rate = self.blade.setting * np.asarray(rate_dot)
+        spin = self._angle(q_dot) + turning[..., None]
+        spin_rate = self._angle(q_ddot) + turning_rate[..., None]
+        p = (self._strain(q_ddot) - stretch * spin**2) + 1j * (
+            stretch * spin_rate + 2.0 * stretch_rate * spin
+        )
+        acceleration = (turn * p) @ self._green
+        hub, beyond = self.blade.hub, 1.0 - self.blade.setting**2
+        if hub:
+            clamp = (1j * turning_rate - np.asarray(rate) ** 2) * hub
+            acceleration = acceleration + np.asarray(clamp)[..., None] * self.outboard["mass"]
+        if beyond:
+            # Along the blade the centrifugal force is w², not the c²w² that p has.
+            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None] * (stretch * turn).real
+            acceleration = acceleration - along @ self._green
+        if self._drag is not None:
+            velocity = turn * (stretch_rate + 1j * stretch * self._angle(q_dot))
+            acceleration = acceleration + velocity @ self._drag
+        if push is not None:
+            acceleration = acceleration - push
+        force = turn.conj() * acceleration
+        return _Fields(turn, stretch, stretch_rate, spin, spin_rate, np.asarray(p), force)
+
+    def _residual(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate_dot: float | FloatArray,
+        at: _Fields,
+    ) -> FloatArray:
+        theta = (at.stretch.conj() * at.force).imag @ self._phi
+        if self._turns:
+            theta = theta + q_ddot[..., : self.bending] @ self._rotary_mass
+            euler = self.blade.setting * np.asarray(rate_dot)
+            theta = theta + euler[..., None] * self._rotary_force
+        strains = (at.force @ self._psi.conj()).real
+        return q + self._viscosity * q_dot + np.concatenate((theta, strains), axis=-1)
+
+    def residual(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
+    ) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces on the basis functions.
+
+        The elastic part is q itself, so that a residual is measured in units of q. A `push`
+        (samples, points) is the load beyond each Gauss point, times its weight: the sum of complex
+        forces times what is `outboard`.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        return self._residual(q, q_dot, q_ddot, rate_dot, at)
+
+    def tangent(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
+    ) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        nb, n = self.bending, self.size
+        # Re(-i f) = Im f: all equations are real parts of one complex product.
+        psi = self._psi.conj()
+        left = np.concatenate(
+            (
+                (-1j * at.stretch.conj() * at.turn.conj())[..., None] * self._phi,
+                at.turn.conj()[..., None] * psi,
+            ),
+            axis=-1,
+        )
+        # In rows of their own one real product with G does for all of them.
+        left = np.swapaxes(left, -1, -2)
+        rows = np.stack((left.real, -left.imag), axis=-2)
+        one = np.ones_like(at.turn)
+        right = self._derivatives(
+            at.turn,
+            (1j * at.acceleration, 1j * at.spin_rate - at.spin**2),
+            (2j * at.stretch_rate - 2.0 * at.stretch * at.spin, 2j * at.spin),
+            (1j * at.stretch, one),
+        )
+        beyond = 1.0 - self.blade.setting**2
+        if beyond:
+            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None]
+            right[..., :nb] += (along * (at.stretch * at.turn).imag)[..., None] * self._phi
+            right[..., nb:n] -= along[..., None] * (at.turn[..., None] * self._psi).real
+        onto, parts = _onto(rows, self._green), [right.real, right.imag]
+        if self._drag is not None:
+            turning = self._angle(q_dot)
+            air = self._derivatives(
+                at.turn,
+                (1j * at.stretch_rate - at.stretch * turning, 1j * turning),
+                (1j * at.stretch, one),
+            )
+            parts = [*parts, air.real, air.imag]
+            onto = np.concatenate((onto, _onto(rows, self._drag)), axis=-1)
+        work = onto @ np.concatenate(parts, axis=-2)
+        stiffness, damping, mass = (work[..., k * n : (k + 1) * n] for k in range(3))
+        stiffness[..., range(n), range(n)] += 1.0
+        damping[..., range(n), range(n)] += self._viscosity
+        axial = (at.stretch.conj() * at.force).real
+        stiffness[..., :nb, :nb] -= self._phi.T @ (axial[..., None] * self._phi)
+        mixed = self._phi.T @ (at.force[..., None] * psi).imag
+        stiffness[..., nb:, :nb] += np.swapaxes(mixed, -1, -2)
+        stiffness[..., :nb, nb:] += mixed
+        mass[..., :nb, :nb] += self._rotary_mass
+        return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
+
+    def tension(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
+    ) -> FloatArray:
+        """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
+        at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
+        return -at.force.real / self.weights
+
+    def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
+        """Return the derivatives (samples, points, 3 n) of `turn` times a field.
+
+        To q, q̇ and q̈, of what has these derivatives to θ and s, to their rates, and so on.
+        """
+        n, nb = self.size, self.bending
+        right = np.zeros((*turn.shape, 3 * n), dtype=np.complex128)
+        for start, (theta, strain) in zip(range(0, 3 * n, n), blocks, strict=False):
+            right[..., start : start + nb] = (turn * theta)[..., None] * self._phi
+            right[..., start + nb : start + n] = (turn * strain)[..., None] * self._psi
+        return right
+
+    def amended_potential(self, q: FloatArray, rate: float) -> FloatArray:
+        """Return what with the kinetic energy is the Jacobi integral, (samples,).
+
+        V - ½w²∫[(R + x)² + c²y²] dm, less what the hub adds at rest; at a constant rate w of the
+        frame the integral is constant.
+        """
+        elastic: FloatArray = 0.5 * np.sum(q**2, axis=-1)
+        z, blade = self.slope(q), self.blade
+        squared = self._squared(z)
+        if blade.hub:
+            squared = squared + 2.0 * blade.hub * (z @ self.outboard["mass"]).real
+        if blade.setting != 1.0:
+            beyond = 1.0 - blade.setting**2
+            squared = squared - beyond * np.sum(z.imag * (z.imag @ self._green), axis=-1)
+        return elastic - 0.5 * rate**2 * squared
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the rotating frame, (samples,)."""
+        spin = q_dot[..., : self.bending]
+        rotary = np.sum(spin * (spin @ self._rotary_mass), axis=-1)
+        return np.asarray(0.5 * (self._squared(self.slope_rate(q, q_dot)) + rotary))
+
+    def _squared(self, slope: ComplexArray) -> FloatArray:
+        squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)
+        return squared
+
+    def steady_state(self, rate: float) -> FloatArray:
+        """Return the coordinates (n,) of the straight beam stretched by the rotation.
+
+        Exactly, 1 + e = cos(kx)/cos(k) with k = w√μ, as long as k < π/2.
+        """
+        at_rest = np.zeros((1, self.size))
+        tangent = self.tangent(at_rest, at_rest, at_rest, rate)
+        q = np.zeros(self.size)
+        # Without bending the equations are linear in e, and nothing shears.
+        q[self.bending :] = -np.linalg.solve(
+            tangent.stiffness[0, self.bending :, self.bending :],
+            tangent.residual[0, self.bending :],
+        )
+        return q
+
+
+def _onto(rows: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Return rows (samples, n, 2, points) times a matrix (points, points): (samples, n, 2 points).
+
+    One product of all rows is many times faster than one for each sample.
+    """
+    return (rows.reshape(-1, len(matrix)) @ matrix).reshape(*rows.shape[:2], -1)

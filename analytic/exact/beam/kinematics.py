@@ -1,0 +1,162 @@
+"""Shapes of the blade: from coordinates of angle and strains to places, slopes and rates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import ComplexArray, FloatArray
+from ...shape_functions import shape_functions
+from ...unit_blade import UnitBlade
+
+_MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
+_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
+
+
+class Kinematics:
+    """Functions for θ, e and γ, and the shape that their coordinates q = (c, d) make.
+
+    θ = Σ c_k φ_k with φ_k(0) = 0, and the strains are e + iγ = Σ d_k Ψ_k, with √μ ψ_k for e and
+    then i√(μ/σ) ψ_k for γ: orthonormal in the blade's own stiffness, their moments and forces
+    polynomials. Samples in time come first in every array.
+
+    Attributes
+    ----------
+    slenderness : float
+        μ.
+    bending, axial, shear, size : int
+        Number of functions for θ, for e and for γ, as many on each of the blade's panels, and of
+        all. Those for γ are those for e, or none.
+    shear_share : float or None
+        σ, shear over axial stiffness; None where sections stay normal to the axis.
+    blade : UnitBlade
+    points, weights : ndarray (points,)
+        The Gauss points at which fields are evaluated, and their weights; 2 bending on one cell.
+    """
+
+    def __init__(
+        self,
+        slenderness: float,
+        bending: int,
+        axial: int,
+        blade: UnitBlade,
+        shear_share: float | None = None,
+    ) -> None:
+        self.slenderness = slenderness
+        self.bending = bending
+        self.axial = axial
+        self.shear = 0 if shear_share is None else axial
+        self.shear_share = shear_share
+        self.size = bending + axial + self.shear
+        self.blade = blade
+        self._across = shape_functions(blade, bending)
+        self._along = shape_functions(blade, axial, "axial")
+        if (self._across.count, self._along.count) != (bending, axial):
+            raise ValueError(
+                f"{bending} and {axial} functions do not go on {blade.panel_count} panels"
+            )
+        more = 0 if blade.cells.size == 2 else _MORE
+        self.grid = blade.grid(2 * self._across.a_panel, more, _MOST_CELLS)
+        self.points, self.weights = self.grid.points, self.grid.weights
+        self._phi, self._psi = self._bases(self.points)
+
+    @property
+    def odd(self) -> NDArray[np.bool_]:
+        """Which coordinates change their sign in the mirror image of a shape, (n,): of θ and γ."""
+        return np.repeat([True, False, True], [self.bending, self.axial, self.shear])
+
+    @property
+    def integrals_at_points(self) -> FloatArray:
+        """Matrix from values at the Gauss points to the integrals from the clamp up to each."""
+        return self.grid.integral(self.points)
+
+    def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the coordinates of θ and those of the strains, along the last axis."""
+        return q[..., : self.bending], q[..., self.bending :]
+
+    def padded(self, q: FloatArray, other: Kinematics) -> FloatArray:
+        """Return the coordinates of the same shape in the larger basis of `other`."""
+        result = np.zeros((*q.shape[:-1], other.size))
+        start = end = 0
+        for own, others in (
+            (self.bending, other.bending),
+            (self.axial, other.axial),
+            (self.shear, other.shear),
+        ):
+            result[..., end : end + own] = q[..., start : start + own]
+            start, end = start + own, end + others
+        return result
+
+    def _angle(self, q: FloatArray) -> FloatArray:
+        return q[..., : self.bending] @ self._phi.T
+
+    def _strain(self, q: FloatArray) -> FloatArray | ComplexArray:
+        """Return e + iγ at the Gauss points, real without shear: (samples, points)."""
+        strain: FloatArray | ComplexArray = q[..., self.bending :] @ self._psi.T
+        return strain
+
+    def bent(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the curvature ϑ', e and e' at the Gauss points, each (samples, points)."""
+        theta, strains = self.split(q)
+        turned = self._across.strain(self.points)
+        stretched = math.sqrt(self.slenderness) * self._along.elongation_slope(self.points)
+        change = strains[..., : self.axial] @ stretched.T
+        return theta @ turned.T, self._strain(q).real, change
+
+    def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
+        """Return z' = (1 + e + iγ) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""
+        phi, psi = self._at(x)
+        theta, strains = self.split(q)
+        turn: ComplexArray = np.exp(1j * (theta @ phi.T))
+        return (1.0 + strains @ psi.T) * turn
+
+    def slope_rate(
+        self, q: FloatArray, q_dot: FloatArray, x: FloatArray | None = None
+    ) -> ComplexArray:
+        """Return ż' at `x`, the Gauss points if None: (samples, points)."""
+        phi, psi = self._at(x)
+        (theta, strains), (theta_dot, strain_rates) = self.split(q), self.split(q_dot)
+        turn: ComplexArray = np.exp(1j * (theta @ phi.T))
+        # This also serves for any small change of q.
+        turning = 1j * (1.0 + strains @ psi.T) * (theta_dot @ phi.T)
+        return turn * (turning + strain_rates @ psi.T)
+
+    def shear_angle(
+        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the angle at `x` from the section's normal to the tangent, and its rate."""
+        _, psi = self._bases(x)
+        (_, strains), (_, strain_rates) = self.split(q), self.split(q_dot)
+        stretch = 1.0 + strains @ psi.T
+        return np.angle(stretch), np.asarray((strain_rates @ psi.T / stretch).imag)
+
+    def _at(self, x: FloatArray | None) -> tuple[FloatArray, FloatArray | ComplexArray]:
+        return (self._phi, self._psi) if x is None else self._bases(x)
+
+    def _bases(self, x: FloatArray) -> tuple[FloatArray, FloatArray | ComplexArray]:
+        """Return φ_k and Ψ_k at `x`, each (points, functions)."""
+        phi = self._across.once(x)
+        psi = math.sqrt(self.slenderness) * self._along.strain(x)
+        if self.shear_share is None:
+            return phi, psi
+        return phi, np.hstack([psi, 1j / math.sqrt(self.shear_share) * psi])
+
+    def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:
+        """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
+        return slope @ self.grid.integral(x).T
+
+    def tip(self, q: FloatArray) -> ComplexArray:
+        """Return the tip's position z(1), (samples,)."""
+        return self.slope(q) @ self.weights
+
+    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> ComplexArray:
+        """Return the tip's velocity ż(1) in the rotating frame, (samples,)."""
+        return self.slope_rate(q, q_dot) @ self.weights
+
+    def tip_gradient(self, q: FloatArray) -> ComplexArray:
+        """Return the derivatives of the tip's position to the coordinates, (samples, n)."""
+        turn = np.exp(1j * self._angle(q)) * self.weights
+        turning = 1j * (1.0 + self._strain(q)) * turn
+        return np.concatenate((turning @ self._phi, turn @ self._psi), axis=-1)

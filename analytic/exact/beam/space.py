@@ -1,0 +1,243 @@
+"""Small motion out of the plane about a planar motion of the blade: its second-order Lagrangian.
+
+With the deflection w, β = w'/(1 + e) the angle of the tangent to the plane, φ the twist of the
+section about the tangent, κ = ϑ' and N the planar motion's curvature and axial force, in units of
+the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
+
+    L2 = ½∫ẇ² dm + ½∫j φ̇² dx - ½∫(1 + e) N β² dx
+         - ½∫EI [g(φ' + κβ)² + r(β' - κφ)² + 2κβ'φ - κ²(β² + φ²)] dx.
+
+The planar motion enters as N, κ and e only: w has no Coriolis force. About a periodic orbit it is
+a Hill equation. Left out are what a twisting section feels of the rotation, of the order jw̄²
+against g, and its shortening under the tension; at r = 1 the inertia of the twist as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Literal
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade, require_blade
+from ...blade import Blade
+from ...lazily import linalg
+from ...methods.system import Tangent
+from ...out_of_plane import OutOfPlane
+from ...profiles import evaluated
+from ...shape_functions import ShapeFunctions, shape_functions
+from .continuum import Continuum
+from .steady import BeamOrbit, SteadyBeam
+
+Twist = Literal["inertial", "quasi-static", "rigid"]
+"""What the twist does: moves with its inertia, follows without, or is none."""
+
+
+def out_of_plane_of(blade: AnyBlade) -> OutOfPlane | None:
+    """Return what is known of the section out of its plane."""
+    return blade.section.out_of_plane if isinstance(blade, Blade) else None
+
+
+def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
+    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_blade(blade)
+    known = out_of_plane_of(blade)
+    if known is None:
+        raise ValueError(
+            "how this blade bends and twists out of its plane is unknown: give its section by "
+            "blade.rectangle(height, width), blade.tube(radius, wall) or "
+            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
+        )
+    if blade.unit.setting != 1.0:
+        raise ValueError(
+            f"motion out of the plane is known for a blade that bends in the plane of rotation, "
+            f"and this one is set at {blade.setting_angle:g} rad: take "  # type: ignore[union-attr]
+            "blade.with_setting_angle(0.0)"
+        )
+    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
+        raise ValueError(
+            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
+            "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
+            "section that does not twist"
+        )
+    return known
+
+
+@lru_cache(maxsize=32)
+def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return w'' and w' (φ' and φ) of the functions at the model's points, and its integrals."""
+    return shapes.strain(model.points), shapes.once(model.points), model.integrals_at_points
+
+
+class Space:
+    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
+
+    Parameters
+    ----------
+    blade : Beam or Blade
+        With a known section out of the plane.
+    functions : int
+        Least number of functions for each.
+
+    Attributes
+    ----------
+    twist : str
+        What the twist does.
+    size, functions : int
+        Number of coordinates, and of those that are w's, which come first.
+    """
+
+    def __init__(self, blade: AnyBlade, functions: int) -> None:
+        section = require_out_of_plane(blade)
+        self.blade, self.unit, self.section = blade, blade.unit, section
+        self.shapes = shape_functions(self.unit, functions)
+        self.functions = self.shapes.count
+        self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
+        # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
+        # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
+        self.twist: Twist = (
+            "rigid" if np.isinf(self.g) or section.bending_ratio == 1.0
+            else "quasi-static" if section.polar_inertia == 0.0
+            else "inertial"
+        )  # fmt: skip
+        self.size = (1 + (self.twist == "inertial")) * self.functions
+
+    @cached_property
+    def mass(self) -> FloatArray:
+        """The constant mass matrix (n, n)."""
+        at, dm = self.unit.inertia(self.shapes.a_panel + 3)
+        w = self.shapes.twice(at)
+        across = w.T @ (dm[:, None] * w)
+        return linalg.block_diag(across, self.twist_mass) if self.twist == "inertial" else across
+
+    @cached_property
+    def twist_mass(self) -> FloatArray:
+        """∫ j φφ of the twist, (functions, functions)."""
+        x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
+        phi = self.shapes.once(x)
+        return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
+
+    def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
+        """Return the stiffness of the twist of the straight blade in steady rotation.
+
+        ∫ (gEI + Nk²) φ'φ' + ιw̄² φφ, (functions, functions).
+        """
+        model, still = steady.model, np.zeros((1, steady.size))
+        tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
+        torsion, turning = self._held(model.points, tension, steady.rate)
+        strain, once, _ = _bases(self.shapes, model)
+        stiffness = _form(strain, model.weights * torsion, strain)
+        return np.asarray(stiffness[0] + _form(once, model.weights * turning, once))
+
+    def _held(
+        self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
+        r, unit = self.section.bending_ratio, self.unit
+        torsion = self.g * evaluated(unit.bending, x)
+        gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
+        trapeze = tension * self.blade.slenderness * (1.0 + r) * gyration
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
+        return torsion + trapeze, difference * np.square(spin)
+
+    def _polar(self, x: FloatArray) -> FloatArray:
+        """Return j at `x`, over m0 L²."""
+        unit, blade, section = self.unit, self.blade, self.section
+        own = evaluated(unit.mass, x) * evaluated(unit.bending, x) / evaluated(unit.axial, x)
+        if section.polar_inertia is None:
+            return blade.slenderness * (1.0 + section.bending_ratio) * own
+        return section.polar_inertia / (blade.mass_per_length * blade.length**2) * own
+
+    def stiffness(
+        self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
+    ) -> FloatArray:
+        """Return the stiffness (samples, n, n) about a planar motion of `planar`.
+
+        Raises
+        ------
+        LinAlgError
+            If the twist has no inertia and buckles.
+        """
+        model, r = planar.model, self.section.bending_ratio
+        x, (strain, once, upto) = model.points, _bases(self.shapes, model)
+        kappa, e, change = model.bent(q)
+        tension = model.tension(q, q_dot, q_ddot, planar.rate)
+        bending = model.weights * evaluated(self.unit.bending, x)
+        moment = bending * kappa
+        stretch = 1.0 / (1.0 + e)
+        angle = stretch[..., None] * once
+        bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
+        straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
+        straight += _form(bent, r * bending, bent)
+        if self.twist == "rigid":
+            twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
+            mixed = (1.0 - r) * _form(bent, moment, twist)
+            twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
+            return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
+        spin = planar.rate + model.bent(q_dot)[0] @ upto.T
+        torsion, turning = self._held(x, tension, spin)
+        torsion = model.weights * torsion
+        straight += _form(angle, torsion * kappa**2, angle)
+        mixed = _form(angle, torsion * kappa, strain)
+        mixed += (1.0 - r) * _form(bent, moment, once)
+        twisted = _form(strain, torsion, strain)
+        twisted += _form(once, model.weights * turning - (1.0 - r) * moment * kappa, once)
+        if self.twist == "quasi-static":
+            np.linalg.cholesky(twisted)  # refuses a twist that buckles
+            followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
+            return np.asarray(straight - mixed @ followed)
+        return np.concatenate(
+            (
+                np.concatenate((straight, mixed), axis=2),
+                np.concatenate((np.swapaxes(mixed, 1, 2), twisted), axis=2),
+            ),
+            axis=1,
+        )
+
+
+def with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
+    """Return the planar system on a basis whose points integrate so many functions."""
+    while planar.model.points.size < 2 * functions + 8 * planar.model.blade.panel_count:
+        planar = planar.refined()
+    return planar
+
+
+def _form(left: FloatArray, weights: FloatArray, right: FloatArray) -> FloatArray:
+    """Return ∫ left weights right, (samples, functions, functions)."""
+    return np.asarray(np.swapaxes(left, -1, -2) @ (weights[..., None] * right))
+
+
+@dataclass(frozen=True)
+class OutOfPlaneMotion:
+    """Small motion out of the plane about a periodic orbit, as `methods.floquet` sees an orbit.
+
+    Attributes
+    ----------
+    orbit : PeriodicOrbit
+    space : Space
+    """
+
+    orbit: BeamOrbit
+    space: Space
+
+    @property
+    def frequency(self) -> float:
+        """Ω of the planar orbit."""
+        return self.orbit.frequency
+
+    def tangent(self, phase: FloatArray) -> Tangent:
+        """Return the coefficients of the Hill equation at the phases (phases,)."""
+        K = self.space.stiffness(self.orbit.system, *self.orbit.coordinates(phase))
+        n = self.space.size
+        M = np.broadcast_to(self.space.mass, K.shape)
+        return Tangent(np.zeros((phase.size, n)), K, np.zeros_like(K), M)
+
+    @property
+    def signs(self) -> FloatArray:
+        """How time reversal changes the coordinates: the twist turns with the curvature."""
+        return np.where(np.arange(self.space.size) < self.space.functions, 1.0, -1.0)
+
+    def constants(self) -> None:
+        """Return None: nothing is known beforehand of its multipliers."""

@@ -1,0 +1,136 @@
+"""The exact beam in steady rotation: the system whose modes and orbits are sought."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade, require_steady_state
+from ...blade import Blade
+from ...input_checks import flag, positive
+from ...methods.periodic_orbit import PeriodicOrbit
+from ...methods.system import Tangent
+from .continuum import Continuum
+from .discretization import finer_model
+
+
+@dataclass(frozen=True, eq=False)
+class BeamCoordinates:
+    """The discretized beam as `methods` see it: the gauge is the tip's deflection over the length.
+
+    Attributes
+    ----------
+    model : Continuum
+    """
+
+    model: Continuum
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates, those of θ and those of the strains."""
+        return self.model.size
+
+    @property
+    def functions(self) -> int:
+        """Number of functions for θ."""
+        return self.model.bending
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the tip's deflection v(1), (samples,)."""
+        return self.model.tip(q).imag
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the rate of the tip's deflection, (samples,)."""
+        return self.model.tip_rate(q, q_dot).imag
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's deflection to the coordinates, (samples, n)."""
+        return self.model.tip_gradient(q).imag
+
+    def refined(self) -> Self:
+        """Return the beam on half as many functions again."""
+        return replace(self, model=finer_model(self.model))
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return self.model.padded(q, finer.model)
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyBeam(BeamCoordinates):
+    """The beam in a frame that turns at a constant rate; a `methods.System`.
+
+    The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t) maps orbits onto orbits: θ and γ are odd. The
+    invariant is the Jacobi integral.
+
+    Attributes
+    ----------
+    rate : float
+        w̄ = ω/√(EI/mL³).
+    """
+
+    rate: float
+
+    @cached_property
+    def odd(self) -> NDArray[np.bool_]:
+        """Which coordinates are those of θ and γ, (n,)."""
+        return self.model.odd
+
+    @cached_property
+    def equilibrium(self) -> FloatArray:
+        """Coordinates (n,) of the straight beam that the rotation stretches."""
+        return self.model.steady_state(self.rate)
+
+    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
+        """Return the virtual work of all forces, (samples, n)."""
+        return self.model.residual(q, q_dot, q_ddot, self.rate)
+
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈."""
+        return self.model.tangent(q, q_dot, q_ddot, self.rate)
+
+    def potential(self, q: FloatArray) -> FloatArray:
+        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
+        return self.model.amended_potential(q, self.rate)
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the rotating frame, (samples,)."""
+        return self.model.kinetic_energy(q, q_dot)
+
+
+BeamOrbit = PeriodicOrbit[SteadyBeam]
+"""A periodic orbit of the beam."""
+
+
+def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
+    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
+    if model.slenderness > 0.0:
+        require_steady_state(beam, omega)
+    return omega / beam.frequency_scale
+
+
+def section_inertia(beam: AnyBlade, wanted: bool) -> float:
+    """Return ρI of a uniform beam, nondimensional: μ if wanted. A blade has its own."""
+    if not flag("rotary_inertia", wanted):
+        return 0.0
+    if isinstance(beam, Blade):
+        raise ValueError(
+            "rotary_inertia=True takes ρI of a uniform section from the Beam; a Blade has its "
+            "own: give Section(rotary_inertia=...) in kg m"
+        )
+    return beam.slenderness
+
+
+def checked_share(shear_share: float | None) -> float | None:
+    """Return the shear over the axial stiffness, positive, or None for a beam without shear."""
+    return None if shear_share is None else positive("shear_share", shear_share)
+
+
+def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:
+    """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
+    return SteadyBeam(model, steady_rate(beam, omega, model))

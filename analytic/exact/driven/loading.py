@@ -1,0 +1,119 @@
+"""Loads on the exact blade: nondimensional, and as the driven system they make of it.
+
+A load is a complex force, in the frame of the clamp, times what it acts on: all that has mass
+(gravity), the length, or the tip. A ripple of the speed is no force but changes w and ẇ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade, require_blade
+from ...loads import Load, require_load
+from ...methods.system import Tangent
+from ..beam.continuum import Continuum
+from ..beam.steady import BeamCoordinates
+
+
+def unit_load(beam: AnyBlade, load: Load) -> Load:
+    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0).
+
+    Raises
+    ------
+    TypeError
+        If it is none.
+    """
+    require_blade(beam)
+    require_load(load)
+    return load.in_units(
+        beam.length, beam.mass_per_length * beam.length, 1.0 / beam.frequency_scale
+    )
+
+
+def pushes(
+    model: Continuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
+) -> ComplexArray | None:
+    """Return the force of all loads beyond each Gauss point, (samples, points), None if none.
+
+    Parameters
+    ----------
+    model : Continuum
+    loads : sequence
+        Without dimensions, and their phases (samples,).
+    angle : ndarray (samples,)
+        θ [rad].
+    """
+    total: ComplexArray | None = None
+    for load, phase in loads:
+        if load.acts_on is not None:
+            force = load.force(phase, angle, model.blade.setting)
+            push = np.multiply.outer(force, model.outboard[load.acts_on])
+            total = push if total is None else total + push
+    return total
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenBeam(BeamCoordinates):
+    """The beam under one load in steady rotation; a `methods.DrivenSystem`.
+
+    The parameter is the drive's frequency ν. Under gravity, which goes around once a turn, it is
+    the speed as well.
+
+    Attributes
+    ----------
+    rate : float or None
+        w̄; None where it is the parameter.
+    load : Load
+        Without dimensions.
+    """
+
+    rate: float | None
+    load: Load
+
+    def frequency(self, parameter: float) -> float:
+        """Return ν itself."""
+        return parameter
+
+    def speed(self, parameter: float) -> float:
+        """Return w̄."""
+        return parameter if self.rate is None else self.rate
+
+    def rest(self, parameter: float) -> FloatArray:
+        """Return the straight beam that the rotation stretches, (n,)."""
+        return self.model.steady_state(self.speed(parameter))
+
+    def _drive(
+        self, phase: FloatArray, parameter: float
+    ) -> tuple[FloatArray, FloatArray, ComplexArray | None]:
+        """Return w, ẇ and the push at the phases."""
+        load = self.load
+        rate = self.speed(parameter) + load.rate(phase)
+        # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
+        angle = phase if self.rate is None else np.full_like(phase, np.nan)
+        return rate, load.acceleration(phase, parameter), pushes(self.model, [(load, phase)], angle)
+
+    def residual(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        phase: FloatArray,
+        parameter: float,
+    ) -> FloatArray:
+        """Return the virtual work of all forces, (samples, n)."""
+        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, parameter))
+
+    def tangent(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        phase: FloatArray,
+        parameter: float,
+    ) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈."""
+        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, parameter))

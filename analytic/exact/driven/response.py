@@ -1,0 +1,273 @@
+"""Spin-up of the exact beam, or another change of its speed, refined until two solutions agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade, warn_if_rpm
+from ...input_checks import finite_values, points_of_beam, positive
+from ...loads import Load, loads_in_time, rippled
+from ...ramps import AnyRamp, fastest, require_ramp
+from ...threads import one_thread
+from ..beam.discretization import blade_continuum
+from ..beam.steady import checked_share, section_inertia, steady_rate
+from ..plane.orbit_growth import planar_note
+from .transient import Motion, grid_of, integrated
+
+_DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
+_A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
+_SHORTER = 1.5  # from one refinement to the next
+_REFINEMENTS = 7
+_FINEST = 1e-11  # the least tolerance that round-off leaves in reach
+_MOST_STEPS = 100_000  # of one solution; some minutes
+_MOST_POSITIONS = 20_000_000  # times by points; 1 GB
+_ROUND_OFF = 1e-13  # of the tip's position over the length
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpinUpResponse:
+    """Response of the exact beam to a spin-up; made by `spin_up_response`.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    spin_up : SpinUp, SmoothRamp or Table
+    loads : tuple of loads
+    rotary_inertia, shear_share : bool, float or None
+        Of the sections, as asked for.
+    time : ndarray (times,)
+        Times [s].
+    q : ndarray (times,)
+        Deflection of the tip across the turning line of the clamp, Eq. 16 [m]; it lags behind
+        (q < 0) while the rotation speeds up.
+    q_dot : ndarray (times,)
+        Its rate in the rotating frame, Eq. 16 [m/s].
+    tip : ndarray (times, 2)
+        Position of the tip in the inertial frame [m].
+    axis : ndarray (times, points, 2)
+        Position of the points asked for in the frame that turns with the clamp [m].
+    error : float
+        Estimated error of the tip's position over the largest |q|: the difference from the next
+        coarser solution in step and functions, hence an upper estimate.
+    steps, functions : int
+        Steps of order 15 and functions for θ of the solution returned.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
+    >>> found = spin_up_response(Beam.reference(), motion, [1.0], tolerance=1e-4)
+    >>> print(found.tip.round(4), found.error < 1e-4)
+    [[7.2764 2.6466]] True
+    """
+
+    beam: AnyBlade
+    spin_up: AnyRamp
+    loads: tuple[Load, ...]
+    rotary_inertia: bool
+    shear_share: float | None
+    time: FloatArray
+    q: FloatArray = field(repr=False)
+    q_dot: FloatArray = field(repr=False)
+    tip: FloatArray = field(repr=False)
+    axis: FloatArray = field(repr=False)
+    error: float
+    steps: int
+    functions: int
+
+    @cached_property
+    def out_of_plane(self) -> str:
+        """One sentence if the beam ends on a motion that leaves the plane, "" if not.
+
+        By half of |q| from peak to peak after the ramp; "" too where the times do not reach that
+        far or the section out of the plane is unknown. Computed when first asked for.
+        """
+        late = self.q[self.time >= self.spin_up.ramp_time]
+        size = 0.5 * float(np.ptp(late)) / self.beam.length if late.size else 0.0
+        return planar_note(self.beam, self.spin_up.omega, size)
+
+
+@one_thread
+def spin_up_response(
+    beam: AnyBlade,
+    spin_up: AnyRamp,
+    times: float | ArrayLike,
+    *,
+    tolerance: float = 1e-8,
+    rotary_inertia: bool = False,
+    shear_share: float | None = None,
+    points: ArrayLike = (),
+    loads: Sequence[Load] = (),
+) -> SpinUpResponse:
+    """Return the exact response of the beam, damped or not, that does not swing before t = 0.
+
+    Radau collocation of order 15 in the rotating frame, with the centrifugal, Coriolis and Euler
+    forces of the spin-up; step and functions are refined together until two solutions agree.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    spin_up : SpinUp, SmoothRamp or Table
+        Before it the beam is straight, and stretched as the speed at t = 0 has it.
+    times : array_like
+        Times of the response [s], ascending, not before 0.
+    tolerance : float
+        Largest error of the tip's position over the largest |q|.
+    rotary_inertia : bool
+        Give the cross-sections their inertia against rotation.
+    shear_share : float, optional
+        Let them shear; as for `linear_modes`.
+    points : array_like
+        Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
+    loads : sequence of loads
+        What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
+
+    Raises
+    ------
+    ValueError
+        If the times are not ascending from 0 on or take more than 100000 steps, the tolerance is
+        below 1e-11, a point is beyond the beam, or the final speed leaves no steady state.
+    RuntimeError
+        If the tolerance is not reached.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> motion = SpinUp(omega=6.0, ramp_time=3.0)
+    >>> found = spin_up_response(Beam.reference(), motion, [1.0, 2.0, 3.0], tolerance=1e-4)
+    >>> print(found.q.round(4))
+    [-2.0782 -3.9266  1.442 ]
+    """
+    time, tolerance = _checked(times, tolerance)
+    require_ramp(spin_up)
+    highest = fastest(spin_up)
+    warn_if_rpm(beam, highest)
+    loads = loads_in_time(loads)
+    rotation = rippled(spin_up, loads)
+    rotary, share = section_inertia(beam, rotary_inertia), checked_share(shear_share)
+    along = points_of_beam("points", points, beam.length)
+    digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
+    _require_feasible(beam, spin_up, time, along, digits)
+    coarser, error, size = None, math.inf, 0.0
+    for level in range(_REFINEMENTS):
+        functions = math.ceil(_A_DIGIT * digits)
+        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        model = blade_continuum(
+            beam.unit, beam.slenderness, functions, functions // 2, rotary, share
+        )
+        steady_rate(beam, highest, model)
+        corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
+        if sum(counts) > _MOST_STEPS:
+            break
+        grid = grid_of(corners, counts)
+        finer = integrated(beam, rotation, loads, model, grid, time, along, spin_up.start)
+        if finer is None:
+            coarser = None
+            continue
+        if coarser is not None:
+            size = float(np.abs(finer.tip.imag).max())
+            error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
+            if error <= tolerance:
+                turned = np.exp(1j * rotation.angle(time))
+                return SpinUpResponse(
+                    beam=beam,
+                    spin_up=spin_up,
+                    loads=loads,
+                    rotary_inertia=rotary_inertia,
+                    shear_share=share,
+                    time=time,
+                    **_in_units(beam, finer, turned),
+                    error=error,
+                    steps=grid.size - 1,
+                    functions=model.bending,
+                )
+        coarser = finer
+    raise RuntimeError(
+        f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
+    )
+
+
+def _in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
+    z, unit = beam.length * motion.tip, beam.unit
+    # Out of the plane of rotation the deflection has a share that is not seen here.
+    tip = (beam.length * unit.hub + z.real + 1j * unit.setting * z.imag) * turned
+    return {
+        "q": z.imag,
+        "q_dot": beam.length * beam.frequency_scale * motion.tip_rate.imag,
+        "tip": np.stack((tip.real, tip.imag), axis=-1),
+        "axis": beam.length * np.stack((motion.axis.real, motion.axis.imag), axis=-1),
+    }
+
+
+def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:
+    time = finite_values("times", times, "s")
+    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
+        raise ValueError("times must ascend from 0 s on, for the beam is at rest before")
+    tolerance = positive("tolerance", tolerance)
+    if tolerance < _FINEST:
+        raise ValueError(
+            f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
+        )
+    return time, tolerance
+
+
+def _what_to_try(error: float, size: float, end: float) -> str:
+    """Return the end of the sentence on two solutions that differ by `error` times `size`."""
+    if math.isinf(error):
+        return f"Newton's method fails before t = {end:g} s; take a longer ramp"
+    if error * size < _ROUND_OFF:
+        return (
+            f"until t = {end:g} s the beam deflects by {size:.1e} of its length only, which "
+            f"round-off drowns; ask for later times as well"
+        )
+    return (
+        f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
+        f"tolerance={10.0 * error:.0e} or a longer ramp"
+    )
+
+
+def _require_feasible(
+    beam: AnyBlade, spin_up: AnyRamp, time: FloatArray, along: FloatArray, digits: float
+) -> None:
+    """Refuse what would take more time or memory than there is, before it starts."""
+    end = float(time[-1])
+    steps = sum(_steps(beam, spin_up, end, digits, level=1)[1])  # two solutions are the least
+    if steps > _MOST_STEPS:
+        raise ValueError(
+            f"times up to {end:g} s take {steps:.3g} steps, more than the {_MOST_STEPS:.3g} "
+            f"at most; ask for times up to {0.9 * end * _MOST_STEPS / steps:.3g} s"
+        )
+    if time.size * along.size > _MOST_POSITIONS:
+        raise ValueError(
+            f"{time.size} times by {along.size} points are more positions than the "
+            f"{_MOST_POSITIONS} that are kept; ask for fewer points, or none"
+        )
+
+
+def _steps(
+    beam: AnyBlade, spin_up: AnyRamp, end: float, digits: float, level: int
+) -> tuple[list[float], list[int]]:
+    """Return the corners of the motion [s] and the steps between them.
+
+    A corner is the end of the ramp, where Eq. 1 has a kink, as others may.
+    """
+    rate = fastest(spin_up) / beam.frequency_scale
+    first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
+    longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
+    corners = [0.0, min(spin_up.ramp_time, end)]
+    if end > spin_up.ramp_time:
+        corners.append(end)
+    # A short ramp still has to be seen as the smooth curve it is.
+    lengths = (min(longest, spin_up.shortest_wave / 4.0), longest)
+    parts = zip(pairwise(corners), lengths, strict=False)
+    return corners, [math.ceil((b - a) / step) for (a, b), step in parts]

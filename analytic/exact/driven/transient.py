@@ -1,0 +1,116 @@
+"""Motion of the exact blade in time, step by step in the rotating frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade
+from ...loads import Load
+from ...methods.collocation import radau
+from ...motion import Rotation
+from ..beam.continuum import Continuum
+from .loading import pushes, unit_load
+
+_STAGES = 8
+_MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
+
+
+def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
+    """Return the ends of the steps [s]."""
+    parts = zip(pairwise(corners), counts, strict=True)
+    return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
+
+
+class Motion(NamedTuple):
+    """The tip's z and ż (times,), and z (times, points), in the rotating frame; nondimensional."""
+
+    tip: ComplexArray
+    tip_rate: ComplexArray
+    axis: ComplexArray
+
+
+def _drive(
+    beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum
+) -> Callable[[FloatArray], dict[str, Any]]:
+    """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
+    per_second = beam.frequency_scale
+    acting = [(unit_load(beam, load), load.frequency or 0.0) for load in loads]
+
+    def at(times: FloatArray) -> dict[str, Any]:
+        phases = [(load, frequency * times) for load, frequency in acting]
+        return {
+            "rate": rotation.rate(times) / per_second,
+            "rate_dot": rotation.acceleration(times) / per_second**2,
+            "push": pushes(model, phases, rotation.angle(times)),
+        }
+
+    return at
+
+
+def integrated(
+    beam: AnyBlade,
+    rotation: Rotation,
+    loads: Sequence[Load],
+    model: Continuum,
+    grid: FloatArray,
+    time: FloatArray,
+    points: FloatArray,
+    start: float = 0.0,
+) -> Motion | None:
+    """Return the motion on the grid of steps, None where Newton's method fails.
+
+    A step on which it does is halved first, as often as it takes. Before the first the blade does
+    not swing, and the rotation at the speed `start` [rad/s] stretches it.
+    """
+    method, per_second = radau(_STAGES), beam.frequency_scale
+    drive = _drive(beam, rotation, loads, model)
+    q = model.steady_state(start / per_second) if start else np.zeros(model.size)
+    q_dot = np.zeros(model.size)
+    acceleration = np.zeros((_STAGES, model.size))
+    z = np.full(time.size, model.tip(q), dtype=np.complex128)
+    z_dot = np.zeros(time.size, dtype=np.complex128)
+    axis = np.tile(model.integrated(model.slope(q), points), (time.size, 1))
+    previous = 0.0
+    ahead = list(pairwise(grid))[::-1]
+    while ahead:
+        begin, end = ahead.pop()
+        h = (end - begin) * per_second
+        stages = begin + (end - begin) * method.nodes
+        guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
+        if previous:
+            guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
+        found, driven = None, drive(stages)
+        residual = partial(model.residual, **driven)
+        tangent = partial(model.tangent, **driven)
+        for guess in guesses:
+            found = method.step(h, q, q_dot, guess, residual=residual, tangent=tangent)
+            if found is not None:
+                break
+        if found is None:
+            if end - begin < (grid[-1] - grid[0]) / _MOST_PIECES:
+                return None
+            middle = 0.5 * (begin + end)
+            ahead += [(middle, end), (begin, middle)]
+            continue
+        acceleration, previous = found, h
+        inside = slice(*np.searchsorted(time, (begin, end), side="right"))
+        at = (time[inside] - begin) / (end - begin)
+        velocities = q_dot + h * method.integral(at) @ acceleration
+        positions = (
+            q
+            + h * at[:, None] * q_dot
+            + h**2 * method.integral(at) @ method.velocity @ acceleration
+        )
+        z[inside] = model.tip(positions)
+        z_dot[inside] = model.tip_rate(positions, velocities)
+        if points.size:
+            axis[inside] = model.integrated(model.slope(positions), points)
+        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
+        q, q_dot = positions[-1], velocities[-1]
+    return Motion(z, z_dot, axis)

@@ -1,0 +1,1 @@
+"""Free periodic orbits: the backbone, its resonances and its series."""

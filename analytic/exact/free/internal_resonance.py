@@ -1,0 +1,241 @@
+"""Where a harmonic of an orbit meets another mode: internal resonance.
+
+Small motion about an orbit of frequency Ω has frequencies of its own, ν_j, which its Floquet
+multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: the multiplier is 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ...methods.floquet import floquet_multipliers
+from ...methods.harmonic_balance import NoOrbitError
+from ...warning import warn
+from ..beam.steady import BeamOrbit
+
+_NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
+_PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
+_FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no round-off
+_LOOKS = 6
+_CLOSE = 5e-3  # amplitudes that pin a resonance down
+_INSIDE = 0.25  # of what is between two, from either
+_NOTICEABLE = 1e-3  # size of a harmonic, relative to the first, that can drive another mode
+
+
+class Resonance(NamedTuple):
+    """An internal resonance on a backbone.
+
+    Attributes
+    ----------
+    harmonic : int
+        Of the orbit.
+    mode : int
+        That it meets, from 1.
+    amplitude : float
+        Peak |q|/L.
+    frequency : float
+        Of the orbit [rad/s].
+    """
+
+    harmonic: int
+    mode: int
+    amplitude: float
+    frequency: float
+
+
+def frequency_ratios(
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, count: int = 4
+) -> tuple[list[int], FloatArray]:
+    """Return the next modes, from 1, and their ν_j/Ω about successive orbits, (orbits, modes).
+
+    Multipliers leave open how many turns a mode makes in a period; it is followed from the linear
+    mode on, in the square of the amplitude.
+
+    Parameters
+    ----------
+    orbits : sequence
+        Of one branch, ascending from the smallest.
+    modes : ndarray
+        Nondimensional linear frequencies.
+    mode : int
+        From which the orbits grow.
+    count : int
+        How many other modes, the lowest.
+    """
+    others = _others(modes, mode, count)
+    squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
+    ratios = [modes[others] / modes[mode - 1]]
+    for i, orbit in enumerate(orbits, start=1):
+        expected = ratios[-1]
+        if i > 1:
+            slope = (ratios[-1] - ratios[-2]) / (squares[i - 1] - squares[i - 2])
+            expected = expected + slope * (squares[i] - squares[i - 1])
+        ratios.append(_nearest(orbit, expected))
+    return [j + 1 for j in others], np.array(ratios[1:])
+
+
+def _others(modes: FloatArray, mode: int, count: int = 4) -> list[int]:
+    """Return the places of the lowest other modes."""
+    return [j for j in range(min(count + 1, modes.size)) if j != mode - 1]
+
+
+def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
+    turns = _turns(orbit, expected.size)
+    above = np.round(expected - turns) + turns
+    below = np.round(expected + turns) - turns
+    nearer = np.abs(above - expected) < np.abs(below - expected)
+    return np.where(nearer, above, below)
+
+
+def _turns(orbit: BeamOrbit, count: int) -> FloatArray:
+    """Return how far each mode's multiplier is from 1, in turns, 0 to ½, without the own mode."""
+    found = floquet_multipliers(orbit, modes=count + 1)
+    # Two for each mode, after the orbit's own.
+    return np.asarray(np.abs(np.angle(found.values[2::2])) / (2.0 * np.pi))
+
+
+def resonances_along(
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
+) -> list[Resonance]:
+    """Return the internal resonances between successive orbits, in order.
+
+    Parameters as of `frequency_ratios`, and what nondimensional frequencies are multiples of
+    [rad/s].
+    """
+    others, ratios = frequency_ratios(orbits, modes, mode)
+    met: list[Resonance] = []
+    for i, pair in enumerate(pairwise(ratios)):
+        for j, before, after in zip(others, *pair, strict=True):
+            low, high = sorted((float(before), float(after)))
+            for k in range(math.floor(low) + 1, math.floor(high) + 1):
+                if not _drives(orbits[i], k):
+                    continue
+                share = (k - before) / (after - before)
+                here, there = (orbit.amplitude for orbit in orbits[i : i + 2])
+                a = float(here + share * (there - here))
+                a = _pole(orbits[max(i - 1, 0) : i + 3], k) or a
+                met.append(Resonance(k, j, a, frequency_at(orbits, a) * per_second))
+    return sorted(met, key=lambda one: one.amplitude)
+
+
+def frequency_at(orbits: Sequence[BeamOrbit], amplitude: float) -> float:
+    """Return the frequency at an amplitude between those of ascending orbits, by straight lines."""
+    return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
+
+
+def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
+    """Return the amplitude at which harmonic k changes its sign through infinity, if it does.
+
+    There the mode is in resonance; ratios are held back from the whole number beside it.
+    """
+    for last, orbit in pairwise(orbits):
+        if k > min(last.harmonics, orbit.harmonics):
+            continue
+        before, after = (o.gauge_harmonics[k - 1] / o.gauge_harmonics[0] for o in (last, orbit))
+        if before * after < 0.0 and min(abs(before), abs(after)) > _FELT:
+            share = (1.0 / before) / (1.0 / before - 1.0 / after)
+            return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
+    return None
+
+
+def pinned(
+    at: Callable[[float], BeamOrbit], orbits: Sequence[BeamOrbit], resonance: Resonance
+) -> tuple[list[BeamOrbit], float]:
+    """Return more orbits next to a resonance, as near as they are found, and its amplitude.
+
+    What the harmonic is without the resonance shifts the pole that two far ones tell.
+
+    Parameters
+    ----------
+    at : callable
+        The orbit of an amplitude; raises NoOrbitError if there is none.
+    orbits : sequence
+        Ascending.
+    resonance : Resonance
+    """
+    k, place = resonance.harmonic, resonance.amplitude
+    i = sum(orbit.amplitude < place for orbit in orbits)
+    if not 0 < i < len(orbits):
+        return [], place
+    (below, above), found = orbits[i - 1 : i + 1], list[BeamOrbit]()
+    while (pole := _pole((below, above), k)) is not None:
+        place, gap = pole, above.amplitude - below.amplitude
+        if gap < _CLOSE:
+            break
+        inside = min(max(pole, below.amplitude + _INSIDE * gap), above.amplitude - _INSIDE * gap)
+        try:
+            found.append(at(inside))
+        except NoOrbitError:
+            break
+        if found[-1].gauge_harmonics[k - 1] * below.gauge_harmonics[k - 1] > 0.0:
+            below = found[-1]
+        else:
+            above = found[-1]
+    return found, place
+
+
+def _drives(orbit: BeamOrbit, k: int) -> bool:
+    """Return whether the orbit has harmonic k at all: without Coriolis forces no even ones."""
+    coupled = orbit.system.rate * orbit.system.model.blade.setting
+    return k % 2 == 1 or abs(coupled) > 1e-9
+
+
+def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int) -> str:
+    """Return which harmonic is nearest to another mode at the last orbit: why a branch bends."""
+    others, ratios = frequency_ratios(orbits, modes, mode)
+    # Slower modes have no harmonic to meet.
+    distance = np.where(ratios[-1] > 1.5, np.abs(np.round(ratios[-1]) / ratios[-1] - 1.0), np.inf)
+    # The higher a harmonic, the less it is felt.
+    nearest = int(np.argmin(distance * ratios[-1] ** 2))
+    return (
+        f" (harmonic {round(float(ratios[-1, nearest]))} is {100.0 * distance[nearest]:.1f} % from "
+        f"mode {others[nearest]} there)"
+    )
+
+
+def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
+    """Return the harmonics larger than the one before that may be near another mode."""
+    others = modes[_others(modes, mode)]
+    sizes = np.linalg.norm(orbit.sines, axis=1)
+    return [
+        k + 1
+        for k in range(2, sizes.size)
+        if sizes[k] > max(sizes[k - 1], _NOTICEABLE * sizes[0])
+        and np.any(np.abs(others / orbit.frequency / (k + 1) - 1.0) < _PERHAPS)
+    ]
+
+
+def warn_of_resonances(
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
+) -> None:
+    """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
+    others = _others(modes, mode)
+    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(orbit, modes, mode))]
+    # Multipliers cost more than an orbit does: of very many a few are looked at.
+    looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
+    warned: set[tuple[int, int]] = set()
+    for orbit, harmonics in [suspects[i] for i in looked.tolist()] if suspects else []:
+        turns = _turns(orbit, len(others))
+        for k in harmonics:
+            # Of the modes whose linear frequency is not far, that whose multiplier is nearest 1.
+            near = [
+                (float(t), j + 1)
+                for t, j in zip(turns, others, strict=True)
+                if abs(modes[j] / orbit.frequency / k - 1.0) < _PERHAPS and t < _NEAR
+            ]
+            if not near or (k, min(near)[1]) in warned:
+                continue
+            distance, j = min(near)
+            warned.add((k, j))
+            warn(
+                f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
+                f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
+                f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
+                "tell; backbone_branch follows what branches there"
+            )

@@ -1,0 +1,1 @@
+"""Linear modes about the steady state, with damping and over the speed."""

@@ -1,0 +1,204 @@
+"""Campbell diagram of the rotating beam: frequencies over the speed, tracked by shape."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade
+from ...input_checks import finite_values, rotation_speed, whole_number
+from ...plotting import apart, axes_or_new, cycled, free_place
+from ...threads import one_thread
+from .modes import Plane
+from .tracking import Crossing, family_of
+
+if TYPE_CHECKING:
+    from ...plotting import Axes
+
+_DRAWN = 41  # speeds that a picture's curves go through, besides their own: chords below a pixel
+_TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
+_MOST_ORDERS = 1000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Campbell:
+    """Frequencies against the speed; made by `campbell`.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    omegas : ndarray (speeds,)
+        Rotation speeds [rad/s].
+    frequencies : ndarray (speeds, count)
+        Frequencies in the rotating frame [rad/s], one column for each tracked mode, family by
+        family.
+    mac : ndarray (speeds - 1, count)
+        Modal assurance criterion of each mode from one speed to the next; well below 1 the
+        tracking is in doubt and the speeds are too far apart.
+    crossings : tuple of Crossing
+        Where frequencies cross the lines kω, k from 1, within the speeds.
+    planes : tuple of str
+        The family of each column.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(13), count=2, orders=5)
+    >>> print(diagram.frequencies[-1].round(4), f"rad/s, tracked by {diagram.mac.min():.3f}")
+    [ 4.8604 33.3739] rad/s, tracked by 0.994
+    >>> axes = diagram.plot()
+    """
+
+    beam: AnyBlade
+    omegas: FloatArray
+    frequencies: FloatArray
+    mac: FloatArray
+    crossings: tuple[Crossing, ...]
+    planes: tuple[Plane, ...]
+
+    @property
+    def names(self) -> list[str]:
+        """The name of each column: as "flap 1", or "mode 1 at 45°" of a blade set at an angle.
+
+        Set at a right angle the blade's own plane of bending is that of flap.
+        """
+        numbers = [self.planes[:k].count(plane) + 1 for k, plane in enumerate(self.planes)]
+        across = abs(self.beam.unit.setting)
+        if "lag" not in self.planes or across > 1.0 - _TURNED:
+            return [f"{plane} {k}" for plane, k in zip(self.planes, numbers, strict=True)]
+        if across < _TURNED:
+            return [f"flap {k}" for k in numbers]
+        angle = math.degrees(math.acos(across))
+        return [f"mode {k} at {angle:.4g}°" for k in numbers]
+
+    @cached_property
+    def _curves(self) -> tuple[FloatArray, FloatArray]:
+        """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""
+        even = np.linspace(self.omegas[0], self.omegas[-1], _DRAWN)
+        apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.1 * (even[1] - even[0])
+        speeds = np.sort(np.concatenate((self.omegas, even[apart_])))
+        counts = {plane: self.planes.count(plane) for plane in self.planes}
+        families = [family_of(self.beam, speeds, count, 0, p) for p, count in counts.items()]
+        return speeds, np.hstack([family.frequencies for family in families])
+
+    def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
+        """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
+
+        The curves go through speeds of their own, as many as a smooth picture takes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        highest : float, optional
+            Frequency [rad/s] up to which is drawn; otherwise all are.
+
+        Examples
+        --------
+        >>> from analytic import Beam, campbell
+        >>> ax = campbell(Beam.reference(), [0.0, 4.0, 8.0, 12.0]).plot()
+        """
+        ax = axes_or_new(ax)
+        low, high = float(self.omegas[0]), float(self.omegas[-1])
+        omegas, curves = self._curves
+        top = 1.05 * float(curves.max()) if highest is None else highest
+        met = [c for c in self.crossings if c.frequency <= top]
+        last = max((c.order for c in met), default=1)
+        for order in range(1, last + 1):
+            ax.plot([low, high], [order * low, order * high], color="0.75", lw=0.6, zorder=0)
+            # Where the line leaves the frame: above it, or at its right where no mode passes.
+            above = order * high > top
+            at = top / order if above else free_place(omegas, curves, order, top)
+            ax.text(
+                at, min(order * at, top), f"{order}ω", color="0.45", fontsize="small",
+                ha="center" if above and order < last else "right", va="bottom", clip_on=False,
+            )  # fmt: skip
+        families = list(dict.fromkeys(self.planes))
+        heights = apart(curves[-1], 0.045 * top)
+        for plane, name, row, height in zip(
+            self.planes, self.names, curves.T, heights, strict=True
+        ):
+            if row[-1] > top:
+                continue  # leaves the frame, or never is in it
+            family = families.index(plane)
+            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.")[family])
+            ax.annotate(
+                name, (high, height), xytext=(4, 0), textcoords="offset points",
+                color=line.get_color(), va="center", annotation_clip=False,
+            )  # fmt: skip
+        crossed = np.array([(c.omega, c.frequency) for c in met]).reshape(-1, 2)
+        ax.plot(*crossed.T, "k.", ms=4)
+        ax.set(
+            xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]",
+            xlim=(low, high), ylim=(0.0, top),
+        )  # fmt: skip
+        return ax
+
+
+@one_thread
+def campbell(
+    beam: AnyBlade,
+    omegas: ArrayLike,
+    count: int = 3,
+    orders: int = 10,
+    *,
+    planes: Sequence[Plane] = ("lag",),
+) -> Campbell:
+    """Return the Campbell diagram of the first `count` modes, by default of those in the plane.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omegas : array_like
+        Rotation speeds [rad/s], ascending.
+    count : int
+        Number of modes of each family, those lowest at the first speed.
+    orders : int
+        Lines kω up to this k.
+    planes : sequence of str
+        Families: "lag", "flap" and "torsion", as in `linear_modes`.
+
+    Raises
+    ------
+    ValueError
+        If the speeds do not ascend from 0 or above, or `linear_modes` refuses one.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 3), count=2, orders=4)
+    >>> for meeting in diagram.crossings[:3]:
+    ...     print(f"mode {meeting.mode} meets {meeting.order}ω at {meeting.omega:.3f} rad/s")
+    mode 1 meets 1ω at 3.208 rad/s
+    mode 1 meets 2ω at 1.490 rad/s
+    mode 1 meets 3ω at 0.980 rad/s
+    """
+    speeds = finite_values("omegas", omegas, "rad/s")
+    for speed in speeds:
+        rotation_speed(float(speed), "omegas")
+    if np.any(np.diff(speeds) <= 0.0):
+        raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
+    count, orders = whole_number("count", count), whole_number("orders", orders, most=_MOST_ORDERS)
+    if not planes or len(set(planes)) < len(planes):
+        raise ValueError(f"planes must name families once each, got {list(planes)}")
+    families = [family_of(beam, speeds, count, orders, plane) for plane in planes]
+    crossings = [
+        replace(crossing, plane=plane)
+        for plane, family in zip(planes, families, strict=True)
+        for crossing in sorted(family.crossings, key=lambda c: (c.mode, c.order))
+    ]
+    return Campbell(
+        beam=beam,
+        omegas=speeds,
+        frequencies=np.hstack([family.frequencies for family in families]),
+        mac=np.hstack([family.mac for family in families]),
+        crossings=tuple(crossings),
+        planes=tuple(plane for plane in planes for _ in range(count)),
+    )

@@ -1,0 +1,281 @@
+"""Linear modes of the exact beam about its rotating steady state, in its plane and out of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade, require_blade, warn_if_rpm
+from ...input_checks import flag, points_of_beam, rotation_speed, whole_number
+from ...methods.gyroscopic import reciprocal_modes
+from ...threads import one_thread
+from ..beam.continuum import Continuum
+from ..beam.discretization import blade_continuum
+from ..beam.steady import SteadyBeam, checked_share, section_inertia, steady_rotation
+from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
+_SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearModes:
+    """Modes of bending about the rotating steady state; made by `linear_modes`.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    frequencies : ndarray (count,)
+        Natural frequencies in the rotating frame [rad/s], ascending.
+    coordinates : ndarray (count, n)
+        The modes in the energy norm of the discretization, by which `campbell` tells them apart.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> modes = linear_modes(Beam.reference(), omega=6.0, count=2)
+    >>> print(modes.shapes([2.0, 4.0, 8.0]).round(4))
+    [[ 0.1307 -0.3935]
+     [ 0.3889 -0.6521]
+     [ 1.      1.    ]]
+    """
+
+    beam: AnyBlade
+    omega: float
+    frequencies: FloatArray
+    coordinates: FloatArray = field(repr=False)
+    model: Continuum = field(repr=False)
+    _slopes: ComplexArray = field(repr=False)
+
+    def shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the deflections v at `x` [m], (points, count), 1 at the tip.
+
+        Only a mode whose tip moves more along the beam than across has u(L) = 1 instead.
+        """
+        return self._displacement(x).imag
+
+    def axial_shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the axial displacements u at `x` [m], (points, count), on the scale of `shapes`.
+
+        The Coriolis force puts them a quarter of a period from the deflections.
+        """
+        return self._displacement(x).real
+
+    def _displacement(self, x: ArrayLike) -> ComplexArray:
+        at = points_of_beam("x", x, self.beam.length)
+        return self.model.integrated(self._slopes, at).T
+
+
+Plane = Literal["lag", "flap", "torsion"]
+"""A family of modes: in the blade's plane of bending, out of it, or of its twist."""
+
+
+@overload
+def linear_modes(
+    beam: AnyBlade,
+    omega: float,
+    count: int = 3,
+    *,
+    plane: Literal["lag", "flap"] = "lag",
+    inextensible: bool = False,
+    rotary_inertia: bool = False,
+    shear_share: float | None = None,
+    functions: int = 20,
+) -> LinearModes: ...
+
+
+@overload
+def linear_modes(
+    beam: AnyBlade, omega: float, count: int = 3, *, plane: Literal["torsion"], functions: int = 20
+) -> TorsionModes: ...
+
+
+@one_thread
+def linear_modes(
+    beam: AnyBlade,
+    omega: float,
+    count: int = 3,
+    *,
+    plane: Plane = "lag",
+    inextensible: bool = False,
+    rotary_inertia: bool = False,
+    shear_share: float | None = None,
+    functions: int = 20,
+) -> LinearModes | TorsionModes:
+    """Return the modes of the beam in steady rotation at `omega`, by default in its plane.
+
+    Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
+    bending and axial motion. Without extension (`inextensible`) they are the modes of
+    v'''' - (w̄²/2)[(1 - x²)v']' - (w̄² + w̄_n²)v = 0, from which the corrected Eq. 81 follows.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    count : int
+        Number of modes.
+    plane : str
+        "lag", the blade's own plane of bending; "flap", the plane normal to the rotation's, and
+        "torsion", both of a blade that bends in the plane of rotation and has a known section out
+        of it. To this order they are independent of each other.
+    inextensible : bool
+        Leave the axial motion out, the limit of the slenderness μ → 0.
+    rotary_inertia : bool
+        Give the cross-sections their inertia against rotation, in the plane.
+    shear_share : float, optional
+        Let them shear, as in Reissner's beam: shear stiffness over axial stiffness,
+        k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the blade; in the plane.
+    functions : int
+        Least number of functions for the tangent's angle, at most 256; half as many modes are
+        resolved. They grow by half until half as many again change no frequency by 1e-9.
+
+    Raises
+    ------
+    ValueError
+        If what the section is out of the plane is asked for and unknown; if `omega` is negative,
+        not finite, or tears the beam; if `count` is beyond what the
+        functions resolve; if 256 functions do not settle the frequencies, as beyond about
+        w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp becomes too thin, and within 1 % of
+        the burst.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> print(linear_modes(Beam.reference(), omega=6.0).frequencies.round(5))
+    [ 3.7304  23.01006 56.64712]
+    """
+    omega = rotation_speed(omega)
+    count = whole_number("count", count)
+    rotary_inertia = flag("rotary_inertia", rotary_inertia)
+    warn_if_rpm(beam, omega)
+    if plane not in ("lag", "flap", "torsion"):
+        raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
+    if plane != "lag" and (rotary_inertia or shear_share is not None):
+        raise ValueError(
+            f"rotary_inertia and shear_share are those of slices in the plane, and plane is "
+            f"{plane!r}: leave them out"
+        )
+    if plane == "torsion":
+        return torsion_modes(beam, omega, count, functions)
+    bent = flap_blade(beam) if plane == "flap" else beam
+    model = resolved_model(bent, count, inextensible, rotary_inertia, functions, shear_share)
+    model, modes = _settled_modes(bent, omega, count, model)
+    return replace(_in_units(bent, omega, count, model, modes), beam=beam)
+
+
+def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:
+    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    modes = solve_modes(steady_rotation(beam, omega, model))
+    return _in_units(beam, omega, count, model, modes)
+
+
+def _in_units(
+    beam: AnyBlade, omega: float, count: int, model: Continuum, modes: Modes
+) -> LinearModes:
+    return LinearModes(
+        beam=beam,
+        omega=omega,
+        frequencies=modes.frequencies[:count] * beam.frequency_scale,
+        coordinates=modes.coordinates[:count],
+        model=model,
+        _slopes=modes.slopes[:count],
+    )
+
+
+def _settled_modes(
+    beam: AnyBlade, omega: float, count: int, model: Continuum
+) -> tuple[Continuum, Modes]:
+    """Return the discretization that a finer one confirms, and its modes.
+
+    Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
+    """
+    steady = steady_rotation(beam, omega, model)
+    modes = solve_modes(steady)
+    while True:
+        finer = steady.refined()
+        confirmed = solve_modes(finer)
+        change = np.abs(modes.frequencies[:count] / confirmed.frequencies[:count] - 1.0).max()
+        if change <= _SETTLED:
+            return steady.model, modes
+        if finer.functions > MOST_FUNCTIONS:
+            raise ValueError(
+                f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = "
+                f"{steady.rate:.4g}, have not settled to {_SETTLED:g} with {steady.functions} "
+                f"functions: half as many again change them by {change:.1e}; rotate slower"
+            )
+        steady, modes = finer, confirmed
+
+
+def resolved_model(
+    beam: AnyBlade,
+    mode: int,
+    inextensible: bool,
+    rotary_inertia: bool,
+    functions: int,
+    shear_share: float | None = None,
+) -> Continuum:
+    """Return the discretization, refusing a mode that it does not resolve."""
+    require_blade(beam)
+    inextensible = flag("inextensible", inextensible)
+    functions = whole_number("functions", functions, least=4)
+    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
+        raise ValueError(
+            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
+            f"modes, got functions={functions} for mode {mode}: ask for less"
+        )
+    if mode > functions // 2:
+        raise ValueError(
+            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
+            f"ask for functions={2 * mode} or more"
+        )
+    if inextensible and shear_share is not None:
+        raise ValueError(
+            "inextensible=True is the limit of the slender beam, which does not shear either: "
+            "leave shear_share out, or inextensible"
+        )
+    slenderness = 0.0 if inextensible else beam.slenderness
+    axial = 1 if inextensible else max(4, 5 * functions // 8)
+    return blade_continuum(
+        beam.unit,
+        slenderness,
+        functions,
+        axial,
+        section_inertia(beam, rotary_inertia),
+        checked_share(shear_share),
+    )
+
+
+class Modes(NamedTuple):
+    """Nondimensional frequencies (n,), coordinates (n, n) and slopes z' (n, points)."""
+
+    frequencies: FloatArray
+    coordinates: FloatArray
+    slopes: ComplexArray
+
+
+def solve_modes(steady: SteadyBeam) -> Modes:
+    """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
+
+    With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
+    """
+    model = steady.model
+    at_rest = np.zeros((1, model.size))
+    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
+    gyroscopic += gyroscopic.T
+    inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
+    # The inextensible beam has no axial modes: they come out with ν = 0.
+    kept = inverse > 1e-12
+    coordinates = shapes.T[kept]
+    slopes = model.slope_rate(steady.equilibrium, coordinates)
+    tips = slopes @ model.weights
+    scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
+    return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])

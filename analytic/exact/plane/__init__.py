@@ -1,0 +1,1 @@
+"""Growth out of the plane: when an orbit leaves it."""

@@ -1,0 +1,164 @@
+"""What grows out of the plane over one period of a planar orbit, at a resolution and its double."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade
+from ...lazily import linalg
+from ...methods.floquet import reversible_monodromy
+from ..beam.space import OutOfPlaneMotion, Space, with_points_for
+from ..beam.steady import BeamOrbit, SteadyBeam
+
+GROWTH = 1e-5
+"""Growth over a period above which a motion is unstable, above the round-off of double ones."""
+STEPS = 24
+_FEWEST, _MOST = 12, 27  # functions
+_SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
+_RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
+_FASTEST = 20.0  # growth over a period that is not looked at more closely
+_FAST = 1.0  # growth over a period beyond which it is no matter of resolution
+_SAME = 0.01  # of the growth, from half the functions and steps
+_REPORTED = 4  # modes
+_SHARE = 0.15  # of the energy, from which a mode is named
+
+
+class Growth(NamedTuple):
+    """What grows out of the plane over one period.
+
+    Attributes
+    ----------
+    exponent : float
+        Logarithm of the largest multiplier's size.
+    multipliers : ndarray (8,)
+    kind : str
+    modes : tuple of str
+    """
+
+    exponent: float
+    multipliers: ComplexArray
+    kind: str = ""
+    modes: tuple[str, ...] = ()
+
+    @property
+    def unstable(self) -> bool:
+        """Whether it grows."""
+        return self.exponent > GROWTH
+
+    @property
+    def per_radian(self) -> float:
+        """Growth exponent over the orbit's frequency [1/rad], zero if it is stable."""
+        return self.exponent / (2.0 * np.pi) if self.unstable else 0.0
+
+    def rate(self, frequency: float) -> float:
+        """Return the growth rate [1/s] at the orbit's frequency [rad/s], zero if it is stable."""
+        return self.per_radian * frequency
+
+
+def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
+    """Return what grows, and whether half as many functions and steps tell the same.
+
+    Or two thirds as many, where half as many do not.
+    """
+    functions = settled_functions(blade, orbit.system)
+    rough = grown(blade, orbit, functions, steps)
+    for finer in (2, 3):
+        fine = grown(blade, orbit, finer * functions, finer * steps)
+        if not (rough.unstable or fine.unstable):
+            return fine, True
+        close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
+        if (close and rough.kind == fine.kind) or fine.exponent > _FASTEST:
+            break
+        rough = fine
+    return fine, close
+
+
+def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Growth:
+    """Return what grows out of the plane over one period of an orbit."""
+    space = _space(blade, functions)
+    orbit = orbit.on(with_points_for(orbit.system, space.functions))
+    motion = OutOfPlaneMotion(orbit, space)
+    try:
+        matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
+    except linalg.LinAlgError:
+        return Growth(np.inf, np.full(2 * _REPORTED, np.nan + 0j), "divergence", ("torsion 1",))
+    values, vectors = np.linalg.eig(matrix)
+    frequencies, names, shares = _shares(space, orbit.system, vectors)
+    place = np.arange(len(shares)) @ shares
+    sizes = np.log(np.maximum(np.abs(values), 1e-300)) + exponent
+    # What oscillates too fast for the steps comes out at a wrong place and may meet others there.
+    slow = frequencies < _RESOLVED * steps * orbit.frequency / (2.0 * np.pi)
+    told = (slow @ shares > 0.5) | (sizes > _FAST)
+    largest = int(np.argmax(np.where(told, sizes, -np.inf)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        lowest = (values * np.exp(exponent))[np.argsort(place)[: 2 * _REPORTED]]
+    growth = Growth(float(sizes[largest]), lowest.astype(complex))
+    if not growth.unstable:
+        return growth
+    value, share = values[largest], shares[:, largest]
+    kind = "sum resonance" if value.imag else "divergence" if value.real > 0 else "period doubling"
+    modes = tuple(names[k] for k in np.argsort(-share)[:2] if share[k] >= min(_SHARE, share.max()))
+    return growth._replace(kind=kind, modes=modes)
+
+
+@lru_cache(maxsize=32)
+def _space(blade: AnyBlade, functions: int) -> Space:
+    return Space(blade, functions)
+
+
+def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
+    """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
+
+    Raises
+    ------
+    ValueError
+        If they do not settle, for the blade turns too fast.
+    """
+    before, functions = None, _FEWEST
+    while functions <= _MOST:
+        space = _space(blade, functions)
+        flap = _steady_modes(space, with_points_for(planar, space.functions))[0][:4]
+        if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
+            return functions - functions // 3
+        before, functions = flap, 3 * space.functions // 2
+    raise ValueError(
+        f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_MOST} functions "
+        "do not resolve: rotate slower"
+    )
+
+
+def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:
+    """Return frequencies, normal coordinates (modes, n) and names, flap first, then torsion."""
+    at_rest = np.zeros((1, planar.size))
+    (K,) = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
+    n, M = space.functions, space.mass
+    frequencies, rows, names = [], [], []
+    for name, part in (("flap", slice(0, n)), ("torsion", slice(n, 2 * n))):
+        if part.start >= space.size:
+            break
+        squares, shapes = linalg.eigh(K[part, part], M[part, part])
+        frequencies.append(np.sqrt(np.maximum(squares, 0.0)))
+        row = np.zeros((n, space.size))
+        row[:, part] = shapes.T @ M[part, part]
+        rows.append(row)
+        names += [f"{name} {k}" for k in range(1, n + 1)]
+    return np.concatenate(frequencies), np.concatenate(rows), names
+
+
+def _shares(
+    space: Space, planar: SteadyBeam, states: ComplexArray
+) -> tuple[FloatArray, list[str], FloatArray]:
+    """Return the modes' frequencies and names, the slowest first, and their shares of the energy.
+
+    The shares are (modes, states).
+    """
+    frequencies, rows, names = _steady_modes(space, planar)
+    n = space.size
+    energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
+    energy += np.abs(rows @ states[n:]) ** 2
+    order = np.argsort(frequencies)
+    return frequencies[order], [names[k] for k in order], (energy / energy.sum(axis=0))[order]

@@ -1,0 +1,134 @@
+"""What grows out of the plane about planar orbits, by amplitude; what to say of results that do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade, require_blade
+from ...blade import Blade
+from ...input_checks import rotation_speed
+from ...methods.harmonic_balance import NoOrbitError
+from ...threads import one_thread
+from ..beam.space import out_of_plane_of, require_out_of_plane
+from ..beam.steady import BeamOrbit
+from ..free.branch import AmplitudeNotReachedError, branch_of
+from ..linear.modes import resolved_model
+from .growth import STEPS, Growth, grown, settled_functions
+
+LEAST_GROWTH = 0.01
+"""Growth per radian of the orbit that counts unless told."""
+SMALLEST = 0.01
+"""Peak |q|/L of the smallest orbits that are looked at."""
+_SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
+_FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
+
+GrowthAt = Callable[[float, int], Growth]
+"""What grows about an orbit, by its amplitude and the multiple of the resolution."""
+
+
+@lru_cache(maxsize=32)
+def growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> GrowthAt:
+    """Return what finds what grows about the planar orbits of a mode, each once."""
+    orbit = planar_orbits(blade, omega, mode, inextensible)
+
+    @lru_cache(maxsize=1)
+    def functions() -> int:
+        return settled_functions(blade, orbit(SMALLEST).system)
+
+    @lru_cache(maxsize=1024)
+    def growth(amplitude: float, finer: int) -> Growth:
+        return grown(blade, orbit(amplitude), finer * functions(), finer * STEPS)
+
+    return growth
+
+
+def planar_orbits(
+    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
+) -> Callable[[float], BeamOrbit]:
+    """Return what finds the planar orbits of a mode by their amplitude, each once.
+
+    Sections that differ out of the plane share them.
+    """
+    if isinstance(blade, Blade):
+        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
+    return _orbits(blade, omega, mode, inextensible)
+
+
+@lru_cache(maxsize=32)
+def _orbits(
+    blade: AnyBlade, omega: float, mode: int, inextensible: bool
+) -> Callable[[float], BeamOrbit]:
+    model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
+    return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
+
+
+@one_thread
+def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> FloatArray:
+    """Return the growth rates [1/s] about orbits of the first mode, zero where stable.
+
+    On as many functions and steps as `planar_stability` begins with, for maps; NaN from the first
+    amplitude on that no orbit was found for.
+    """
+    require_out_of_plane(blade)
+    orbit = planar_orbits(blade, rotation_speed(omega), 1)
+    rates = np.full(amplitudes.size, np.nan)
+    for k, a in enumerate(amplitudes.tolist()):
+        try:
+            at = orbit(a)
+        except NoOrbitError:
+            break
+        found = grown(blade, at, settled_functions(blade, at.system), STEPS)
+        rates[k] = found.rate(at.frequency * blade.frequency_scale)
+    return rates
+
+
+def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
+    """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
+
+    It leaves where an orbit of that amplitude, or a smaller one of the few that are looked at,
+    grows out of it by 0.01 per radian; `stability_limit` tells from where on, which takes several
+    times as long. "" too of a blade of which nothing is known out of its plane, or that is damped.
+
+    Parameters
+    ----------
+    blade : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    amplitude : float
+        Peak |q|/L of the motion, about that of an orbit of `mode`.
+    mode : int
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_note
+    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
+    ''
+    """
+    require_blade(blade)
+    unit = blade.unit
+    if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
+        return ""
+    if not 0.0 < amplitude < 1.0:
+        return ""
+    omega, amplitude = rotation_speed(omega), float(amplitude)
+    try:
+        growth = growths(blade, omega, mode, False)
+        for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
+            # What the first resolution finds, the finer one confirms.
+            told = a == amplitude or growth(a, 1).per_radian >= LEAST_GROWTH
+            if told and (what := growth(a, 2)).per_radian >= LEAST_GROWTH:
+                return (
+                    f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit "
+                    f"of a = {a:.3g} leaves it by {what.per_radian:.2g} per radian ({what.kind} of "
+                    f"{' and '.join(what.modes)}), and this one has a = {amplitude:.3g}"
+                )
+    except ValueError as unknown:
+        return f"whether this motion stays in its plane is not known: {unknown}"
+    except (AmplitudeNotReachedError, NoOrbitError):
+        pass
+    return ""

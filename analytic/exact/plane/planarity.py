@@ -1,0 +1,153 @@
+"""Whether a planar motion stays in its plane: Floquet multipliers out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import ComplexArray, FloatArray
+from ...beam import AnyBlade
+from ...input_checks import whole_number
+from ...threads import one_thread
+from ..beam.space import require_out_of_plane
+from ..free.periodic import periodic_orbits
+from .growth import STEPS, grown_and_checked
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanarStability:
+    """Stability of periodic orbits against motion out of their plane; see `planar_stability`.
+
+    Attributes
+    ----------
+    blade : Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        Planar mode from which the orbits grow, from 1.
+    amplitude : ndarray (orbits,)
+        Peak |q|/L of the planar orbits.
+    frequency : ndarray (orbits,)
+        Their frequency [rad/s].
+    multipliers : ndarray (orbits, 8)
+        Floquet multipliers over a period of the orbit, those with the motion in the lowest modes.
+    growth_rate : ndarray (orbits,)
+        Of the fastest growth [1/s], zero where nothing grows, infinite where the twist has no
+        inertia and buckles.
+    kind : tuple of str
+        How it grows: "period doubling", multiplier below -1; "divergence", above 1; "sum
+        resonance", a complex pair; "" where nothing grows.
+    modes : tuple of tuple of str
+        The modes that hold its energy as the blade passes its straight shape, as "flap 1".
+    converged : ndarray (orbits,)
+        Whether on half, or two thirds, as many functions and steps it is stable as well, or grows
+        within 1 % as fast.
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_stability
+    >>> print(planar_stability(Beam.reference().rectangle(), 4.0, amplitudes=[0.01]))
+    The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
+    """
+
+    blade: AnyBlade
+    omega: float
+    mode: int
+    amplitude: FloatArray
+    frequency: FloatArray
+    multipliers: ComplexArray = field(repr=False)
+    growth_rate: FloatArray
+    kind: tuple[str, ...]
+    modes: tuple[tuple[str, ...], ...]
+    converged: NDArray[np.bool_]
+
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether nothing grows out of the plane, (orbits,)."""
+        return np.asarray(self.growth_rate == 0.0)
+
+    def __str__(self) -> str:
+        unstable = ~self.stable
+        if not unstable.any():
+            return (
+                f"The planar orbits at {self.omega:g} rad/s stay in their plane, "
+                f"{self.amplitude.size} up to a = {self.amplitude.max():g}"
+            )
+        first = int(np.flatnonzero(unstable)[np.argmin(self.amplitude[unstable])])
+        return (
+            f"The planar orbit at {self.omega:g} rad/s with a = {self.amplitude[first]:g} leaves "
+            f"its plane: {self.kind[first]} of {' and '.join(self.modes[first])}, growing at "
+            f"{self.growth_rate[first]:.3g} 1/s"
+        )
+
+
+@one_thread
+def planar_stability(
+    blade: AnyBlade,
+    omega: float,
+    amplitudes: float | Sequence[float] | FloatArray,
+    mode: int = 1,
+    *,
+    inextensible: bool = False,
+    steps: int = STEPS,
+) -> PlanarStability:
+    """Return whether the planar orbits of a blade stay in the plane of rotation.
+
+    Small motion out of the plane about an orbit of `periodic_orbits` obeys a Hill equation, which
+    is integrated over a period by Gauss's method. Modes up to `steps` times twice the frequency of
+    the orbit are resolved; those beyond follow, or oscillate too fast to be excited.
+
+    Parameters
+    ----------
+    blade : Blade
+        With a section out of the plane, of setting angle zero, undamped.
+    omega : float
+        Rotation speed ω [rad/s].
+    amplitudes : float or sequence of float
+        Peak tip deflections |q|/L of the orbits.
+    mode : int
+        In-plane mode from which they grow, from 1.
+    inextensible : bool
+        Leave the extension of the orbits out, the limit μ → 0.
+    steps : int
+        Steps over a period; twice as many are taken, and as many again to see what that changes.
+
+    Raises
+    ------
+    ValueError
+        If the section out of the plane is unknown, or its torsion where that decides; if the blade
+        turns so fast that its flap modes are not resolved.
+    AmplitudeNotReachedError
+        If an orbit does not exist, as `periodic_orbits` has it.
+
+    Examples
+    --------
+    >>> from analytic import Beam, planar_stability
+    >>> strip = Beam.reference().rectangle()
+    >>> found = planar_stability(strip, 4.0, amplitudes=[0.01, 0.2])
+    >>> print(found.stable, found.kind, found.growth_rate.round(1))
+    [ True False] ('', 'divergence') [  0.  120.8]
+    """
+    require_out_of_plane(blade)
+    steps = whole_number("steps", steps)
+    orbits = periodic_orbits(
+        blade, omega, amplitudes, mode, inextensible=inextensible,
+        functions=max(16, 2 * whole_number("mode", mode)),
+    )  # fmt: skip
+    found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]
+    rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
+    return PlanarStability(
+        blade=blade,
+        omega=orbits.omega,
+        mode=orbits.mode,
+        amplitude=orbits.amplitude,
+        frequency=orbits.frequency,
+        multipliers=np.array([growth.multipliers for growth, _ in found]),
+        growth_rate=np.array(rates),
+        kind=tuple(growth.kind for growth, _ in found),
+        modes=tuple(growth.modes for growth, _ in found),
+        converged=np.array([converged for _, converged in found]),
+    )

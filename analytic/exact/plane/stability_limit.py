@@ -1,0 +1,264 @@
+"""The amplitude from which on planar orbits leave their plane, and the tongues below it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import groupby
+
+from ...beam import AnyBlade, require_undamped
+from ...input_checks import flag, peak_deflection, positive, rotation_speed, whole_number
+from ...methods.harmonic_balance import NoOrbitError
+from ...threads import one_thread
+from ..beam.space import require_out_of_plane
+from .growth import Growth
+from .orbit_growth import LEAST_GROWTH, SMALLEST, GrowthAt, growths
+
+LARGEST = 0.6
+"""Peak |q|/L up to which is looked unless told."""
+_NOTHING = 1e-3  # |q|/L from which is looked, if the smallest grows
+_STEP, _FINE, _LONG = 0.02, 0.0025, 0.05  # of the amplitude, from one to the next
+_STRONG = 10.0  # times the growth that counts, from which steps are long
+_NEAR = 0.85  # of the limit, from where on steps are fine
+_BISECTED = 1e-4  # of the limit
+_CONVERGED = 0.01  # of the limit, as half as many functions and steps again tell it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tongue:
+    """An interval of amplitudes below the limit whose orbits leave the plane.
+
+    Attributes
+    ----------
+    low, high : float
+        Least and largest |q|/L that were seen to grow.
+    growth : float
+        Largest growth exponent over the orbit's frequency [1/rad].
+    kind : str
+    modes : tuple of str
+        How the motion grows there and what, as in `PlanarStability`.
+    """
+
+    low: float
+    high: float
+    growth: float
+    kind: str
+    modes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StabilityLimit:
+    """The amplitude from which on planar orbits leave their plane; see `stability_limit`.
+
+    Attributes
+    ----------
+    blade : Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        Planar mode from which the orbits grow, from 1.
+    growth : float
+        Growth exponent over the orbit's frequency [1/rad] that counts.
+    amplitude : float
+        Peak |q|/L above which all orbits, up to `searched`, leave the plane by at least `growth`;
+        infinite where the largest orbit does not.
+    searched : float
+        Largest |q|/L that was looked at.
+    kind : str
+        How the motion grows at the limit, as in `PlanarStability`.
+    modes : tuple of str
+        What grows there.
+    tongues : tuple of Tongue
+        Where smaller orbits leave the plane, however slowly, between others that stay.
+    converged : bool
+        Whether half as many functions and steps again tell the limit within 1 %.
+    """
+
+    blade: AnyBlade
+    omega: float
+    mode: int
+    growth: float
+    amplitude: float
+    searched: float
+    kind: str
+    modes: tuple[str, ...]
+    tongues: tuple[Tongue, ...]
+    converged: bool
+
+    def __float__(self) -> float:
+        return self.amplitude
+
+    def __str__(self) -> str:
+        at = f"At {self.omega:g} rad/s the planar orbits of this section"
+        limited = math.isfinite(self.amplitude)
+        tongues = ""
+        if self.tongues:
+            count = "one tongue" if len(self.tongues) == 1 else f"{len(self.tongues)} tongues"
+            most = max(self.tongues, key=lambda tongue: tongue.growth)
+            tongues = (
+                f"{count}{' below' if limited else ''} from a = {self.tongues[0].low:.4g} on, at "
+                f"most {most.growth:.2g} per radian"
+            )
+        if not limited:
+            return f"{at} stay in their plane, up to a = {self.searched:.4g}" + (
+                f", but for {tongues}" if tongues else ""
+            )
+        doubt = "" if self.converged else ", not converged"
+        return (
+            f"{at} leave their plane from a = {self.amplitude:.4g} on, up to the "
+            f"{self.searched:.4g} looked at, by {self.growth:g} per radian and more{doubt}: "
+            f"{self.kind} of {' and '.join(self.modes)}" + (f"; {tongues}" if tongues else "")
+        )
+
+
+@one_thread
+def stability_limit(
+    blade: AnyBlade,
+    omega: float,
+    mode: int = 1,
+    *,
+    growth: float = LEAST_GROWTH,
+    largest: float = LARGEST,
+    inextensible: bool = False,
+) -> StabilityLimit:
+    """Return the amplitude from which on the planar orbits of a blade leave their plane.
+
+    From there up to `largest` all of them grow by at least `growth` per radian of the orbit: a
+    least unstable amplitude is no property of the blade, for without damping sum resonances of ever
+    higher modes lie everywhere, ever narrower and slower. Those that were met below the limit are
+    `tongues`. Amplitudes from 0.01 on are looked at in steps of 2 %, of 5 % where it grows ten
+    times as fast, of 0.25 % from 0.85 of the limit on; what is narrower may be passed over.
+
+    Parameters
+    ----------
+    blade : Blade
+        With a section out of the plane.
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        In-plane mode from which the orbits grow, from 1.
+    growth : float
+        Growth exponent over the orbit's frequency [1/rad] that counts. Modes that decay faster,
+        by their damping ratio times their frequency over the orbit's, keep the plane.
+    largest : float
+        Largest |q|/L to look at.
+    inextensible : bool
+        Leave the extension of the orbits out.
+
+    Raises
+    ------
+    ValueError
+        If the section out of the plane is unknown, or its torsion where that decides.
+    AmplitudeNotReachedError
+        If no orbit grows out of the mode at all.
+
+    Examples
+    --------
+    >>> from analytic import Beam, stability_limit
+    >>> limit = stability_limit(Beam.reference().rectangle(), omega=4.0, largest=0.1)
+    >>> round(limit.amplitude, 3), round(limit.tongues[0].low, 3)
+    (0.059, 0.052)
+    """
+    require_out_of_plane(blade)
+    require_undamped(blade, "a damped blade has no free periodic orbits")
+    omega, mode = rotation_speed(omega), whole_number("mode", mode)
+    growth, largest = positive("growth", growth), peak_deflection("largest", largest)
+    return _limit(blade, omega, mode, growth, largest, flag("inextensible", inextensible))
+
+
+@lru_cache(maxsize=256)
+def _limit(
+    blade: AnyBlade, omega: float, mode: int, least: float, largest: float, inextensible: bool
+) -> StabilityLimit:
+    growth = growths(blade, omega, mode, inextensible)
+    seen = _scanned(growth, least, largest)
+    searched = max(seen)
+    amplitude, what, agreed = math.inf, None, True
+    if growth(searched, 2).per_radian >= least:
+        seen = _seen_finely(growth, seen, least)
+        low, high = _last_step(seen, least)
+        amplitude = _bisected(growth, low, high, least) if low else high
+        what = growth(amplitude, 2)
+        seen = {a: one for a, one in seen.items() if a < amplitude}
+        beyond = min((1.0 + _CONVERGED) * amplitude, searched)
+        below = [a for a in seen if seen[a].per_radian < least and a > _NEAR * amplitude]
+        agreed = growth(beyond, 3).per_radian >= least
+        agreed = agreed and growth(below[-1], 3).per_radian < least if below else False
+    return StabilityLimit(
+        blade=blade, omega=omega, mode=mode, growth=least, amplitude=amplitude, searched=searched,
+        kind=what.kind if what else "", modes=what.modes if what else (),
+        tongues=_tongues(seen), converged=agreed,
+    )  # fmt: skip
+
+
+def _scanned(growth: GrowthAt, least: float, largest: float) -> dict[float, Growth]:
+    """Return what grows at amplitudes up to the largest that exists, at the first resolution."""
+    seen: dict[float, Growth] = {}
+    a = min(SMALLEST, largest)
+    while a >= _NOTHING and (now := growth(a, 1)).unstable:
+        seen[a] = now
+        a /= 1.0 + _LONG
+    a = min(SMALLEST, largest)
+    while True:
+        try:
+            seen[a] = growth(a, 1)
+        except NoOrbitError:
+            if not seen:
+                raise
+            break
+        if a == largest:
+            break
+        strong = seen[a].per_radian > _STRONG * least
+        a = min(a * (1.0 + (_LONG if strong else _STEP)), largest)
+    return dict(sorted(seen.items()))
+
+
+def _seen_finely(growth: GrowthAt, seen: dict[float, Growth], least: float) -> dict[float, Growth]:
+    """Return the same with finer steps at twice the resolution near where growth begins to stay.
+
+    The first resolution finds the limit to a per cent or so.
+    """
+    rough, largest = _last_step(seen, least)[1], max(seen)
+    fine: dict[float, Growth] = {}
+    a = _NEAR * rough
+    while a < largest and (a < (1.0 + _STEP) * rough or fine[max(fine)].per_radian < least):
+        fine[a] = growth(a, 2)
+        a *= 1.0 + _FINE
+    others = {b: one for b, one in seen.items() if not min(fine) <= b <= max(fine)}
+    return dict(sorted({**others, **fine}.items()))
+
+
+def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
+    """Return the largest amplitude that does not grow so fast, and the next; zero if all do."""
+    amplitudes = list(seen)
+    last = max((k for k, a in enumerate(amplitudes) if seen[a].per_radian < least), default=-1)
+    last = min(last, len(amplitudes) - 2)  # the largest grows at twice the resolution
+    return (amplitudes[last] if last >= 0 else 0.0), amplitudes[last + 1]
+
+
+def _bisected(growth: GrowthAt, low: float, high: float, least: float) -> float:
+    while high > (1.0 + _BISECTED) * low:
+        middle = 0.5 * (low + high)
+        grows = growth(middle, 2).per_radian >= least
+        low, high = (low, middle) if grows else (middle, high)
+    return high
+
+
+def _tongues(seen: dict[float, Growth]) -> tuple[Tongue, ...]:
+    """Return the intervals that grow."""
+    found = []
+    for unstable, run in groupby(seen.items(), key=lambda item: item[1].unstable):
+        if unstable:
+            amplitudes, growths = zip(*run, strict=True)
+            most = max(growths, key=lambda one: one.exponent)
+            found.append(
+                Tongue(
+                    low=amplitudes[0],
+                    high=amplitudes[-1],
+                    growth=most.per_radian,
+                    kind=most.kind,
+                    modes=most.modes,
+                )
+            )
+    return tuple(found)
