@@ -291,7 +291,7 @@ def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
-    for module in ("methods.continuation", "exact.branch"):
+    for module in ("methods.continuation", "exact.free.branch"):
         monkeypatch.setattr(f"analytic.{module}.MOST_FUNCTIONS", 7)
     with pytest.raises(RuntimeError, match="functions meet the equations of motion to .* only"):
         periodic_orbits(beam, 8.0, [0.5], functions=5)
