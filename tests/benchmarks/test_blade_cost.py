@@ -21,7 +21,6 @@ from analytic import (
     linear_modes,
     periodic_orbits,
     planar_stability,
-    reduced_model,
     spin_up_response,
 )
 from rotbeam_exu import simulate
@@ -32,7 +31,6 @@ pytestmark = pytest.mark.benchmarks
 WORK = {
     "modes": lambda beam: linear_modes(beam, 6.0),
     "orbits": lambda beam: periodic_orbits(beam, 6.0, [0.1, 0.3]),
-    "FrM": lambda beam: reduced_model(beam, 6.0, "FrM"),
     "simulation": lambda beam: simulate(
         beam, SpinUp(omega=6.0, ramp_time=3.0), duration=4.0, step=2e-3
     ),
