@@ -1,4 +1,4 @@
-"""What takes energy from a blade: its damping, as a value in SI units."""
+"""Damping of a blade, as a value in SI units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What acts on a blade: loads, as values in SI units.
+"""Loads on a blade, as values in SI units.
 
 A load answers for itself: its force, what that acts on, and itself in other units. A new one is a
 class that inherits from `HarmonicLoad` or `Load`, here or elsewhere; theory, Exudyn, files and

@@ -5,11 +5,12 @@ section about the tangent, κ = ϑ' and N the planar motion's curvature and axia
 the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 
     L2 = ½∫ẇ² dm + ½∫j φ̇² dx - ½∫(1 + e) N β² dx
+         - ½∫[Nk²(φ' + κβ)² + ι(ϑ̇ + w̄)²φ²] dx
          - ½∫EI [g(φ' + κβ)² + r(β' - κφ)² + 2κβ'φ - κ²(β² + φ²)] dx.
 
-The planar motion enters as N, κ and e only: w has no Coriolis force. About a periodic orbit it is
-a Hill equation. Left out are what a twisting section feels of the rotation, of the order jw̄²
-against g, and its shortening under the tension; at r = 1 the inertia of the twist as well.
+The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
+ι = j(1 - r)/(1 + r). w has no Coriolis force: about a periodic orbit it is a Hill equation. Left
+out are the inertia of the sections against flap, and at r = 1 that of the twist.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What grows out of the plane about planar orbits, by amplitude; what to say of results that do."""
+"""Growth out of the plane about planar orbits, by amplitude, and the sentence on it."""
 
 from __future__ import annotations
 
