@@ -11,7 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade, Blade
+from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
@@ -102,7 +102,7 @@ def campbell(
 
 def _families(beam: AnyBlade) -> list[Plane]:
     """Return the families of modes of which the beam's section tells."""
-    known = beam.section.out_of_plane if isinstance(beam, Blade) else None
+    known = beam.section.out_of_plane
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)

@@ -7,7 +7,7 @@ from typing import Literal
 
 from cyclopts import Parameter
 
-from analytic import AnyBlade, Beam, Blade, OutOfPlane
+from analytic import AnyBlade, Beam, OutOfPlane
 
 Shape = Literal["rectangle", "tube", "given"]
 
@@ -59,7 +59,7 @@ class SectionShape:
     def required_of(self, beam: AnyBlade) -> AnyBlade:
         """Return the same, refusing a beam of whose section nothing is known out of the plane."""
         blade = self.of(beam)
-        if not isinstance(blade, Blade) or blade.section.out_of_plane is None:
+        if blade.section.out_of_plane is None:
             raise ValueError(
                 "what the section is out of the plane is unknown: give --section rectangle or "
                 "--section tube, or [blade.section.out_of_plane] in --config"

@@ -64,9 +64,8 @@ def flap_blade(beam: AnyBlade) -> Blade:
     against rotation is known in the plane only, and left out.
     """
     section = require_out_of_plane(beam, torsion=False)
-    assert isinstance(beam, Blade)
     return replace(
-        beam,
+        beam.blade,
         setting_angle=0.5 * math.pi,
         section=replace(
             beam.section,
