@@ -11,9 +11,9 @@ from .arrays import FloatArray
 from .blade import Blade, Variations
 from .damping import UNDAMPED, Damping
 from .input_checks import positive, shown, warn_if_giga
-from .out_of_plane import Gyration
 from .point_mass import PointMass
 from .section import Section
+from .section_shapes import Gyration
 from .unit_blade import UNIFORM, UnitBlade
 from .warning import warn
 

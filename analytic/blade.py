@@ -19,10 +19,11 @@ from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
-from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
+from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
 from .profiles import evaluated, in_units
 from .section import Section
+from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
 from .warning import warn
@@ -90,23 +91,23 @@ class Variations(Described, abstract=True):
         given = OutOfPlane(
             bending_ratio=bending_ratio, torsion_ratio=torsion_ratio, polar_inertia=polar_inertia
         )
-        return self.with_out_of_plane(given)
+        return self._with_out_of_plane(given)
 
-    def rectangle(
-        self, height: float | None = None, width: float | None = None, poisson_ratio: float = 0.3
-    ) -> Blade:
-        """Return the blade with a rectangular section [m] of which it has I/A and, if known, A.
+    def with_shape(self, shape: SectionShape) -> Blade:
+        """Return the blade with a shape as its section, refusing one with another I/A or A.
 
-        The height is in the plane; what is not given fits. What contradicts is refused.
+        A `Beam` has A and I; a `Blade` has EA and EI, so that the material of its shape, and A,
+        are free. The ratios out of the plane hold all along the blade.
         """
-        return self.with_out_of_plane(rectangle(self.gyration, height, width, poisson_ratio))
+        if not isinstance(shape, SectionShape):
+            raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
+        return self._with_out_of_plane(shape.out_of_plane(self.gyration))
 
-    def tube(self, radius: float, wall: float, poisson_ratio: float = 0.3) -> Blade:
-        """Return the blade as a tube of this mean radius and wall [m], that fits its A and I."""
-        return self.with_out_of_plane(tube(self.gyration, radius, wall, poisson_ratio))
+    def in_its_plane(self) -> Blade:
+        """Return the blade of whose section nothing is known out of the plane."""
+        return self._with_out_of_plane(None)
 
-    def with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
-        """Return the blade with this out of its plane, whatever its A and I."""
+    def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
         blade = self.blade
         return replace(blade, section=replace(blade.section, out_of_plane=out_of_plane))
 

@@ -42,7 +42,7 @@ def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
     if known is None:
         raise ValueError(
             "how this blade bends and twists out of its plane is unknown: give its section by "
-            "blade.rectangle(height, width), blade.tube(radius, wall) or "
+            "blade.with_shape(Rectangle(height=..., width=...)) or "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
         )
     if blade.unit.setting != 1.0:

@@ -38,8 +38,9 @@ class TorsionModes:
 
     Examples
     --------
-    >>> from analytic import Beam, linear_modes
-    >>> twist = linear_modes(Beam.reference().rectangle(), 6.0, 2, plane="torsion")
+    >>> from analytic import Beam, Rectangle, linear_modes
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> twist = linear_modes(strip, 6.0, 2, plane="torsion")
     >>> print(twist.frequencies.round(1))
     [ 65.1 194.3]
     """
@@ -97,7 +98,7 @@ def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> T
     if section.torsion_ratio is None or math.isinf(section.torsion_ratio):
         raise ValueError(
             "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
-            "with_section_out_of_plane, .rectangle or .tube"
+            "with_section_out_of_plane or with_shape"
         )
     if section.polar_inertia == 0.0:
         raise ValueError(

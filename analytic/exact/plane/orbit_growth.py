@@ -53,7 +53,7 @@ def planar_orbits(
     Sections that differ out of the plane share them.
     """
     if blade.section.out_of_plane is not None:
-        blade = blade.with_out_of_plane(None)
+        blade = blade.in_its_plane()
     return _orbits(blade, omega, mode, inextensible)
 
 
@@ -103,8 +103,8 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
 
     Examples
     --------
-    >>> from analytic import Beam, planar_note
-    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
+    >>> from analytic import Beam, Rectangle, planar_note
+    >>> planar_note(Beam.reference().with_shape(Rectangle()), 4.0, amplitude=0.05)
     ''
     """
     require_blade(blade)
