@@ -11,6 +11,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
 from ...input_checks import rotation_speed
 from ...methods.harmonic_balance import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from ..beam.steady import BeamOrbit
@@ -30,9 +31,9 @@ GrowthAt = Callable[[float, int], Growth]
 
 
 @lru_cache(maxsize=32)
-def growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> GrowthAt:
+def growths(blade: AnyBlade, omega: float, mode: int, theory: Theory) -> GrowthAt:
     """Return what finds what grows about the planar orbits of a mode, each once."""
-    orbit = planar_orbits(blade, omega, mode, inextensible)
+    orbit = planar_orbits(blade, omega, mode, theory)
 
     @lru_cache(maxsize=1)
     def functions() -> int:
@@ -46,7 +47,7 @@ def growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> Gro
 
 
 def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
+    blade: AnyBlade, omega: float, mode: int, theory: Theory = BERNOULLI_EULER
 ) -> Callable[[float], BeamOrbit]:
     """Return what finds the planar orbits of a mode by their amplitude, each once.
 
@@ -54,14 +55,14 @@ def planar_orbits(
     """
     if blade.section.out_of_plane is not None:
         blade = blade.in_its_plane()
-    return _orbits(blade, omega, mode, inextensible)
+    return _orbits(blade, omega, mode, theory)
 
 
 @lru_cache(maxsize=32)
 def _orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool
+    blade: AnyBlade, omega: float, mode: int, theory: Theory
 ) -> Callable[[float], BeamOrbit]:
-    model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
+    model = resolved_model(blade, mode, theory, _FUNCTIONS)
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
 
 
@@ -115,7 +116,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         return ""
     omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        growth = growths(blade, omega, mode, False)
+        growth = growths(blade, omega, mode, BERNOULLI_EULER)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
             # What the first resolution finds, the finer one confirms.
             told = a == amplitude or growth(a, 1).per_radian >= LEAST_GROWTH
