@@ -39,8 +39,8 @@ from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
 from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
-from .ramps import SmoothRamp as SmoothRamp
-from .ramps import Table as Table
+from .ramps import FourierRamp as FourierRamp
+from .ramps import SpeedTable as SpeedTable
 from .reduced.linear_frame import LinearResponse as LinearResponse
 from .reduced.linear_frame import linear_response as linear_response
 from .reduced.model import ReducedModel as ReducedModel

@@ -13,8 +13,7 @@ from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import linear_modes
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
-from ..motion import SpinUp
-from ..ramps import AnyRamp, require_ramp
+from ..motion import SpeedChange, SpinUp, require_ramp
 from ..threads import one_thread
 from .modes import ModesOverSpeed
 from .residual import modes_for, residuals
@@ -157,7 +156,7 @@ def _refined(
 
 
 def exact_residuals(
-    beam: AnyBlade, ramp: AnyRamp, count: int = 1, tolerance: float = 1e-6
+    beam: AnyBlade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
 ) -> ComplexArray:
     """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
 
@@ -179,13 +178,13 @@ def exact_residuals(
 
 
 @one_thread
-def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6) -> float:
+def exact_residual(beam: AnyBlade, spin_up: SpeedChange, *, tolerance: float = 1e-6) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient.
 
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     tolerance : float
         Error of the tip's position over its largest deflection, as in `spin_up_response`.
 

@@ -20,8 +20,8 @@ from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_blade
 from ..input_checks import finite_array, flag, positive, whole_number
 from ..lazily import interpolate
+from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
-from ..ramps import AnyRamp, Table, fastest, require_ramp
 from ..reduced.any_blade import blade_oscillator
 from ..threads import one_thread
 from .modes import ModesOverSpeed, modes_over_speed
@@ -34,12 +34,12 @@ _LARGEST = 1.2
 
 @overload
 def residual_amplitude(
-    beam: AnyBlade, spin_up: AnyRamp, *, mode: int = 1, corrected: bool = False
+    beam: AnyBlade, spin_up: SpeedChange, *, mode: int = 1, corrected: bool = False
 ) -> float: ...
 @overload
 def residual_amplitude(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     ramp_times: ArrayLike,
     *,
     mode: int = 1,
@@ -48,7 +48,7 @@ def residual_amplitude(
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     ramp_times: ArrayLike | None = None,
     *,
     mode: int = 1,
@@ -62,7 +62,7 @@ def residual_amplitude(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.
     mode : int
@@ -101,24 +101,23 @@ def residual_amplitude(
     return float(left) if ramp_times is None else left
 
 
-def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:
+def modes_for(beam: AnyBlade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
     require_blade(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
-    top = max(1.0, math.ceil(10.0 * fastest(spin_up) / beam.frequency_scale) / 10.0)
+    top = max(1.0, math.ceil(10.0 * spin_up.fastest / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
 
 
 def residuals(
-    beam: AnyBlade, spin_up: AnyRamp, modes: ModesOverSpeed, ramp_times: FloatArray
+    beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, ramp_times: FloatArray
 ) -> ComplexArray:
     """Return Z (modes, ramp times) of the motion stretched to each of the `ramp_times` [s]."""
     scale, own = beam.frequency_scale, spin_up.ramp_time
-    corners = np.array(spin_up.times) / own if isinstance(spin_up, Table) else np.array([0.0, 1.0])
-    fast = float(modes.at(np.array([fastest(spin_up) / scale])).frequency.max())
+    fast = float(modes.at(np.array([spin_up.fastest / scale])).frequency.max())
     pieces = math.ceil(fast * scale * float(ramp_times.max(initial=0.0)) / _A_PANEL)
     pieces = max(pieces, math.ceil(own / spin_up.shortest_wave))
-    edges = np.union1d(corners, np.linspace(0.0, 1.0, pieces + 1))
+    edges = np.union1d(spin_up.corners / own, np.linspace(0.0, 1.0, pieces + 1))
     x, weights = gauss_points(_POINTS)
     width = np.diff(edges)[:, None]
     s = (edges[:-1, None] + width * x).ravel()

@@ -31,7 +31,7 @@ GROUPS = (
     _group(
         "Motion and loads",
         "How its clamp turns, and what acts on it.",
-        analytic="SpinUp SmoothRamp Table SteadyRotation Gravity TipForce DistributedForce "
+        analytic="SpinUp FourierRamp SpeedTable SteadyRotation Gravity TipForce DistributedForce "
         "SpeedRipple",
     ),
     _group(

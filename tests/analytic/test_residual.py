@@ -8,10 +8,10 @@ import pytest
 
 from analytic import (
     Damping,
-    SmoothRamp,
+    FourierRamp,
+    SpeedTable,
     SpinUp,
     SteadyRotation,
-    Table,
     Theory,
     design_ramp,
     exact_residual,
@@ -77,10 +77,10 @@ def test_vectorized_over_ramp_times(beam):
 def test_a_table_and_waves_are_eq_1_where_they_are(beam):
     spin_up, t = eq_1(6.0, 4.0), np.linspace(0.0, 4.0, 41)
     expected = residual_amplitude(beam, spin_up)
-    waves = SmoothRamp(omega=6.0, ramp_time=4.0)
+    waves = FourierRamp(omega=6.0, ramp_time=4.0)
     assert residual_amplitude(beam, waves) == pytest.approx(expected, rel=1e-12)
     # The table's acceleration is off by 1e-6 of the largest.
-    table = Table(t, spin_up.rate(t))
+    table = SpeedTable(t, spin_up.rate(t))
     assert residual_amplitude(beam, table) == pytest.approx(expected, rel=1e-5)
 
 
