@@ -25,6 +25,7 @@ from .exact.linear.modes import LinearModes as LinearModes
 from .exact.linear.modes import linear_modes as linear_modes
 from .exact.linear.out_of_plane_modes import TorsionModes as TorsionModes
 from .exact.linear.tracking import Crossing as Crossing
+from .exact.linear.unstretched import unstretched_frequencies as unstretched_frequencies
 from .exact.plane.orbit_growth import planar_note as planar_note
 from .exact.plane.planarity import PlanarStability as PlanarStability
 from .exact.plane.planarity import planar_stability as planar_stability
@@ -45,11 +46,9 @@ from .reduced.linear_frame import LinearResponse as LinearResponse
 from .reduced.linear_frame import linear_response as linear_response
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
-from .reduced.speeds import critical_speed as critical_speed
 from .reduced.speeds import divergence_speed as divergence_speed
 from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table
-from .reduced.unstretched import unstretched_frequencies as unstretched_frequencies
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
 from .section import Section as Section
@@ -59,7 +58,6 @@ from .section_shapes import Rectangle as Rectangle
 from .section_shapes import Tube as Tube
 from .spin_up.design import design_ramp as design_ramp
 from .spin_up.quiet import QuietRamps as QuietRamps
-from .spin_up.quiet import exact_residual as exact_residual
 from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
 from .spin_up.residual import residual_amplitude as residual_amplitude
 from .theory import Theory as Theory

@@ -45,14 +45,10 @@ class OutOfPlane(Described):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bending_ratio", positive("bending_ratio", self.bending_ratio))
-        if self.torsion_ratio is not None and not _is_infinite(self.torsion_ratio):
+        rigid = isinstance(self.torsion_ratio, float) and self.torsion_ratio == math.inf
+        if self.torsion_ratio is not None and not rigid:
             ratio = positive("torsion_ratio", self.torsion_ratio)
             object.__setattr__(self, "torsion_ratio", ratio)
         if self.polar_inertia is not None:
             inertia = not_negative("polar_inertia", self.polar_inertia, "kg m")
             object.__setattr__(self, "polar_inertia", inertia)
-
-
-def _is_infinite(value: object) -> bool:
-    # A masked number compares to something that is neither True nor False.
-    return isinstance(value, float) and value == math.inf

@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
+from ..blade_functions import blade_functions
 from ..input_checks import finite_values, flag, points_of_beam
 from ..lazily import integrate, linalg
 from ..motion import SpeedChange, require_ramp
 from ..threads import one_thread
-from .blade_functions import blade_functions
 
 _FUNCTIONS, _MODES = 28, 5
 _TOLERANCE = 1e-8  # of a step

@@ -22,11 +22,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
+from ..blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 from ..lazily import linalg
 from ..methods.fourier import half_period
 from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
 
 _ORDER = 5
 _HARMONICS = 3

@@ -15,8 +15,7 @@ from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
 from ..threads import one_thread
 from .modes import ModesOverSpeed
-from .quiet import exact_residuals
-from .residual import modes_for, residuals
+from .residual import exact_residuals, modes_for, residuals
 
 _MORE_WAVES = 4
 _MOST_MODES = 20
@@ -148,9 +147,9 @@ def design_ramp(
 
     Examples
     --------
-    >>> from analytic import Beam, design_ramp, exact_residual
+    >>> from analytic import Beam, design_ramp, residual_amplitude
     >>> ramp = design_ramp(Beam.reference(), omega=2.0, duration=3.0, modes=1)
-    >>> print(exact_residual(Beam.reference(), ramp) < 1e-4)
+    >>> print(residual_amplitude(Beam.reference(), ramp, exact=True) < 1e-4)
     True
     """
     omega, start = rotation_speed(omega), rotation_speed(start, "start")

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from ..arrays import FloatArray
+from ..blade_functions import blade_functions
 from ..lazily import linalg
-from ..reduced.blade_functions import blade_functions
 from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8

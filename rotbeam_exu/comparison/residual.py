@@ -12,7 +12,6 @@ from analytic import (
     AnyBlade,
     Beam,
     SpinUp,
-    exact_residual,
     linear_modes,
     quiet_ramp_times,
     residual_amplitude,
@@ -91,7 +90,7 @@ def residual(
     calm = curve[linear <= _LARGEST]
     places = [np.linspace(calm.min(initial=longest), longest, count) for count in counts]
     measures: tuple[Callable[[SpinUp], float], ...] = (
-        lambda ramp: exact_residual(blade, ramp, tolerance=1e-5),
+        lambda ramp: residual_amplitude(blade, ramp, exact=True, tolerance=1e-5),
         lambda ramp: _of_elements(blade, ramp, element, elements),
     )
     done, found = 0, []

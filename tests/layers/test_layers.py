@@ -21,7 +21,7 @@ FLOORS = {
         {"profiles", "motion", "damping", "out_of_plane", "point_mass"},
         {"unit_blade", "section", "section_shapes", "loads", "ramps"},
         {"shape_functions"},
-        {"blade"},
+        {"blade", "blade_functions"},
         {"beam"},
         {"theory"},
         {"reduced", "exact"},  # neither knows the other
