@@ -30,6 +30,8 @@ class Load(Described, abstract=True):
         Powers of length, mass and time in the size.
     acts_on : {"mass", "length", "tip"} or None
         What the force is per unit of; None of a load that moves the clamp and is no force.
+    harmonic, once_a_turn : bool
+        Whether the load has a frequency of its own, and whether it goes around with the speed.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
     """
@@ -39,6 +41,8 @@ class Load(Described, abstract=True):
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
+    harmonic: ClassVar[bool] = False
+    once_a_turn: ClassVar[bool] = False
     frequency: float | None = None
 
     @property
@@ -69,6 +73,13 @@ class Load(Described, abstract=True):
         """Return what is added to its acceleration at ν = `frequency`, (samples,)."""
         return 0.0 * frequency * phase
 
+    def require_in_time(self) -> None:
+        """Refuse a load that lacks what a motion in time needs of it."""
+
+    def moved(self, rotation: Rotation) -> Rotation:
+        """Return the rotation of the clamp with the load's share."""
+        return rotation
+
     def in_units(self, length: float, mass: float, time: float) -> Self:
         """Return the load in units of length [m], mass [kg] and time [s]."""
         powers = zip((length, mass, time), self.dimension, strict=True)
@@ -94,6 +105,8 @@ class HarmonicLoad(Load, abstract=True):
     amplitude: float
     frequency: float | None = None
 
+    harmonic: ClassVar[bool] = True
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
         if self.frequency is not None:
@@ -104,6 +117,13 @@ class HarmonicLoad(Load, abstract=True):
         """Return F cos νt across the undeformed blade."""
         del angle, setting
         return 1j * self.amplitude * np.cos(phase)
+
+    def require_in_time(self) -> None:
+        """Refuse a load without its frequency."""
+        if self.frequency is None:
+            raise ValueError(
+                f"a motion in time needs the frequency of {self}: give frequency= [rad/s]"
+            )
 
     def __str__(self) -> str:
         at = "" if self.frequency is None else f" at {self.frequency:g} rad/s"
@@ -144,6 +164,21 @@ class SpeedRipple(HarmonicLoad):
     def acceleration(self, phase: FloatArray, frequency: float) -> FloatArray:
         """Return -εν sin νt."""
         return np.asarray(-self.amplitude * frequency * np.sin(phase))
+
+    def require_in_time(self) -> None:
+        """Refuse a ripple without a frequency, or of zero."""
+        super().require_in_time()
+        if self.frequency == 0.0:
+            raise ValueError(
+                "a ripple of frequency 0 is another speed: give a frequency above 0 rad/s, or "
+                "add the amplitude to omega"
+            )
+
+    def moved(self, rotation: Rotation) -> Rotation:
+        """Return the rotation with the ripple."""
+        if self.frequency is None:
+            return rotation
+        return Rippled(rotation=rotation, amplitude=self.amplitude, frequency=self.frequency)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -230,6 +265,7 @@ class Gravity(Load):
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[Literal["mass"]] = "mass"
+    once_a_turn: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
@@ -261,23 +297,12 @@ def loads_in_time(loads: Any) -> tuple[Load, ...]:
         raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
     for load in loads:
         require_load(load)
-        if isinstance(load, HarmonicLoad) and load.frequency is None:
-            raise ValueError(
-                f"a motion in time needs the frequency of {load}: give frequency= [rad/s]"
-            )
-        if isinstance(load, SpeedRipple) and load.frequency == 0.0:
-            raise ValueError(
-                "a ripple of frequency 0 is another speed: give a frequency above 0 rad/s, or "
-                "add the amplitude to omega"
-            )
+        load.require_in_time()
     return tuple(loads)
 
 
 def rippled(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
     """Return the rotation of the clamp with the ripples among the loads."""
     for load in loads:
-        if isinstance(load, SpeedRipple) and load.frequency is not None:
-            rotation = Rippled(
-                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency
-            )
+        rotation = load.moved(rotation)
     return rotation

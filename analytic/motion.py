@@ -88,6 +88,8 @@ class SteadyRotation(Motion):
     def __post_init__(self) -> None:
         object.__setattr__(self, "omega", rotation_speed(self.omega))
 
+    ramp_time = 0.0
+
     @property
     def fastest(self) -> float:
         """The highest speed, ω [rad/s]."""
