@@ -38,7 +38,6 @@ from .loads import SpeedRipple as SpeedRipple
 from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
-from .out_of_plane import OutOfPlane as OutOfPlane
 from .point_mass import PointMass as PointMass
 from .ramps import FourierRamp as FourierRamp
 from .ramps import SpeedTable as SpeedTable
@@ -51,6 +50,7 @@ from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
+from .section import OutOfPlane as OutOfPlane
 from .section import Section as Section
 from .section_shapes import Circle as Circle
 from .section_shapes import Ellipse as Ellipse

@@ -217,7 +217,7 @@ class Beam(Variations):
 
 
 AnyBlade = Beam | Blade
-"""What theory and simulation take."""
+"""Type of the blades that theory and simulation take."""
 
 
 def require_blade(beam: object) -> None:

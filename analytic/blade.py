@@ -19,10 +19,9 @@ from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
-from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
 from .profiles import evaluated, in_units
-from .section import Section
+from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
@@ -39,7 +38,7 @@ def _several(masses: object) -> tuple[PointMass, ...]:
 
 
 class Variations(Described, abstract=True):
-    """What is made of a Beam and of a Blade alike: blades that differ in one thing."""
+    """Base of Beam and Blade, which makes of either a blade that differs in one thing."""
 
     @property
     @abstractmethod

@@ -15,7 +15,7 @@ import numpy as np
 
 from .description import Described
 from .input_checks import not_negative, positive
-from .out_of_plane import OutOfPlane
+from .section import OutOfPlane
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
 _THINNEST = 1000.0  # of one side over the other

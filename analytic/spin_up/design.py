@@ -32,7 +32,7 @@ _LONGER, _LONGEST = 1.25, 12
 
 @dataclass(frozen=True, kw_only=True)
 class _Task:
-    """What is asked of a ramp, and the waves it may be made of.
+    """Demands on a ramp, and the waves it may be made of.
 
     A_1 and B_1 follow from the sums of a `FourierRamp`; the unknowns are k² A_k, then k² B_k, of
     k = 2 and up: the smallest make a ramp with little jerk, of few waves.

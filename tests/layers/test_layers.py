@@ -18,9 +18,9 @@ FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "methods", "plotting"},
-        {"profiles", "motion", "damping", "out_of_plane", "point_mass"},
-        {"unit_blade", "section", "section_shapes", "loads", "ramps"},
-        {"shape_functions"},
+        {"profiles", "motion", "damping", "point_mass"},
+        {"unit_blade", "section", "loads", "ramps"},
+        {"shape_functions", "section_shapes"},
         {"blade", "blade_functions"},
         {"beam"},
         {"theory"},
