@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Protocol, overload
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from .arrays import FloatArray
 from .description import Described
 from .input_checks import positive, rotation_speed
+
+TimeT = TypeVar("TimeT", float, FloatArray)
+"""A time, or several."""
 
 _INSTANTS = 2001  # for the highest speed of a motion that does not tell it
 
@@ -41,29 +44,20 @@ class Motion(Described, ABC, abstract=True):
     def _at(self, t: Any, derivative: int) -> Any:
         """Return the angle, or its first or second derivative, at a float or an array of times."""
 
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
-    def angle(self, t: Any) -> Any:
+    def angle(self, t: TimeT) -> TimeT:
         """Return the angle θ [rad], zero at t = 0; `t` [s] scalar or array, result in its shape."""
-        return self._at(instants(t), 0)
+        found: TimeT = self._at(instants(t), 0)
+        return found
 
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
-    def rate(self, t: Any) -> Any:
+    def rate(self, t: TimeT) -> TimeT:
         """Return the angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        return self._at(instants(t), 1)
+        found: TimeT = self._at(instants(t), 1)
+        return found
 
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
-    def acceleration(self, t: Any) -> Any:
+    def acceleration(self, t: TimeT) -> TimeT:
         """Return the angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        return self._at(instants(t), 2)
+        found: TimeT = self._at(instants(t), 2)
+        return found
 
 
 @dataclass(frozen=True, kw_only=True)
