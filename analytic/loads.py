@@ -30,8 +30,6 @@ class Load(Described, abstract=True):
         Powers of length, mass and time in the size.
     acts_on : {"mass", "length", "tip"} or None
         What the force is per unit of; None of a load that moves the clamp and is no force.
-    harmonic, once_a_turn : bool
-        Whether the load has a frequency of its own, and whether it goes around with the speed.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
     """
@@ -41,8 +39,6 @@ class Load(Described, abstract=True):
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
-    harmonic: ClassVar[bool] = False
-    once_a_turn: ClassVar[bool] = False
     frequency: float | None = None
 
     @property
@@ -104,8 +100,6 @@ class HarmonicLoad(Load, abstract=True):
 
     amplitude: float
     frequency: float | None = None
-
-    harmonic: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
@@ -265,7 +259,6 @@ class Gravity(Load):
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[Literal["mass"]] = "mass"
-    once_a_turn: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))

@@ -39,7 +39,7 @@ def forced_response(response: ForcedResponse) -> xr.Dataset:
     RotbeamWarning
         If an internal resonance is near the backbone.
     """
-    weight = response.load.once_a_turn
+    weight = isinstance(response.load, Gravity)
     omega = None if weight else float(response.omega[0])
     frequency = "rotation speed ω" if weight else "drive frequency ν"
     # The weight across the blade is greatest, and negative, at θ = 0.

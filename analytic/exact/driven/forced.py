@@ -76,10 +76,10 @@ def forced_response(
     ...     print(f"{peak.amplitude:.4f} L at {peak.frequency:.4f} rad/s")
     0.0769 L at 3.7123 rad/s
     """
-    unit = unit_load(beam, load)
-    if load.once_a_turn:
+    if isinstance(load, Gravity):
         raise TypeError("gravity goes around once a turn, at ω itself: take gravity_response")
-    if not load.harmonic:
+    unit = unit_load(beam, load)
+    if not isinstance(load, HarmonicLoad):
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.frequency is not None:
         raise ValueError(

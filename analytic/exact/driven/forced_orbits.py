@@ -171,7 +171,7 @@ class ForcedResponse:
     @cached_property
     def backbone(self) -> Backbone:
         """The undamped free orbits of the first mode, up to the largest amplitude here."""
-        if self.load.once_a_turn:
+        if isinstance(self.load, Gravity):
             raise ValueError(
                 "gravity goes around with the speed, and each speed has its own backbone: take "
                 "periodic_orbits at one of them"
@@ -214,7 +214,7 @@ class ForcedResponse:
         ax.plot(
             self.frequency[fold], self.amplitude[fold], "o", color=solid.get_color(), mfc="white"
         )
-        gravity = self.load.once_a_turn
+        gravity = isinstance(self.load, Gravity)
         ax.set(
             xlabel="rotation speed ω [rad/s]" if gravity else "drive frequency ν [rad/s]",
             ylabel="peak |q|/L",
