@@ -151,13 +151,12 @@ class Blade(Variations):
     uniform: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        for name, value in (
-            ("length", positive("length", self.length, "m")),
-            ("hub_radius", not_negative("hub_radius", self.hub_radius, "m")),
-            ("setting_angle", finite_number("setting_angle", self.setting_angle, "rad")),
-            ("point_masses", _several(self.point_masses)),
-        ):
-            object.__setattr__(self, name, value)
+        self._keep(
+            length=positive("length", self.length, "m"),
+            hub_radius=not_negative("hub_radius", self.hub_radius, "m"),
+            setting_angle=finite_number("setting_angle", self.setting_angle, "rad"),
+            point_masses=_several(self.point_masses),
+        )
         if abs(self.setting_angle) > 2.0 * math.pi:
             warn(
                 f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "

@@ -102,10 +102,9 @@ class HarmonicLoad(Load, abstract=True):
     frequency: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
+        self._keep(amplitude=finite_number("amplitude", self.amplitude, self.unit))
         if self.frequency is not None:
-            frequency = not_negative("frequency", self.frequency, "rad/s")
-            object.__setattr__(self, "frequency", frequency)
+            self._keep(frequency=not_negative("frequency", self.frequency, "rad/s"))
 
     def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
         """Return F cos νt across the undeformed blade."""
@@ -261,7 +260,7 @@ class Gravity(Load):
     acts_on: ClassVar[Literal["mass"]] = "mass"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
+        self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))
 
     def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
         """Return the weight of a unit mass, which goes around once a turn."""

@@ -80,7 +80,7 @@ class SteadyRotation(Motion):
     omega: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "omega", rotation_speed(self.omega))
+        self._keep(omega=rotation_speed(self.omega))
 
     ramp_time = 0.0
 
@@ -179,8 +179,9 @@ class SpinUp(SpeedChange):
     start = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "omega", rotation_speed(self.omega))
-        object.__setattr__(self, "ramp_time", positive("ramp_time", self.ramp_time, "s"))
+        self._keep(
+            omega=rotation_speed(self.omega), ramp_time=positive("ramp_time", self.ramp_time, "s")
+        )
 
     @property
     def shortest_wave(self) -> float:  # type: ignore[override]

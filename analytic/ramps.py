@@ -60,14 +60,13 @@ class FourierRamp(SpeedChange):
     sines: Sequence[float] = ()
 
     def __post_init__(self) -> None:
-        for name, value in (
-            ("omega", rotation_speed(self.omega)),
-            ("ramp_time", positive("ramp_time", self.ramp_time, "s")),
-            ("start", rotation_speed(self.start, "start")),
-            ("cosines", _coefficients("cosines", self.cosines)),
-            ("sines", _coefficients("sines", self.sines)),
-        ):
-            object.__setattr__(self, name, value)
+        self._keep(
+            omega=rotation_speed(self.omega),
+            ramp_time=positive("ramp_time", self.ramp_time, "s"),
+            start=rotation_speed(self.start, "start"),
+            cosines=_coefficients("cosines", self.cosines),
+            sines=_coefficients("sines", self.sines),
+        )
         k = np.arange(1, len(self.sines) + 1)
         sums = (("cosines", math.fsum(self.cosines), -1.0), ("sines", float(k @ self.sines), 0.0))
         for name, found, wanted in sums:
@@ -156,8 +155,7 @@ class SpeedTable(SpeedChange):
             raise ValueError(f"times must ascend from 0 s on, but {where}")
         for speed in speeds:
             rotation_speed(speed, "speeds")
-        object.__setattr__(self, "times", tuple(times.tolist()))
-        object.__setattr__(self, "speeds", tuple(speeds.tolist()))
+        self._keep(times=tuple(times.tolist()), speeds=tuple(speeds.tolist()))
         with np.errstate(all="ignore"):
             steepest = 3.0 * np.abs(np.diff(speeds) / np.diff(times) / np.diff(times) ** 2)
         beyond = np.flatnonzero(~np.isfinite(steepest))

@@ -49,14 +49,12 @@ class OutOfPlane(Described):
     polar_inertia: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "bending_ratio", positive("bending_ratio", self.bending_ratio))
+        self._keep(bending_ratio=positive("bending_ratio", self.bending_ratio))
         rigid = isinstance(self.torsion_ratio, float) and self.torsion_ratio == math.inf
         if self.torsion_ratio is not None and not rigid:
-            ratio = positive("torsion_ratio", self.torsion_ratio)
-            object.__setattr__(self, "torsion_ratio", ratio)
+            self._keep(torsion_ratio=positive("torsion_ratio", self.torsion_ratio))
         if self.polar_inertia is not None:
-            inertia = not_negative("polar_inertia", self.polar_inertia, "kg m")
-            object.__setattr__(self, "polar_inertia", inertia)
+            self._keep(polar_inertia=not_negative("polar_inertia", self.polar_inertia, "kg m"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,8 +93,7 @@ class Section(Described):
     out_of_plane: OutOfPlane | None = None
 
     def __post_init__(self) -> None:
-        for name, profile in self.profiles().items():
-            object.__setattr__(self, name, checked_profile(name, profile))
+        self._keep(**{name: checked_profile(name, p) for name, p in self.profiles().items()})
         root = np.zeros(1)
         stiffness, mass = (
             float(evaluated(profile, root)[0])
