@@ -10,6 +10,7 @@ from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
+from ..datasets import dataset
 from ..fem.simulation import simulate
 from ..lazily import xr
 from ..oscillation import steady_oscillation
@@ -57,46 +58,25 @@ def figure_15(
     names = ["finite element", *MODELS, "exact"]
     half_axes = np.array([np.abs(v).max() for v in orbits["finite element"]])
     paths = {name: np.stack(orbit, axis=-1) / half_axes for name, orbit in orbits.items()}
-    return xr.Dataset(
+    q_bar, q_dot_bar = np.array([orbits[name] for name in names]).transpose(1, 0, 2)
+    gap = [float(np.linalg.norm(paths[name][-1] - paths[name][0])) for name in names]
+    distance = [_distance(paths[name], paths["finite element"]) for name in names]
+    along = ("model", "phase")
+    numerics = ("elements", "element", "element_options", "step", "frame")
+    return dataset(
         {
-            "q_bar": (
-                ("model", "phase"),
-                np.array([orbits[name][0] for name in names]),
-                {"units": "1", "long_name": "tip displacement q/L"},
-            ),
-            "q_dot_bar": (
-                ("model", "phase"),
-                np.array([orbits[name][1] for name in names]),
-                {"units": "1", "long_name": "tip velocity q̇/(ω₀L)"},
-            ),
-            "gap": (
-                "model",
-                [float(np.linalg.norm(paths[name][-1] - paths[name][0])) for name in names],
-                {"units": "1", "long_name": "gap from start to end over the half axes"},
-            ),
-            "distance": (
-                "model",
-                [_distance(paths[name], paths["finite element"]) for name in names],
-                {"units": "1", "long_name": "distance from the FE orbit over its half axes"},
-            ),
-            "period": (
-                "model",
-                np.array([periods[name] for name in names]),
-                {"units": "s", "long_name": "period"},
-            ),
+            "q_bar": (along, q_bar, "tip displacement q/L"),
+            "q_dot_bar": (along, q_dot_bar, "tip velocity q̇/(ω₀L)"),
+            "gap": ("model", gap, "gap from start to end over the half axes"),
+            "distance": ("model", distance, "distance from the FE orbit over its half axes"),
+            "period": ("model", [periods[name] for name in names], "period [s]"),
         },
-        coords={
-            "model": ("model", names, {"units": "1", "long_name": "model"}),
-            "phase": ("phase", phase, {"units": "1", "long_name": "time over the FE period"}),
-        },
-        attrs={
+        {"model": (names, "model"), "phase": (phase, "time over the FE period")},
+        {
             "omega": omega,
             "ramp_time": ramp_time,
             "amplitude": steady.amplitude,
-            **{
-                name: run.attrs[name]
-                for name in ("elements", "element", "element_options", "step", "frame")
-            },
+            **{name: run.attrs[name] for name in numerics},
             **beam_attributes(beam),
         },
     )

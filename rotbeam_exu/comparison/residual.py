@@ -20,6 +20,7 @@ from analytic import (
 from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
+from ..datasets import dataset
 from ..fem.elements import Formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
@@ -79,11 +80,8 @@ def residual(
             f"{longest:g} s"
         )
     counts = [
-        whole_number(name, count, least=0)
-        for name, count in (
-            ("points", points),
-            ("finite_element_points", finite_element_points),
-        )
+        whole_number("points", points, least=0),
+        whole_number("finite_element_points", finite_element_points, least=0),
     ]
     one = SpinUp(omega=omega, ramp_time=longest)
     curve = np.linspace(_SHORTEST * period, longest, _CURVE)
@@ -104,25 +102,26 @@ def residual(
                 progress(done, sum(counts))
         found.append(np.array(left))
     quiet = quiet_ramp_times(blade, omega, longest=longest)
-    return _dataset(
+    corrected = residual_amplitude(blade, one, curve, corrected=True)
+    left = {
+        "linear": ("ramp_time", linear, "closed form"),
+        "corrected": ("ramp_time", corrected, "closed form, corrected by the backbone"),
+        "exact": ("exact_ramp_time", found[0], "exact transient"),
+        "finite_element": ("finite_element_ramp_time", found[1], "finite elements"),
+        "quiet": ("quiet_ramp_time", quiet.left, "quiet ramps"),
+    }
+    dims = dict.fromkeys(dim for dim, _, _ in left.values())
+    times = zip(dims, (curve, *places, quiet.ramp_times), strict=True)
+    return dataset(
+        {name: (dim, at, f"amplitude left over L, {by}") for name, (dim, at, by) in left.items()},
+        {dim: (at, "ramp time T [s]") for dim, at in times},
         {
-            "linear": ("ramp_time", linear, "closed form"),
-            "corrected": (
-                "ramp_time",
-                residual_amplitude(blade, one, curve, corrected=True),
-                "closed form, corrected by the backbone",
-            ),
-            "exact": ("exact_ramp_time", found[0], "exact transient"),
-            "finite_element": ("finite_element_ramp_time", found[1], "finite elements"),
-            "quiet": ("quiet_ramp_time", quiet.left, "quiet ramps"),
+            **beam_attributes(blade),
+            "omega": omega,
+            "longest": longest,
+            **_named(element),
+            "elements": elements,
         },
-        (curve, *places, quiet.ramp_times),
-    ).assign_attrs(
-        **beam_attributes(blade),
-        omega=omega,
-        longest=longest,
-        **_named(element),
-        elements=elements,
     )
 
 
@@ -130,20 +129,6 @@ def _named(element: str | Formulation) -> dict[str, str]:
     if isinstance(element, str):
         return {"element": element}
     return {"element": element.name, "element_options": json.dumps(describe(element))}
-
-
-def _dataset(values: dict[str, tuple[str, object, str]], times: tuple[object, ...]) -> xr.Dataset:
-    dims = list(dict.fromkeys(dim for dim, _, _ in values.values()))
-    return xr.Dataset(
-        {
-            name: (dim, left, {"units": "1", "long_name": f"amplitude left over L, {by}"})
-            for name, (dim, left, by) in values.items()
-        },
-        coords={
-            dim: (dim, at, {"units": "s", "long_name": "ramp time T"})
-            for dim, at in zip(dims, times, strict=True)
-        },
-    )
 
 
 def _of_elements(blade: AnyBlade, ramp: SpinUp, element: str | Formulation, elements: int) -> float:

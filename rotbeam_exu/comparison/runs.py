@@ -9,6 +9,7 @@ import numpy as np
 
 from analytic import Beam, SpinUp
 
+from ..datasets import OMEGA, dataset, labeled
 from ..fem.simulation import simulate
 from ..lazily import xr
 from ..oscillation import steady_oscillation
@@ -53,12 +54,13 @@ def figure_3(
     beam, spin_up = beam or Beam.reference(), spin_up or SpinUp(omega=4.0, ramp_time=15.0)
     runs = [simulate(beam, spin_up, element=element, elements=n, duration=duration) for n in meshes]
     data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
-    data["elements"] = ("elements", list(meshes), {"units": "1", "long_name": "elements"})
+    data["elements"] = ("elements", list(meshes), labeled("elements"))
+    attrs = runs[0].attrs
     data.attrs = {
         **beam_attributes(beam),
-        **{name: runs[0].attrs[name] for name in ("omega", "ramp_time")},
+        **{name: attrs[name] for name in ("omega", "ramp_time")},
         **motion_attributes(spin_up),
-        **{name: runs[0].attrs[name] for name in ("element", "element_options", "step", "frame")},
+        **{name: attrs[name] for name in ("element", "element_options", "step", "frame")},
     }
     return data
 
@@ -75,43 +77,36 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
     beam = beam or Beam.reference()
-    panels = ["a", "a", "a", "b", "b", "b"]
-    cases = [(4.0, 1.5), (4.0, 2.0), (4.0, 3.0), (4.0, 3.0), (6.0, 3.0), (8.0, 3.0)]
+    omegas, ramp_times = [4.0, 4.0, 4.0, 4.0, 6.0, 8.0], [1.5, 2.0, 3.0, 3.0, 3.0, 3.0]
     orbits = []
-    for omega, ramp_time in cases:
+    for omega, ramp_time in zip(omegas, ramp_times, strict=True):
         spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
         run = simulate(beam, spin_up, element=element, elements=elements)
-        steady = run[["q", "q_dot"]].where(run["time"] >= ramp_time, drop=True)
+        steady = run.where(run["time"] >= ramp_time, drop=True)
+        q_bar = steady["q"].data / reference_displacement(beam, spin_up)
+        q_dot_bar = steady["q_dot"].data / reference_velocity(beam, spin_up)
+        smear = _unexplained(steady["q_dot"], steady_oscillation(run).frequency)
         orbits.append(
-            xr.Dataset(
+            dataset(
                 {
-                    "q_bar": ("sample", steady["q"].data / reference_displacement(beam, spin_up)),
-                    "q_dot_bar": (
-                        "sample",
-                        steady["q_dot"].data / reference_velocity(beam, spin_up),
-                    ),
-                    "smear": _unexplained(steady["q_dot"], steady_oscillation(run).frequency),
+                    "q_bar": ("sample", q_bar, "tip displacement q/q₀"),
+                    "q_dot_bar": ("sample", q_dot_bar, "tip velocity q̇/q̇₀"),
+                    "smear": ((), smear, "share of other modes in the velocity"),
                 },
-                coords={"sample": np.arange(steady.sizes["time"])},
+                {"sample": np.arange(q_bar.size)},
             )
         )
-    data = xr.concat(orbits, dim="case", join="outer")
-    data["q_bar"].attrs = {"units": "1", "long_name": "tip displacement q/q₀"}
-    data["q_dot_bar"].attrs = {"units": "1", "long_name": "tip velocity q̇/q̇₀"}
-    data["smear"].attrs = {"units": "1", "long_name": "share of other modes in the velocity"}
-    data["panel"] = ("case", panels, {"units": "1", "long_name": "panel"})
-    for index, (name, long_name, unit) in enumerate(
-        (("omega", "angular velocity ω", "rad/s"), ("ramp_time", "ramp time T", "s"))
-    ):
-        values = [case[index] for case in cases]
-        data[name] = ("case", values, {"units": unit, "long_name": long_name})
-    data.attrs = {
-        **beam_attributes(beam),
-        **{
-            name: run.attrs[name]
-            for name in ("element", "element_options", "elements", "step", "frame")
+    cases = dataset(
+        {
+            "panel": ("case", list("aaabbb"), "panel"),
+            "omega": ("case", omegas, OMEGA),
+            "ramp_time": ("case", ramp_times, "ramp time T [s]"),
         },
-    }
+        {},
+    )
+    data = xr.concat(orbits, dim="case", join="outer").assign(cases)
+    numerics = ("element", "element_options", "elements", "step", "frame")
+    data.attrs = {**beam_attributes(beam), **{name: run.attrs[name] for name in numerics}}
     return data
 
 

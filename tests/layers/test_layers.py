@@ -29,6 +29,7 @@ FLOORS = {
     "rotbeam_exu": [
         {"lazily"},
         {"versions", "paper", "resolution", "tones", "verdict", "files"},
+        {"datasets"},
         {"growth", "oscillation", "fem"},
         {"sweeps", "verification"},
         {"comparison", "figures"},
