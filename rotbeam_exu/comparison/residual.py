@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Callable
@@ -17,6 +18,7 @@ from analytic import (
     quiet_ramp_times,
     residual_amplitude,
 )
+from analytic.arrays import FloatArray
 from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
@@ -86,35 +88,39 @@ def residual(
     one = SpinUp(omega=omega, ramp_time=longest)
     curve = np.linspace(_SHORTEST * period, longest, _CURVE)
     linear = residual_amplitude(blade, one, curve)
-    calm = curve[linear <= _LARGEST]
-    places = [np.linspace(calm.min(initial=longest), longest, count) for count in counts]
-    measures: tuple[Callable[[SpinUp], float], ...] = (
-        lambda ramp: exact_residual(blade, ramp, tolerance=1e-5),
-        lambda ramp: _of_elements(blade, ramp, element, elements),
-    )
-    done, found = 0, []
-    for times, measure in zip(places, measures, strict=True):
+    corrected = residual_amplitude(blade, one, curve, corrected=True)
+    calm = curve[linear <= _LARGEST].min(initial=longest)
+    exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
+    done = itertools.count(1)
+
+    def measured(measure: Callable[[SpinUp], float], times: FloatArray) -> list[float]:
         left = []
         for T in times.tolist():
             left.append(measure(SpinUp(omega=omega, ramp_time=T)))
-            done += 1
             if progress is not None:
-                progress(done, sum(counts))
-        found.append(np.array(left))
+                progress(next(done), sum(counts))
+        return left
+
+    exact = measured(lambda ramp: exact_residual(blade, ramp, tolerance=1e-5), exact_at)
+    runs = measured(lambda ramp: _of_elements(blade, ramp, element, elements), elements_at)
     quiet = quiet_ramp_times(blade, omega, longest=longest)
-    corrected = residual_amplitude(blade, one, curve, corrected=True)
-    left = {
-        "linear": ("ramp_time", linear, "closed form"),
-        "corrected": ("ramp_time", corrected, "closed form, corrected by the backbone"),
-        "exact": ("exact_ramp_time", found[0], "exact transient"),
-        "finite_element": ("finite_element_ramp_time", found[1], "finite elements"),
-        "quiet": ("quiet_ramp_time", quiet.left, "quiet ramps"),
-    }
-    dims = dict.fromkeys(dim for dim, _, _ in left.values())
-    times = zip(dims, (curve, *places, quiet.ramp_times), strict=True)
+    left = "amplitude left over L, "
+    by_backbone = f"{left}closed form, corrected by the backbone"
+    ramp_time = "ramp time T [s]"
     return dataset(
-        {name: (dim, at, f"amplitude left over L, {by}") for name, (dim, at, by) in left.items()},
-        {dim: (at, "ramp time T [s]") for dim, at in times},
+        {
+            "linear": ("ramp_time", linear, f"{left}closed form"),
+            "corrected": ("ramp_time", corrected, by_backbone),
+            "exact": ("exact_ramp_time", exact, f"{left}exact transient"),
+            "finite_element": ("finite_element_ramp_time", runs, f"{left}finite elements"),
+            "quiet": ("quiet_ramp_time", quiet.left, f"{left}quiet ramps"),
+        },
+        {
+            "ramp_time": (curve, ramp_time),
+            "exact_ramp_time": (exact_at, ramp_time),
+            "finite_element_ramp_time": (elements_at, ramp_time),
+            "quiet_ramp_time": (quiet.ramp_times, ramp_time),
+        },
         {
             **beam_attributes(blade),
             "omega": omega,

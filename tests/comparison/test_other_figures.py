@@ -11,7 +11,6 @@ from analytic import SpinUp, reduced_model
 from rotbeam_exu import comparison, figures
 from rotbeam_exu.cli import main
 from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
-from rotbeam_exu.figures.captions import CAPTIONS
 
 
 @pytest.fixture(autouse=True)
@@ -168,9 +167,9 @@ def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
     kinds = {path.suffix for path in tmp_path.iterdir() if path.is_file()}
     assert {".nc", ".csv", ".png", ".pdf", ".txt"} <= kinds
     words = (tmp_path / f"figure_{number}.txt").read_text()
-    assert CAPTIONS[number] in words
+    assert figures.PAPER_FIGURES[number].claim in words
     # What is drawn comes first, and of which beam.
-    assert words.index("Beam: L = 8 m") < words.index(CAPTIONS[number])
+    assert words.index("Beam: L = 8 m") < words.index(figures.PAPER_FIGURES[number].claim)
 
 
 def test_a_style_on_the_command_line(tmp_path, capsys):
@@ -195,10 +194,10 @@ def test_every_figure_draws_on_given_axes_with_units(number):
 
 
 def test_captions_name_every_figure_with_data():
-    for number in CAPTIONS:
+    for number in figures.PAPER_FIGURES:
         assert callable(getattr(comparison, f"figure_{number}"))
         assert callable(getattr(figures, f"figure_{number}"))
-    assert sorted(CAPTIONS) == [3, 4, 5, *range(8, 16)]
+    assert sorted(figures.PAPER_FIGURES) == [3, 4, 5, *range(8, 16)]
 
 
 def test_figure_15_shows_where_each_orbit_ends():
@@ -229,10 +228,10 @@ def test_figure_15_shows_where_each_orbit_ends():
 
 
 def test_captions_call_no_curve_the_truth():
-    for caption in CAPTIONS.values():
-        assert "truth" not in caption
-    assert "lacks" in CAPTIONS[14]
-    assert "excess" not in CAPTIONS[14]
+    for figure in figures.PAPER_FIGURES.values():
+        assert "truth" not in figure.claim
+    assert "lacks" in figures.PAPER_FIGURES[14].claim
+    assert "excess" not in figures.PAPER_FIGURES[14].claim
 
 
 @pytest.mark.parametrize("number", ["7", "16", "x", "-3"])
@@ -246,6 +245,6 @@ def test_unknown_figures_are_refused(number, capsys):
 @pytest.mark.slow
 def test_all_figures_from_an_empty_cache(tmp_path, capsys):
     main(["figure", "all", "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
-    for number in CAPTIONS:
+    for number in figures.PAPER_FIGURES:
         for ending in (".nc", ".png", ".pdf", ".txt"):
             assert (tmp_path / f"figure_{number}{ending}").stat().st_size > 0

@@ -32,8 +32,9 @@ FLOORS = {
         {"datasets"},
         {"growth", "oscillation", "fem"},
         {"sweeps", "verification"},
-        {"comparison", "figures"},
-        {"explorer", "paper_figures", "report"},
+        {"comparison"},
+        {"figures", "explorer"},
+        {"report"},
         {"cli"},
     ],
 }
