@@ -122,7 +122,8 @@ def _described(result: Any) -> xr.Dataset:
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
     """Over `time`, named as `simulate` names what it returns; Eq. 16."""
-    sections = {"rotary_inertia": int(response.rotary_inertia), "shear_share": response.shear_share}
+    theory = response.theory
+    sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     angle = rippled(response.spin_up, response.loads).angle(response.time)
     return dataset(
         {
