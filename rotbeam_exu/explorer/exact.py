@@ -13,11 +13,12 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
+from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 
+from ..datasets import AMPLITUDE, dataset
 from ..lazily import xr
 
 TIP_HARMONICS = 20
@@ -26,11 +27,6 @@ _AXIS_HARMONICS = 7  # those beyond are below 2e-4 of the length, a twentieth of
 _AXIS_POINTS = 13
 _ORBITS = 16  # that a series goes through
 _CONVERGED = 1e-6  # its last coefficients: of ω_NL/ω_n, and of the length
-
-_NONE = {"units": "1"}
-_FREQUENCY = {"units": "rad/s"}
-
-Floats = NDArray[np.float64]
 
 
 def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
@@ -46,24 +42,25 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
                 tables = in_between(backbone, wanted)
         if tables is None:
             backbone, tables = _those_found(beam, omega, wanted)
-    along: Any = ("a", "k", "point")
-    return xr.Dataset(
+    along, ratio = ("a", "k", "point"), tables["ratio"][:, 0]
+    found = dataset(
         {
-            "exact_omega_n": ((), backbone.omega_n, _FREQUENCY),
-            "exact_lambda_omega": ((), backbone.lambda_omega, _NONE),
-            "exact_frequency": ("a", backbone.omega_n * tables["ratio"][:, 0], _FREQUENCY),
-            "harmonics": (("a", "harmonic"), tables["tip"], _NONE),
-            "axis_x": (along, tables["axis_x"], _NONE),
-            "axis_y": (along, tables["axis_y"], _NONE),
-            "note": ((), "; ".join(str(warning.message) for warning in caught)),
+            "exact_omega_n": ((), backbone.omega_n, "natural frequency ω_n [rad/s]"),
+            "exact_lambda_omega": ((), backbone.lambda_omega, "λ_ω"),
+            "exact_frequency": ("a", backbone.omega_n * ratio, "frequency ω_NL [rad/s]"),
+            "harmonics": (("a", "harmonic"), tables["tip"], "q/L over sin kφ"),
+            "axis_x": (along, tables["axis_x"], "x/L over cos kφ"),
+            "axis_y": (along, tables["axis_y"], "y/L over sin kφ"),
+            "note": ((), "; ".join(str(warning.message) for warning in caught), "warnings"),
         },
-        coords={"omega": omega, "a": ("a", list(amplitudes), _NONE)},
+        {"a": (list(amplitudes), AMPLITUDE)},
     )
+    return found.assign_coords(omega=omega)
 
 
 def _those_found(
-    beam: AnyBlade, omega: float, wanted: Floats
-) -> tuple[Backbone, dict[str, Floats]]:
+    beam: AnyBlade, omega: float, wanted: FloatArray
+) -> tuple[Backbone, dict[str, FloatArray]]:
     """Return the orbits themselves, NaN for those that are not found."""
     try:
         backbone = periodic_orbits(beam, omega, wanted)
@@ -79,7 +76,7 @@ def _those_found(
     return backbone, tables
 
 
-def _tables(backbone: Backbone) -> dict[str, Floats]:
+def _tables(backbone: Backbone) -> dict[str, FloatArray]:
     """Return ω_NL/ω_n and harmonics of the tip and of the axis, (orbits, harmonics, ...)."""
     count = min(TIP_HARMONICS, backbone.harmonics.shape[1])
     tip = np.pad(backbone.harmonics[:, :count], ((0, 0), (0, TIP_HARMONICS - count)))
@@ -89,7 +86,7 @@ def _tables(backbone: Backbone) -> dict[str, Floats]:
     return {"ratio": ratio, "tip": tip, "axis_x": axis_x, "axis_y": axis_y}
 
 
-def in_between(backbone: Backbone, wanted: Floats) -> dict[str, Floats] | None:
+def in_between(backbone: Backbone, wanted: FloatArray) -> dict[str, FloatArray] | None:
     """Return the same at other amplitudes, None where a series has not converged."""
     a, top = backbone.amplitude, float(wanted.max())
     at, onto = (chebyshev.chebvander(2.0 * (x / top) ** 2 - 1.0, a.size - 1) for x in (a, wanted))
@@ -107,7 +104,7 @@ def in_between(backbone: Backbone, wanted: Floats) -> dict[str, Floats] | None:
     return tables
 
 
-def _axis(backbone: Any, i: int) -> tuple[Floats, Floats]:
+def _axis(backbone: Any, i: int) -> tuple[FloatArray, FloatArray]:
     """Axis over L at the midpoints of half a period, which symmetry makes enough."""
     length = backbone.beam.length
     phase = np.pi * (np.arange(32) + 0.5) / 32
@@ -115,7 +112,7 @@ def _axis(backbone: Any, i: int) -> tuple[Floats, Floats]:
     return x / length, y / length
 
 
-def _axis_harmonics(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+def _axis_harmonics(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Cosine coefficients of x and sine coefficients of y, (k, points), k from 0."""
     count = len(x)
     angle = np.multiply.outer(np.arange(_AXIS_HARMONICS + 1), np.pi * (np.arange(count) + 0.5))
