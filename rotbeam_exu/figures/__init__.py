@@ -11,11 +11,11 @@ from __future__ import annotations
 import xarray as xr
 
 from .animation import animate, save_animation
-from .backbones import FIGURE_5, FIGURE_14, FIGURE_15, figure_5, figure_14, figure_15
+from .backbones import FIGURE_5, FIGURE_14, figure_5, figure_14
 from .maps import growth_out_of_plane, softening_by_plane, softening_map
 from .paper_figure import PaperFigure
 from .results import campbell, divergence_speed, forced_response, planar_stability, residual
-from .runs import FIGURE_3, FIGURE_4, figure_3, figure_4, spin_up
+from .runs import FIGURE_3, FIGURE_4, FIGURE_15, figure_3, figure_4, figure_15, spin_up
 from .style import STYLE, STYLES, Style, save_figure, style
 from .theory import (
     FIGURE_8,
