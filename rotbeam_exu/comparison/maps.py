@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analytic import AnyBlade, Beam
+from analytic import AnyBlade, Beam, Rectangle
 from analytic.exact.plane.orbit_growth import growth_rates
 from analytic.input_checks import finite_values
 from analytic.reduced.any_blade import blade_oscillator
@@ -124,7 +124,7 @@ def growth_out_of_plane(
     Dataset
         `growth_rate`, zero where stable, over (omega, a).
     """
-    blade = Beam.reference().rectangle() if blade is None else blade
+    blade = Beam.reference().with_shape(Rectangle()) if blade is None else blade
     speeds, peaks = np.linspace(0.0, 8.0, 25), np.geomspace(0.01, 0.4, 24)
     if omegas is not None:
         speeds = finite_values("omegas", omegas, "rad/s")

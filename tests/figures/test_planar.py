@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import OutOfPlane, planar_stability
+from analytic import Rectangle, Tube, planar_stability
 from rotbeam_exu import comparison, dataset_of, figures
 
 
@@ -16,7 +16,7 @@ def without_display(monkeypatch):
 
 
 def test_growth_over_the_amplitude(beam):
-    blade = beam.with_out_of_plane(OutOfPlane.rectangle(3.0))
+    blade = beam.blade.with_shape(Rectangle(ratio=3.0))
     found = planar_stability(blade, 2.0, [0.25, 0.3])
     axes = figures.planar_stability(dataset_of(found))
     by_label = {line.get_label(): line for line in axes.lines}
@@ -29,7 +29,7 @@ def test_growth_over_the_amplitude(beam):
 
 
 def test_what_stays_is_drawn_at_zero(beam):
-    found = planar_stability(beam.tube(0.015, 0.77e-3), 6.0, [0.1, 0.3])
+    found = planar_stability(beam.with_shape(Tube()), 6.0, [0.1, 0.3])
     axes = figures.planar_stability(dataset_of(found))
     assert axes.get_ylim()[0] == 0.0
     assert axes.get_yticks().tolist() == [0.0]
