@@ -1,20 +1,12 @@
-"""The exact orbits that the Explorer shows at one speed: a series in a² through some of them.
-
-A slider has more amplitudes than a series needs orbits. Harmonic k of anything at the amplitude a,
-over a for odd k, is an analytic function of a²: polynomials through Chebyshev's points give all of
-them, unless a resonance keeps them from converging.
-"""
+"""The exact orbits that the Explorer shows at one speed."""
 
 from __future__ import annotations
 
-import contextlib
 import warnings
-from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
-from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 
@@ -25,91 +17,52 @@ TIP_HARMONICS = 20
 """Harmonics of q/L kept; from the twelfth on they are below 4e-6."""
 _AXIS_HARMONICS = 7  # those beyond are below 2e-4 of the length, a twentieth of a pixel
 _AXIS_POINTS = 13
-_ORBITS = 16  # that a series goes through
-_CONVERGED = 1e-6  # its last coefficients: of ω_NL/ω_n, and of the length
 
 
 def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
-    """Return what is shown of the exact orbits at one speed; a pure function, for any executor."""
+    """Return what is shown of the exact orbits at one speed; a pure function, for any executor.
+
+    NaN for orbits that are not found.
+    """
     wanted = np.array(amplitudes)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RotbeamWarning)
-        tables = None
-        if wanted.size > 1.5 * _ORBITS:
-            at = wanted.max() * np.sqrt(0.5 + 0.5 * chebyshev.chebpts1(_ORBITS))
-            with contextlib.suppress(AmplitudeNotReachedError):  # in a resonance
-                backbone = periodic_orbits(beam, omega, at)
-                tables = in_between(backbone, wanted)
-        if tables is None:
-            backbone, tables = _those_found(beam, omega, wanted)
-    along, ratio = ("a", "k", "point"), tables["ratio"][:, 0]
-    found = dataset(
+        try:
+            backbone = periodic_orbits(beam, omega, wanted)
+        except AmplitudeNotReachedError as error:
+            if error.backbone is None:
+                raise
+            backbone = error.backbone
+    found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
+
+    def at_all(values: FloatArray) -> FloatArray:
+        whole = np.full((wanted.size, *values.shape[1:]), np.nan)
+        whole[found] = values
+        return whole
+
+    tip = backbone.harmonics[:, :TIP_HARMONICS]
+    tip = np.pad(tip, ((0, 0), (0, TIP_HARMONICS - tip.shape[1])))
+    # The midpoints of half a period, which symmetry makes enough.
+    phase = np.pi * (np.arange(32) + 0.5) / 32
+    points = np.linspace(0.0, beam.length, _AXIS_POINTS)
+    axes = [
+        _axis_harmonics(*backbone.axis(i, points, phase)) for i in range(backbone.amplitude.size)
+    ]
+    axis_x, axis_y = (np.array(parts) / beam.length for parts in zip(*axes, strict=True))
+    along = ("a", "k", "point")
+    orbits = dataset(
         {
             "exact_omega_n": ((), backbone.omega_n, "natural frequency ω_n [rad/s]"),
             "exact_lambda_omega": ((), backbone.lambda_omega, "λ_ω"),
-            "exact_frequency": ("a", backbone.omega_n * ratio, "frequency ω_NL [rad/s]"),
-            "harmonics": (("a", "harmonic"), tables["tip"], "q/L over sin kφ"),
-            "axis_x": (along, tables["axis_x"], "x/L over cos kφ"),
-            "axis_y": (along, tables["axis_y"], "y/L over sin kφ"),
+            "exact_frequency": ("a", at_all(backbone.frequency), "frequency ω_NL [rad/s]"),
+            "harmonics": (("a", "harmonic"), at_all(tip), "q/L over sin kφ"),
+            "axis_x": (along, at_all(axis_x), "x/L over cos kφ"),
+            "axis_y": (along, at_all(axis_y), "y/L over sin kφ"),
             "note": ((), "; ".join(str(warning.message) for warning in caught), "warnings"),
         },
         {"a": (list(amplitudes), AMPLITUDE)},
     )
-    return found.assign_coords(omega=omega)
-
-
-def _those_found(
-    beam: AnyBlade, omega: float, wanted: FloatArray
-) -> tuple[Backbone, dict[str, FloatArray]]:
-    """Return the orbits themselves, NaN for those that are not found."""
-    try:
-        backbone = periodic_orbits(beam, omega, wanted)
-    except AmplitudeNotReachedError as error:
-        if error.backbone is None:
-            raise
-        backbone = error.backbone
-    found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
-    tables = {}
-    for name, values in _tables(backbone).items():
-        tables[name] = np.full((wanted.size, *values.shape[1:]), np.nan)
-        tables[name][found] = values
-    return backbone, tables
-
-
-def _tables(backbone: Backbone) -> dict[str, FloatArray]:
-    """Return ω_NL/ω_n and harmonics of the tip and of the axis, (orbits, harmonics, ...)."""
-    count = min(TIP_HARMONICS, backbone.harmonics.shape[1])
-    tip = np.pad(backbone.harmonics[:, :count], ((0, 0), (0, TIP_HARMONICS - count)))
-    axes = [_axis_harmonics(*_axis(backbone, i)) for i in range(backbone.amplitude.size)]
-    axis_x, axis_y = (np.array(parts) for parts in zip(*axes, strict=True))
-    ratio = (backbone.frequency / backbone.omega_n)[:, None]
-    return {"ratio": ratio, "tip": tip, "axis_x": axis_x, "axis_y": axis_y}
-
-
-def in_between(backbone: Backbone, wanted: FloatArray) -> dict[str, FloatArray] | None:
-    """Return the same at other amplitudes, None where a series has not converged."""
-    a, top = backbone.amplitude, float(wanted.max())
-    at, onto = (chebyshev.chebvander(2.0 * (x / top) ** 2 - 1.0, a.size - 1) for x in (a, wanted))
-    tables = {}
-    for name, values in _tables(backbone).items():
-        odd = (np.arange(values.shape[1]) + (1 if name == "tip" else 0)) % 2
-        odd = odd.reshape(1, -1, *[1] * (values.ndim - 2))
-        column = (-1, *[1] * (values.ndim - 1))
-        even_in_a = values / a.reshape(column) ** odd
-        coefficients = np.linalg.solve(at, even_in_a.reshape(a.size, -1))
-        if np.abs(coefficients[-2:]).max() > _CONVERGED:
-            return None
-        found = (onto @ coefficients).reshape(wanted.size, *values.shape[1:])
-        tables[name] = found * wanted.reshape(column) ** odd
-    return tables
-
-
-def _axis(backbone: Any, i: int) -> tuple[FloatArray, FloatArray]:
-    """Axis over L at the midpoints of half a period, which symmetry makes enough."""
-    length = backbone.beam.length
-    phase = np.pi * (np.arange(32) + 0.5) / 32
-    x, y = backbone.axis(i, np.linspace(0.0, length, _AXIS_POINTS), phase)
-    return x / length, y / length
+    return orbits.assign_coords(omega=omega)
 
 
 def _axis_harmonics(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
