@@ -18,14 +18,12 @@ from analytic import (
     AmplitudeNotReachedError,
     AnyBlade,
     Backbone,
-    Damping,
     ForcedResponse,
     Gravity,
     PlanarStability,
     SpinUpResponse,
     StabilityLimit,
 )
-from analytic.damping import UNDAMPED
 from analytic.loads import HarmonicLoad, rippled
 
 from .lazily import xr
@@ -206,7 +204,12 @@ def _(response: ForcedResponse) -> xr.Dataset:
         "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
         "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
     }
-    backbone = None if weight else _backbone(response)
+    backbone: Backbone | None = None
+    if not weight:
+        try:
+            backbone = response.backbone
+        except AmplitudeNotReachedError as error:
+            backbone = error.backbone  # what of it is reached
     if backbone is not None:
         free = np.append(backbone.omega_n, backbone.frequency)
         label = "frequency of the free, undamped orbit [rad/s]"
@@ -224,10 +227,9 @@ def response_inputs(
     beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
 ) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
-    damping: Damping = getattr(beam, "damping", UNDAMPED)
     return {
         **beam_attributes(beam),
-        **{f"damping_{name}": value for name, value in asdict(damping).items()},
+        **{f"damping_{name}": value for name, value in asdict(beam.damping).items()},
         **loads_attributes([load]),
         "load": type(load).__name__,
         "load_size": load.size,
@@ -235,15 +237,6 @@ def response_inputs(
         "load_unit": load.unit,
         **({} if omega is None else {"omega": omega}),
     }
-
-
-def _backbone(response: ForcedResponse) -> Backbone | None:
-    """Return the backbone, or what of it is reached."""
-    try:
-        return response.backbone
-    except AmplitudeNotReachedError as error:
-        reached: Backbone | None = error.backbone
-        return reached
 
 
 def _marks(response: ForcedResponse) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
@@ -79,12 +80,8 @@ def figure_9(beam: Beam | None = None) -> xr.Dataset:
 def figure_10(beam: Beam | None = None) -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
     beam = beam or Beam.reference()
-    models = {
-        "cantilever mode": (beam, "CI"),
-        "degree 3": (beam, "P3"),
-        "degree 4": (beam, "P4"),
-        "degree 5": (beam, "P5"),
-    }
+    polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
+    models = {"cantilever mode": (beam, "CI"), **polynomials}
     return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
 
 
@@ -100,13 +97,7 @@ def figure_11(
     models = {}
     for mu in slendernesses:
         area = beam.second_moment / (mu * beam.length**2)
-        other = Beam(
-            length=beam.length,
-            area=area,
-            second_moment=beam.second_moment,
-            youngs_modulus=beam.youngs_modulus,
-            density=beam.mass_per_length / area,
-        )
+        other = replace(beam, area=area, density=beam.mass_per_length / area)
         models[f"μ = {mu:.4g}"] = (other, "CE")
     data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
     return data.assign_attrs(held="L, m and EI are held, EA = EI/(μL²)")

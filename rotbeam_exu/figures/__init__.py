@@ -1,4 +1,4 @@
-"""The figures: each takes data and `ax=`, returns Axes and shows nothing.
+"""The figures: each takes data and `ax=`, by default of a new figure, returns Axes, shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` an `analytic.Campbell`,

@@ -89,15 +89,7 @@ def _title(curve: xr.Dataset) -> str:
 
 
 def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the growth rate out of the plane over the amplitude, at one speed.
-
-    Parameters
-    ----------
-    data : Dataset
-        As made by `rotbeam_exu.dataset_of`.
-    ax : Axes, optional
-        Drawn on these; otherwise on a new figure.
-    """
+    """Draw the growth rate out of the plane over the amplitude, at one speed."""
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
     kinds, stable = data["kind"].to_numpy(), rate == 0.0
     with house_axes(ax, column(), 2.6) as axes:
@@ -123,15 +115,7 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude left over the ramp time: closed form, exact, finite elements, quiet ramps.
-
-    Parameters
-    ----------
-    data : Dataset
-        As made by `rotbeam_exu.comparison.residual`.
-    ax : Axes, optional
-        Drawn on these; otherwise on a new figure.
-    """
+    """Draw the amplitude left over the ramp time: closed form, exact, by elements, quiet ramps."""
     times, blue, red = data["ramp_time"], ink(BLUE), ink(RED)
     points: dict[str, dict[str, Any]] = {
         "exact": {"color": "black", "marker": "o", "ms": 3.5, "label": "exact transient"},
@@ -165,15 +149,7 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the divergence speed over the number of substructures, for either frame.
-
-    Parameters
-    ----------
-    data : Dataset
-        As made by `rotbeam_exu.fem.stability.divergence_speeds`.
-    ax : Axes, optional
-        Drawn on these; otherwise on a new figure.
-    """
+    """Draw the divergence speed over the number of substructures, for either frame."""
     omega_0, counts = float(data.attrs["omega_0"]), data["substructures"]
     with house_axes(ax, column(), 2.6) as axes:
         axes.axhline(omega_0, color="0.6", lw=0.5)

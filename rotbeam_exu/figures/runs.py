@@ -217,19 +217,9 @@ FIGURE_15 = PaperFigure(
 
 
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
-    """Draw q(t), its steady phase shaded, and the steady orbit (q, q_dot) of a run.
+    """Draw q(t), its steady phase shaded, and the steady orbit (q, q_dot) of a run by `simulate`.
 
-    Parameters
-    ----------
-    run : Dataset
-        As made by `simulate`.
-    ax : two Axes, optional
-        Drawn on these; otherwise on a new figure.
-
-    Returns
-    -------
-    tuple of Axes
-        Time history and phase space.
+    On two Axes, of the time history and of phase space.
     """
     ramp_time, end = float(run.attrs["ramp_time"]), float(run["time"][-1])
     steady = run.where(run["time"] >= ramp_time, drop=True)
