@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from analytic import AmplitudeNotReachedError, periodic_orbits
-from rotbeam_exu.explorer import exact, explorer_data, explorer_page
+from rotbeam_exu.explorer import data as room
+from rotbeam_exu.explorer import explorer_data, explorer_page
 
 
 def test_uneven_sliders_are_refused():
@@ -34,8 +35,8 @@ def test_orbits_that_are_not_found_leave_a_gap(beam, monkeypatch):
     def not_the_last(beam, omega, amplitudes):
         raise AmplitudeNotReachedError("drifts", periodic_orbits(beam, omega, amplitudes[:-1]))
 
-    monkeypatch.setattr(exact, "periodic_orbits", not_the_last)
-    found = exact.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
+    monkeypatch.setattr(room, "periodic_orbits", not_the_last)
+    found = room.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
     assert np.isnan(found["exact_frequency"]).to_numpy().tolist() == [False, False, True]
     assert np.isnan(found["axis_x"].to_numpy()[2]).all()
 
