@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -51,6 +53,57 @@ class UnitBlade:
     axial: Profile = 1.0
     rotary: Profile = 0.0
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    angle: float = 0.0
+    cone: float = 0.0
+    twist: Profile = 0.0
+    prebend: Profile = 0.0
+    sweep: Profile = 0.0
+    center: tuple[float, float] = (0.0, 0.0)
+    tension: tuple[float, float] = (0.0, 0.0)
+    flap: float = 1.0
+    torsion: float = math.inf
+    polar: float | None = None
+    told_rotary: bool = False
+    body_offsets: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def twists(self) -> bool:
+        """Whether slices twist against each other."""
+        return self.torsion < math.inf
+
+    @property
+    def axis(self) -> FloatArray:
+        """The axis of rotation in the root frame, (3,)."""
+        return np.array([math.sin(self.cone), 0.0, math.cos(self.cone)])
+
+    @property
+    def clamp(self) -> FloatArray:
+        """The clamp's place from the axis of rotation in the root frame, (3,)."""
+        return self.hub * np.array([math.cos(self.cone), 0.0, -math.sin(self.cone)])
+
+    @property
+    def bodies(self) -> list[tuple[float, float, float, tuple[float, float]]]:
+        """Position, mass, inertia and offset of each point mass."""
+        offsets = self.body_offsets or ((0.0, 0.0),) * len(self.masses)
+        return [(*one, offset) for one, offset in zip(self.masses, offsets, strict=True)]
+
+    @property
+    def half_turn(self) -> bool:
+        """Whether a half turn about the blade maps its motions onto motions in reversed time."""
+        offsets = (self.center, self.tension, *self.body_offsets)
+        straight = self.cone == 0.0 and self.prebend == 0.0 and self.sweep == 0.0
+        return straight and not any(any(one) for one in offsets)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the mirror through the blade and the axis of rotation does so.
+
+        Of sections whose own planes lie in that mirror and across it.
+        """
+        if self.twist != 0.0 or self.sweep != 0.0:
+            return False
+        offsets = (self.center, self.tension, *self.body_offsets)
+        return self.angle == 0.0 and not any(one[0] for one in offsets)
 
     @cached_property
     def panels(self) -> FloatArray:
@@ -60,7 +113,9 @@ class UnitBlade:
     @cached_property
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
-        profiles = (self.mass, self.bending, self.axial, self.rotary)
+        profiles = (
+            self.mass, self.bending, self.axial, self.rotary, self.twist, self.prebend, self.sweep
+        )  # fmt: skip
         kinks = [x for profile in profiles for x in stations(profile)]
         ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
         ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
