@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from .arrays import FloatArray
+from .line import STRAIGHT, Line, Offset
 from .profiles import Profile, evaluated, stations
 from .quadrature import Grid
 
@@ -43,6 +44,18 @@ class UnitBlade:
         Inertia against rotation over m0 L².
     damping : tuple
         η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
+    angle : float
+        ψ [rad].
+    line : Line
+        Over L.
+    flap, torsion : float
+        EI out of the plane and GJ over EI; 1 and infinite where they are not known.
+    polar : float or None
+        ρI_p over m0 L² at the root, None of a homogeneous section.
+    told_rotary : bool
+        Whether the section tells `rotary`.
+    body_offsets : tuple
+        (c2, c3) over L of each point mass.
     """
 
     hub: float = 0.0
@@ -54,17 +67,12 @@ class UnitBlade:
     rotary: Profile = 0.0
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
     angle: float = 0.0
-    cone: float = 0.0
-    twist: Profile = 0.0
-    prebend: Profile = 0.0
-    sweep: Profile = 0.0
-    center: tuple[float, float] = (0.0, 0.0)
-    tension: tuple[float, float] = (0.0, 0.0)
+    line: Line = STRAIGHT
     flap: float = 1.0
     torsion: float = math.inf
     polar: float | None = None
     told_rotary: bool = False
-    body_offsets: tuple[tuple[float, float], ...] = ()
+    body_offsets: tuple[Offset, ...] = ()
 
     @property
     def twists(self) -> bool:
@@ -74,12 +82,12 @@ class UnitBlade:
     @property
     def axis(self) -> FloatArray:
         """The axis of rotation in the root frame, (3,)."""
-        return np.array([math.sin(self.cone), 0.0, math.cos(self.cone)])
+        return np.array([math.sin(self.line.precone), 0.0, math.cos(self.line.precone)])
 
     @property
     def clamp(self) -> FloatArray:
         """The clamp's place from the axis of rotation in the root frame, (3,)."""
-        return self.hub * np.array([math.cos(self.cone), 0.0, -math.sin(self.cone)])
+        return self.hub * np.array([math.cos(self.line.precone), 0.0, -math.sin(self.line.precone)])
 
     @property
     def bodies(self) -> list[tuple[float, float, float, tuple[float, float]]]:
@@ -90,9 +98,9 @@ class UnitBlade:
     @property
     def half_turn(self) -> bool:
         """Whether a half turn about the blade maps its motions onto motions in reversed time."""
-        offsets = (self.center, self.tension, *self.body_offsets)
-        straight = self.cone == 0.0 and self.prebend == 0.0 and self.sweep == 0.0
-        return straight and not any(any(one) for one in offsets)
+        line = self.line
+        straight = line.precone == 0.0 and line.prebend == 0.0 and line.sweep == 0.0
+        return straight and not any(any(one) for one in self._offsets)
 
     @property
     def mirrored(self) -> bool:
@@ -100,10 +108,13 @@ class UnitBlade:
 
         Of sections whose own planes lie in that mirror and across it.
         """
-        if self.twist != 0.0 or self.sweep != 0.0:
-            return False
-        offsets = (self.center, self.tension, *self.body_offsets)
-        return self.angle == 0.0 and not any(one[0] for one in offsets)
+        line = self.line
+        straight = line.twist == 0.0 and line.sweep == 0.0 and self.angle == 0.0
+        return straight and not any(one[0] for one in self._offsets)
+
+    @property
+    def _offsets(self) -> tuple[Offset, ...]:
+        return self.line.mass_offset, self.line.tension_offset, *self.body_offsets
 
     @cached_property
     def panels(self) -> FloatArray:
@@ -113,8 +124,9 @@ class UnitBlade:
     @cached_property
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
+        line = self.line
         profiles = (
-            self.mass, self.bending, self.axial, self.rotary, self.twist, self.prebend, self.sweep
+            self.mass, self.bending, self.axial, self.rotary, line.twist, line.prebend, line.sweep
         )  # fmt: skip
         kinks = [x for profile in profiles for x in stations(profile)]
         ends = _apart([*kinks, *(position for position, _, _ in self.masses)])

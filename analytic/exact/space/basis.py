@@ -116,6 +116,11 @@ class StrainFunctions:
         """Number of coordinates."""
         return sum(self.counts)
 
+    def refined(self) -> StrainFunctions:
+        """Return half as many functions again, one more at least."""
+        more = (n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial))
+        return StrainFunctions(self.blade, self.theory, self.slenderness, *more)
+
     @cached_property
     def grid(self) -> Grid:
         """Points at which fields are evaluated."""
@@ -145,7 +150,7 @@ class StrainFunctions:
 
     def _turned(self, x: FloatArray) -> FloatArray:
         """Return the section's frame in that without twist, (3, 3, places)."""
-        return about_axis(self.blade.angle + evaluated(self.blade.twist, x))
+        return about_axis(self.blade.angle + evaluated(self.blade.line.twist, x))
 
     def _flexibility(self, x: FloatArray, power: float) -> FloatArray:
         """Return a power of the flexibility against (κ2, κ3), (places, 2, 2)."""
@@ -191,7 +196,7 @@ class StrainFunctions:
                 self._moments(self.torsion).forces(x) / GJ @ twisted
             )
         # The mean strain is that at the center of tension, (y, z) from the line.
-        y, z = blade.tension
+        y, z = blade.line.tension_offset
         local = np.einsum("jip,jpk->ipk", turned, K)
         Γ[0] = y * local[2] - z * local[1]
         if axial or shear:
@@ -204,13 +209,13 @@ class StrainFunctions:
                 half, start = shear // 2, start + axial
                 Γ[1, :, start : start + half] = along / math.sqrt(theory.shear or 1.0)
                 Γ[2, :, start + half :] = along / math.sqrt(theory.shear or 1.0)
-        bows = np.stack((np.zeros_like(x), evaluated(blade.prebend, x), evaluated(blade.sweep, x)))
+        bows = np.stack((np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x)))
         k2 = self.slenderness * (1.0 + blade.flap) * EI3 / EA
         return Strains(
             Γ=Γ,
             K=K,
             initial=np.einsum("ijp,jp->ip", turned, bows),
-            twist=slope_of(blade.twist, x),
+            twist=slope_of(blade.line.twist, x),
             trapeze=k2 if theory.trapeze else np.zeros_like(x),
         )
 
@@ -226,7 +231,7 @@ class StrainFunctions:
         places = np.concatenate((x, positions))
         turned = self._turned(places)
         own = np.zeros((3, places.size))
-        own[1:] = np.concatenate((np.tile(blade.center, (x.size, 1)), centers)).T
+        own[1:] = np.concatenate((np.tile(blade.line.mass_offset, (x.size, 1)), centers)).T
         none = np.zeros_like(inertias)
         J = np.stack([np.concatenate(pair) for pair in ((j1, none), (j2, none), (j3, inertias))])
         air = blade.damping[2]

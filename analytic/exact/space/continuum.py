@@ -248,6 +248,22 @@ class SpaceContinuum:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
 
+    def places(self, q: FloatArray, x: FloatArray) -> FloatArray:
+        """Return the places r of material points `x` of one state `q` (n,), (points, 3)."""
+        slope = self._state(q[None]).slope[:, 0]
+        return np.asarray(self.functions.grid.integral(x) @ slope.T)
+
+    def changes(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return δr and δφ at material points `x` for changes of a state `q` (n,), (3, points, n)."""
+        at, still = self._state(q[None]), np.zeros((1, self.size))
+        change = _Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))
+        onto = self.functions.grid.integral(x)
+        return onto @ change.slope[:, 0], onto @ change.bend[:, 0]
+
+    def refined(self) -> SpaceContinuum:
+        """Return the discretization with half as many functions again, on every panel."""
+        return SpaceContinuum(self.functions.refined())
+
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the root frame, (samples,)."""
         at = self._state(q)
@@ -295,11 +311,11 @@ class _Changes:
         Γ = np.broadcast_to(own.Γ[:, None], (3, len(at.K[0]), *own.Γ.shape[1:])).copy()
         if own.trapezes:
             Γ[0] -= (own.trapeze * (at.K[0] + own.twist))[..., None] * own.K[0]
-        self._bend, self._stretch = turned(frame, own.K[:, None]), turned(frame, Γ)
-        self.turn = self._inner(self._bend)
-        self.turn_m = self._outer(self._bend)
-        self._slope = cross(self.turn, at.slope[..., None]) + self._stretch
-        self._place_m = self._outer(self._slope)
+        self.bend, self._stretch = turned(frame, own.K[:, None]), turned(frame, Γ)
+        self.turn = self._inner(self.bend)
+        self.turn_m = self._outer(self.bend)
+        self.slope = cross(self.turn, at.slope[..., None]) + self._stretch
+        self._place_m = self._outer(self.slope)
         self._offset = cross(self.turn_m, at.offset_m[..., None])
         self.center = self._place_m + self._offset
 
@@ -333,7 +349,7 @@ class _Changes:
 
     def _velocity_slope(self, spin: FloatArray, at: _State, motion: _Motion) -> FloatArray:
         """Return δv' to q where the spin changes by `spin`."""
-        slope = cross(spin, at.slope[..., None]) + cross(motion.spin[..., None], self._slope)
+        slope = cross(spin, at.slope[..., None]) + cross(motion.spin[..., None], self.slope)
         slope += cross(self.turn, motion.stretching[..., None])
         return slope + self._shortening(motion.turning)
 
@@ -350,7 +366,7 @@ class _Changes:
         """Return the derivatives of A_c and of J α + ω × J ω to q̇."""
         at, motion, W = self._at, self._motion, self._W
         spin, turn = motion.spin[..., None], self.turn
-        change = cross(turn, motion.turning[..., None]) + cross(spin, self._bend)
+        change = cross(turn, motion.turning[..., None]) + cross(spin, self.bend)
         slope = (
             cross(self._inner(change), at.slope[..., None])
             + cross(turn, cross(spin, at.slope[..., None]) + 2.0 * motion.stretching[..., None])
@@ -379,13 +395,13 @@ class _Changes:
         stretched = cross(turn, stretching) + self._shortening(motion.turning)
         pulled = (
             cross(self._inner(change), slope)
-            + cross(motion.spin_rate[..., None], self._slope)
+            + cross(motion.spin_rate[..., None], self.slope)
             + cross(spins, cross(spin, slope) + 2.0 * stretching)
-            + cross(spin, cross(spins, slope) + cross(spin, self._slope) + 2.0 * stretched)
+            + cross(spin, cross(spins, slope) + cross(spin, self.slope) + 2.0 * stretched)
             + cross(turn, motion.speeding[..., None])
             + self._shortening(motion.twisting)
         )
-        velocity = self._outer(cross(spins, slope) + cross(spin, self._slope) + stretched)
+        velocity = self._outer(cross(spins, slope) + cross(spin, self.slope) + stretched)
         about = self._outer(change) + cross(W, spins_m)
         total, offset = motion.total_spin[..., None], at.offset_m[..., None]
         pull = self._outer(pulled) + cross(W, 2.0 * velocity + cross(W, self._place_m))
@@ -411,9 +427,9 @@ class _Changes:
         F, M = force[..., None], moment[..., None]
         # -(Φ_l × a_k) · M = -(a_k × M) · Φ_l
         work = -np.swapaxes(
-            _contracted(self.turn, cross(self._bend, M) + cross(self._stretch, F)), 1, 2
+            _contracted(self.turn, cross(self.bend, M) + cross(self._stretch, F)), 1, 2
         )
-        work -= _contracted(self.turn, cross(self._slope, F))
+        work -= _contracted(self.turn, cross(self.slope, F))
         work += _contracted(self.turn_m, cross(self._offset, pulled[..., None]))
         if own.trapezes:
             along = own.trapeze * turned_back(at.frame, force)[0]
