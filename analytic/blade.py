@@ -70,9 +70,7 @@ class Variations(Described, abstract=True):
         self, mass: float, inertia: float = 0.0, offset: Offset = (0.0, 0.0)
     ) -> Blade:
         """Return the blade with one mass [kg] more at its tip, `offset` [m] from the line."""
-        more = (
-            PointMass(position=self.blade.length, mass=mass, inertia=inertia, offset=offset),
-        )
+        more = (PointMass(position=self.blade.length, mass=mass, inertia=inertia, offset=offset),)
         return replace(self.blade, point_masses=self.blade.point_masses + more)
 
     def with_twist(self, angle: Profile) -> Blade:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from .description import Described
 from .input_checks import finite_number
@@ -12,10 +13,10 @@ Offset = tuple[float, float]
 """(c2, c3): along the chord, to the leading edge, and along the thickness, of the section."""
 
 
-def checked_offset(name: str, offset: object) -> Offset:
+def checked_offset(name: str, offset: Any) -> Offset:
     """Return an offset as two plain numbers [m]."""
     try:
-        c2, c3 = offset  # type: ignore[misc]
+        c2, c3 = offset
     except (TypeError, ValueError):
         raise TypeError(
             f"{name} must be a pair (c2, c3) [m], along chord and thickness, got {offset!r}"

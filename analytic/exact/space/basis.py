@@ -52,10 +52,12 @@ class Masses:
 
 @dataclass(frozen=True, eq=False)
 class Strains:
-    """Functions at some places: Γ and K (3, places, n), and what they change from.
+    """Functions at some places, and the unloaded blade there.
 
     Attributes
     ----------
+    gamma, K : ndarray (3, places, n)
+        Γ and K.
     initial : ndarray (3, places)
         K of the unloaded blade, without the twist.
     twist : ndarray (places,)
@@ -64,7 +66,7 @@ class Strains:
         k² of the trapeze effect, zero without it.
     """
 
-    Γ: FloatArray
+    gamma: FloatArray
     K: FloatArray
     initial: FloatArray
     twist: FloatArray
@@ -157,7 +159,7 @@ class StrainFunctions:
         EI3 = evaluated(self.blade.bending, x)
         turned = self._turned(x)[1:, 1:]
         own = np.stack((self.blade.flap * EI3, EI3)) ** -power
-        return np.einsum("ikp,kp,jkp->pij", turned, own, turned)
+        return np.asarray(np.einsum("ikp,kp,jkp->pij", turned, own, turned))
 
     def _moments(self, count: int) -> ShapeFunctions:
         return shape_functions(self.blade, count * self.blade.panel_count)
@@ -185,7 +187,7 @@ class StrainFunctions:
         """Return the functions at material points `x`."""
         blade, theory = self.blade, self.theory
         bending, torsion, axial, shear = self.counts
-        Γ, K = np.zeros((2, 3, x.size, self.size))
+        gamma, K = np.zeros((2, 3, x.size, self.size))
         bent, twisted = self._own
         turned = self._turned(x)
         K[1:, :, :bending] = np.moveaxis(self._bent(x, 1.0) @ bent, 1, 0)
@@ -198,21 +200,23 @@ class StrainFunctions:
         # The mean strain is that at the center of tension, (y, z) from the line.
         y, z = blade.line.tension_offset
         local = np.einsum("jip,jpk->ipk", turned, K)
-        Γ[0] = y * local[2] - z * local[1]
+        gamma[0] = y * local[2] - z * local[1]
         if axial or shear:
             along = shape_functions(blade, self.axial * blade.panel_count, "axial").strain(x)
             along = math.sqrt(self.slenderness) * along
             start = bending + torsion
             if axial:
-                Γ[0, :, start : start + axial] += along
+                gamma[0, :, start : start + axial] += along
             if shear:
                 half, start = shear // 2, start + axial
-                Γ[1, :, start : start + half] = along / math.sqrt(theory.shear or 1.0)
-                Γ[2, :, start + half :] = along / math.sqrt(theory.shear or 1.0)
-        bows = np.stack((np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x)))
+                gamma[1, :, start : start + half] = along / math.sqrt(theory.shear or 1.0)
+                gamma[2, :, start + half :] = along / math.sqrt(theory.shear or 1.0)
+        bows = np.stack(
+            (np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x))
+        )
         k2 = self.slenderness * (1.0 + blade.flap) * EI3 / EA
         return Strains(
-            Γ=Γ,
+            gamma=gamma,
             K=K,
             initial=np.einsum("ijp,jp->ip", turned, bows),
             twist=slope_of(blade.line.twist, x),
@@ -224,8 +228,10 @@ class StrainFunctions:
         """What the slices and the point masses weigh."""
         blade, x, weights = self.blade, self.grid.points, self.grid.weights
         positions, lumped, inertias, centers = (
-            np.array(kind) for kind in zip(*blade.bodies, strict=True)
-        ) if blade.bodies else (np.empty(0), np.empty(0), np.empty(0), np.empty((0, 2)))
+            (np.array(kind) for kind in zip(*blade.bodies, strict=True))
+            if blade.bodies
+            else (np.empty(0), np.empty(0), np.empty(0), np.empty((0, 2)))
+        )
         mass = evaluated(blade.mass, x)
         j1, j2, j3 = weights * self._inertias(x, mass)
         places = np.concatenate((x, positions))

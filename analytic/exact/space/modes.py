@@ -49,24 +49,24 @@ class SpaceModes:
 
     def lag(self, x: ArrayLike) -> ComplexArray:
         """Return the displacements at `x` [m] in the direction of rotation, (points, count)."""
-        return self._moved(x)[0][1]
+        return np.asarray(self._moved(x)[0][1])
 
     def flap(self, x: ArrayLike) -> ComplexArray:
         """Return the displacements at `x` [m] normal to it and to the clamp, (points, count).
 
         On the scale of `lag`: the larger of both is 1 at the tip. The phase tells which is ahead.
         """
-        return self._moved(x)[0][2]
+        return np.asarray(self._moved(x)[0][2])
 
     def twist(self, x: ArrayLike) -> ComplexArray:
         """Return the turns about the clamp's axis at `x` [m] on that scale, (points, count)."""
-        return self._moved(x)[1][0]
+        return np.asarray(self._moved(x)[1][0])
 
     def _moved(self, x: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
         length = self.blade.length
         at = np.append(points_of_beam("x", x, length), 1.0)
-        place, turn = self.model.changes(self._steady, at)
-        place, turn = length * place @ self.coordinates, turn @ self.coordinates
+        places, turns = self.model.changes(self._steady, at)
+        place, turn = length * places @ self.coordinates, turns @ self.coordinates
         tip = place[1:, -1]
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
         return place[:, :-1] / largest, turn[:, :-1] / largest

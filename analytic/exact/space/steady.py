@@ -52,6 +52,17 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     )
 
 
+def lives_in_space(beam: AnyBlade) -> bool:
+    """Whether flap, lag and torsion of a blade go together.
+
+    A setting angle mixes them where the stiffness out of the plane and in torsion is known.
+    """
+    blade = beam.blade
+    known = blade.section.out_of_plane
+    turned = blade.setting_angle != 0.0 and known is not None and known.torsion_ratio is not None
+    return turned or not blade.is_planar
+
+
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     known = beam.blade.section.out_of_plane
@@ -150,13 +161,13 @@ class SpaceBlade:
 
 
 def _newton(model: SpaceContinuum, q: FloatArray, rate: float) -> FloatArray | None:
-    """Return the state near `q` (n,) in which nothing moves, None if it is not found or unstable."""
+    """Return the steady state near `q` (n,); None if it is not found, or unstable."""
     still = np.zeros((1, model.size))
     for _ in range(_STEPS):
         tangent = model.tangent(q[None], still, still, rate)
         change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
         q = q - change
-        if np.linalg.norm(change) <= _EXACT * max(np.linalg.norm(q), _EXACT):
+        if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
             stable = np.linalg.eigvalsh(tangent.stiffness[0])[0] > 0.0
             return q if stable else None
     return None
@@ -197,13 +208,11 @@ class SteadyState:
     def axis(self, x: ArrayLike) -> FloatArray:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
-        return self.blade.length * self._model.places(self._coordinates, at)
+        return np.asarray(self.blade.length * self._model.axis(self._coordinates[None], at)[0])
 
 
 @one_thread
-def steady_state(
-    blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EULER
-) -> SteadyState:
+def steady_state(blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EULER) -> SteadyState:
     """Return the steady state of a blade in rotation, straight, bent or twisted.
 
     Followed from rest in steps of the speed; functions are added until the tip settles.

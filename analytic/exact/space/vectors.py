@@ -131,6 +131,6 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
     start[::4] = 1.0
     inside = np.linalg.solve(system, np.broadcast_to(start, (samples, 4 * count, 1)))
     rates = np.einsum("sjab,sjb->sja", matrix, inside.reshape(samples, count, 4))
-    result = np.einsum("ij,sja->asi", integral, rates)
+    result: FloatArray = np.einsum("ij,sja->asi", integral, rates)
     result[0] += 1.0
     return result
