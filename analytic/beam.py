@@ -244,7 +244,7 @@ def undamped(beam: AnyBlade) -> AnyBlade:
 
 def require_undamped(beam: AnyBlade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
-    require_blade(beam)
+    require_planar(beam)
     if any(beam.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "

@@ -19,7 +19,7 @@ from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
-from .line import STRAIGHT, Line, Offset, scaled
+from .line import STRAIGHT, Line, Offset
 from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units
@@ -305,9 +305,6 @@ class Blade(Variations):
     def unit(self) -> UnitBlade:
         """The blade without dimensions."""
         m0, length, section = self._root("mass_per_length"), self.length, self.section
-        line, out = self.line.in_units(length), section.out_of_plane
-        twist = math.inf if out is None or out.torsion_ratio is None else out.torsion_ratio
-        polar = None if out is None or out.polar_inertia is None else out.polar_inertia
         return UnitBlade(
             hub=self.hub_radius / length,
             setting=math.cos(self.setting_angle),
@@ -324,13 +321,6 @@ class Blade(Variations):
                 self.damping.axial * self.frequency_scale,
                 self.damping.external / (m0 * self.frequency_scale),
             ),
-            angle=self.setting_angle,
-            line=line,
-            flap=1.0 if out is None else out.bending_ratio,
-            torsion=twist,
-            polar=None if polar is None else polar / (m0 * length**2),
-            told_rotary=section.rotary_inertia is not None,
-            body_offsets=tuple(scaled(one.offset, length) for one in self.point_masses),
         )
 
     def _root(self, name: str) -> float:

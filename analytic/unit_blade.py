@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,7 +10,6 @@ from itertools import pairwise
 import numpy as np
 
 from .arrays import FloatArray
-from .line import STRAIGHT, Line, Offset
 from .profiles import Profile, evaluated, stations
 from .quadrature import Grid
 
@@ -43,18 +41,6 @@ class UnitBlade:
         Inertia against rotation over m0 L².
     damping : tuple
         η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
-    angle : float
-        ψ [rad].
-    line : Line
-        Over L.
-    flap, torsion : float
-        EI out of the plane and GJ over EI; 1 and infinite where they are not known.
-    polar : float or None
-        ρI_p over m0 L² at the root, None of a homogeneous section.
-    told_rotary : bool
-        Whether the section tells `rotary`.
-    body_offsets : tuple
-        (c2, c3) over L of each point mass.
     """
 
     hub: float = 0.0
@@ -65,69 +51,21 @@ class UnitBlade:
     axial: Profile = 1.0
     rotary: Profile = 0.0
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    angle: float = 0.0
-    line: Line = STRAIGHT
-    flap: float = 1.0
-    torsion: float = math.inf
-    polar: float | None = None
-    told_rotary: bool = False
-    body_offsets: tuple[Offset, ...] = ()
-
-    @property
-    def twists(self) -> bool:
-        """Whether slices twist against each other."""
-        return self.torsion < math.inf
-
-    @property
-    def axis(self) -> FloatArray:
-        """The axis of rotation in the root frame, (3,)."""
-        return np.array([math.sin(self.line.precone), 0.0, math.cos(self.line.precone)])
-
-    @property
-    def clamp(self) -> FloatArray:
-        """The clamp's place from the axis of rotation in the root frame, (3,)."""
-        return self.hub * np.array([math.cos(self.line.precone), 0.0, -math.sin(self.line.precone)])
-
-    @property
-    def bodies(self) -> list[tuple[float, float, float, tuple[float, float]]]:
-        """Position, mass, inertia and offset of each point mass."""
-        offsets = self.body_offsets or ((0.0, 0.0),) * len(self.masses)
-        return [(*one, offset) for one, offset in zip(self.masses, offsets, strict=True)]
-
-    @property
-    def half_turn(self) -> bool:
-        """Whether a half turn about the blade maps its motions onto motions in reversed time."""
-        line = self.line
-        straight = line.precone == 0.0 and line.prebend == 0.0 and line.sweep == 0.0
-        return straight and not any(any(one) for one in self._offsets)
-
-    @property
-    def mirrored(self) -> bool:
-        """Whether the mirror through the blade and the axis of rotation does so.
-
-        Of sections whose own planes lie in that mirror and across it.
-        """
-        line = self.line
-        straight = line.twist == 0.0 and line.sweep == 0.0 and self.angle == 0.0
-        return straight and not any(one[0] for one in self._offsets)
-
-    @property
-    def _offsets(self) -> tuple[Offset, ...]:
-        return self.line.mass_offset, self.line.tension_offset, *self.body_offsets
 
     @cached_property
     def panels(self) -> FloatArray:
         """Ends of the panels between point masses, at which forces jump, 0 to 1."""
         return _some(_apart(position for position, _, _ in self.masses), _MOST_PANELS)
 
+    @property
+    def profiles(self) -> tuple[Profile, ...]:
+        """All that varies along the blade."""
+        return self.mass, self.bending, self.axial, self.rotary
+
     @cached_property
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
-        line = self.line
-        profiles = (
-            self.mass, self.bending, self.axial, self.rotary, line.twist, line.prebend, line.sweep
-        )  # fmt: skip
-        kinks = [x for profile in profiles for x in stations(profile)]
+        kinks = [x for profile in self.profiles for x in stations(profile)]
         ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
         ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
         return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])

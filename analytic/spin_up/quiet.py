@@ -198,6 +198,7 @@ def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6)
     >>> print(f"{residual_amplitude(beam, spin_up):.4f} L by the closed form")
     0.1680 L by the closed form
     """
+    require_planar(beam)
     require_ramp(spin_up)
     period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
     T = spin_up.ramp_time

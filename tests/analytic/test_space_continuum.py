@@ -9,12 +9,12 @@ from analytic.exact.beam.continuum import Continuum
 from analytic.exact.space.basis import StrainFunctions
 from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
+from analytic.exact.space.unit import SpaceUnit
 from analytic.line import Line
 from analytic.theory import Theory
-from analytic.unit_blade import UNIFORM
 
-ALL = replace(
-    UNIFORM, hub=0.3, flap=0.2, torsion=0.1, angle=0.3, bending=(1.0, -0.4),
+ALL = SpaceUnit(
+    hub=0.3, flap=0.2, torsion=0.1, angle=0.3, bending=(1.0, -0.4),
     masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
     line=Line(
         twist=(0.0, 0.7, -0.2), precone=0.1, prebend=0.1, sweep=(0.05, 0.1),
@@ -40,9 +40,9 @@ def states(model, size, samples=2, seed=0):
 @pytest.mark.parametrize("shear", [None, 0.3])
 def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
     """Residual and tangent, of a blade on a hub with a tip mass, drag and viscosity."""
-    blade = replace(
-        UNIFORM, hub=0.4, masses=((1.0, 0.3, 0.02),), damping=(0.1, 0.05, 0.2), flap=0.3,
-        torsion=0.2,
+    blade = SpaceUnit(
+        hub=0.4, masses=((1.0, 0.3, 0.02),), body_offsets=((0.0, 0.0),), damping=(0.1, 0.05, 0.2),
+        flap=0.3, torsion=0.2,
     )  # fmt: skip
     planar = Continuum(1e-2, 8, 6, blade=blade, shear=shear)
     model = space(blade, Theory(shear=shear, trapeze=False), 1e-2, 8, 4, 6)
@@ -127,7 +127,7 @@ def test_forces_are_the_slope_of_the_potential(theory):
     ],
 )
 def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd):
-    blade = replace(UNIFORM, hub=0.3, flap=0.2, torsion=0.1, **change)
+    blade = SpaceUnit(hub=0.3, flap=0.2, torsion=0.1, **change)
     model = space(blade, Theory(rotary_inertia=True))
     said, (q, q_dot, q_ddot) = model.functions.odd, states(model, 0.1)
     here = model.residual(q, q_dot, q_ddot, 2.0)

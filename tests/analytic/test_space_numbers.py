@@ -9,7 +9,17 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, SpinUp, Theory, linear_modes, spin_up_response, steady_state
+from analytic import (
+    Beam,
+    Damping,
+    SpinUp,
+    Theory,
+    campbell,
+    damping_ratios,
+    linear_modes,
+    spin_up_response,
+    steady_state,
+)
 
 PLAIN = Theory(extension=False, trapeze=False)
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
@@ -158,3 +168,18 @@ def test_the_spin_up_of_a_twisted_blade(tolerance, count, error):
 def test_bad_input(call, sentence):
     with pytest.raises((TypeError, ValueError), match=sentence):
         call()
+
+
+def test_campbell_and_damping_ratios_of_a_twisted_blade():
+    """Modes keep their shape over the speed; external drag damps all by d/(2 m ω_j) at rest."""
+    blade = BLADE.with_twist(math.radians(30.0))
+    diagram = campbell(blade, [0.5, 1.0], 2, orders=2)
+    known = linear_modes(blade, 1.0, 2).frequencies
+    assert diagram.frequencies[1] == pytest.approx(known, rel=1e-9)
+    assert diagram.mac.min() > 0.99
+    assert diagram.names == ["mode 1", "mode 2"]
+    theory = Theory(extension=False, trapeze=False)
+    modes = linear_modes(blade, 0.0, 2, theory=theory).frequencies
+    damped = blade.with_damping(Damping(external=0.02))
+    ratios = damping_ratios(damped, 0.0, 2, theory=theory)
+    assert ratios == pytest.approx(0.01 / modes, rel=1e-6)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +24,7 @@ from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rate
 from ..plane.orbit_growth import planar_note
 from ..space.continuum import SpaceContinuum
-from ..space.steady import lives_in_space, space_continuum, space_rotation
+from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .transient import Motion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -191,7 +192,8 @@ def spin_up_response(
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        finer = integrated(beam, rotation, loads, model, grid, time, along, spin_up.start)
+        at_first = _steady(beam, model, spin_up.start)
+        finer = integrated(beam, rotation, loads, model, grid, time, along, at_first)
         if finer is None:
             coarser = None
             continue
@@ -229,6 +231,14 @@ def _model(
     model = blade_continuum(beam, theory, functions, functions // 2)
     steady_rate(beam, highest, model)
     return model
+
+
+def _steady(beam: AnyBlade, model: Continuum | SpaceContinuum, omega: float) -> FloatArray:
+    """Return the coordinates (n,) of the steady state at ω [rad/s]."""
+    rate = omega / beam.frequency_scale
+    if lives_in_space(beam):
+        return SpaceBlade(cast(SpaceContinuum, model), rate).equilibrium
+    return cast(Continuum, model).steady_state(rate) if rate else np.zeros(model.size)
 
 
 def _in_space(beam: AnyBlade, motion: Motion) -> dict[str, FloatArray]:

@@ -65,16 +65,15 @@ def integrated(
     grid: FloatArray,
     time: FloatArray,
     points: FloatArray,
-    start: float = 0.0,
+    q: FloatArray,
 ) -> Motion | None:
     """Return the motion on the grid of steps, None where Newton's method fails.
 
     A step on which it does is halved first, as often as it takes. Before the first the blade does
-    not swing, and the rotation at the speed `start` [rad/s] stretches it.
+    not swing, in the state `q` (n,).
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
     drive = _drive(beam, rotation, loads, model)
-    q = model.steady_state(start / per_second) if start else np.zeros(model.size)
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)

@@ -17,7 +17,7 @@ from ...profiles import evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import Theory
-from ...unit_blade import UnitBlade
+from .unit import SpaceUnit
 from .vectors import about_axis
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
@@ -87,7 +87,7 @@ class StrainFunctions:
 
     Parameters
     ----------
-    blade : UnitBlade
+    blade : SpaceUnit
     theory : Theory
     slenderness : float
         μ.
@@ -95,7 +95,7 @@ class StrainFunctions:
         Functions a panel for each curvature of bending, for κ1, and for ε and each γ.
     """
 
-    blade: UnitBlade
+    blade: SpaceUnit
     theory: Theory
     slenderness: float
     bending: int
@@ -112,6 +112,12 @@ class StrainFunctions:
             2 * self.bending * panels, twists * panels,
             axial * theory.extension, 2 * axial * (theory.shear is not None),
         )  # fmt: skip
+
+    @property
+    def families(self) -> tuple[int, ...]:
+        """Functions of each family: both curvatures, κ1, ε, γ2, γ3."""
+        bending, torsion, axial, shear = self.counts
+        return bending, torsion, axial, shear // 2, shear // 2
 
     @property
     def size(self) -> int:

@@ -218,6 +218,20 @@ class SpaceContinuum:
 
     # What is read off the shape.
 
+    @property
+    def bending(self) -> int:
+        """Number of functions for each curvature."""
+        return self.functions.counts[0] // 2
+
+    def padded(self, q: Any, other: SpaceContinuum) -> Any:
+        """Return the coordinates of the same shape in the larger basis of `other`."""
+        result = np.zeros((*q.shape[:-1], other.size), dtype=q.dtype)
+        start = end = 0
+        for own, others in zip(self.functions.families, other.functions.families, strict=True):
+            result[..., end : end + own] = q[..., start : start + own]
+            start, end = start + own, end + others
+        return result
+
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
@@ -237,12 +251,6 @@ class SpaceContinuum:
     def setting(self) -> float:
         """1: loads in the plane of rotation act in it, however the blade is set."""
         return 1.0
-
-    def steady_state(self, rate: float) -> FloatArray:
-        """Return the coordinates (n,) of the steady state at a constant rate."""
-        from .steady import SpaceBlade  # noqa: PLC0415  (a system, which knows its model)
-
-        return SpaceBlade(self, rate).equilibrium
 
     def deflection(self, tip: FloatArray) -> FloatArray:
         """Return what of the tip's place is across the clamp's line."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -35,6 +36,8 @@ class SpaceModes:
         Shares of flap, lag and torsion in the kinetic energy of each mode.
     error : float
         Largest relative change of the frequencies by the last refinement.
+    coordinates : ndarray (count, n)
+        The modes in the energy norm of the discretization, by which `campbell` tells them apart.
     """
 
     blade: AnyBlade
@@ -66,7 +69,8 @@ class SpaceModes:
         length = self.blade.length
         at = np.append(points_of_beam("x", x, length), 1.0)
         places, turns = self.model.changes(self._steady, at)
-        place, turn = length * places @ self.coordinates, turns @ self.coordinates
+        shapes = self.coordinates.T
+        place, turn = length * places @ shapes, turns @ shapes
         tip = place[1:, -1]
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
         return place[:, :-1] / largest, turn[:, :-1] / largest
@@ -81,7 +85,7 @@ def space_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> Sp
         If they do not.
     """
     functions = max(FUNCTIONS, count + 4)
-    before = None
+    before, error = None, math.inf
     while True:
         model = space_continuum(blade, theory, functions)
         steady = space_rotation(blade, omega, model)
@@ -97,16 +101,33 @@ def space_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> Sp
                     "modes, or rotate slower"
                 )
         before, functions = found, 3 * functions // 2
-    coordinates = shapes[:, :count]
+    return _packed(blade, omega, steady, found[:count], shapes[:, :count], error)
+
+
+def space_modes_on(model: SpaceContinuum, blade: AnyBlade, omega: float, count: int) -> SpaceModes:
+    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    steady = space_rotation(blade, omega, model)
+    found, shapes = _solved(steady)
+    return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
+
+
+def _packed(
+    blade: AnyBlade,
+    omega: float,
+    steady: SpaceBlade,
+    frequencies: FloatArray,
+    shapes: ComplexArray,
+    error: float,
+) -> SpaceModes:
     return SpaceModes(
         blade=blade,
         omega=omega,
-        theory=theory,
-        frequencies=found[:count] * blade.frequency_scale,
-        shares=_shares(steady, coordinates),
+        theory=steady.model.functions.theory,
+        frequencies=frequencies * blade.frequency_scale,
+        shares=_shares(steady, shapes),
         error=error,
-        model=model,
-        coordinates=coordinates,
+        model=steady.model,
+        coordinates=shapes.T,
         _steady=steady.equilibrium,
     )
 

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_steady_state
+from ...beam import AnyBlade, require_steady_state, warn_if_rpm
 from ...input_checks import points_of_beam, rotation_speed
 from ...methods.system import Tangent
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
+from .unit import space_unit
 
 FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
@@ -38,7 +39,7 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     """
     require_section(beam)
     require_theory(theory)
-    unit = beam.blade.unit
+    unit = space_unit(beam)
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(
         StrainFunctions(
@@ -100,7 +101,7 @@ class SpaceBlade:
     @property
     def functions(self) -> int:
         """Number of functions for each curvature of bending."""
-        return self.model.functions.counts[0] // 2
+        return self.model.bending
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -240,6 +241,7 @@ def steady_state(blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EU
     [ 7.9622  0.     -0.7619]
     """
     omega = rotation_speed(omega)
+    warn_if_rpm(blade, omega)
     functions, before, error = FUNCTIONS, None, math.inf
     while True:
         model = space_continuum(blade, theory, functions)
