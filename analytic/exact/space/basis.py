@@ -44,7 +44,12 @@ class Masses:
     inertia: FloatArray
     drag: FloatArray | None
 
-    @property
+    @cached_property
+    def whole_on_line(self) -> bool:
+        """Whether all masses are points on the line."""
+        return not self.offset.any() and not self.turns
+
+    @cached_property
     def turns(self) -> bool:
         """Whether there is inertia against rotation."""
         return bool(self.inertia.any())

@@ -114,8 +114,11 @@ class Changes:
             + 2.0 * self._shortening(motion.turning)
         )
         total, offset = motion.total_spin[..., None], at.offset_m[..., None]
+        pull = self._outer(slope) + 2.0 * cross(W, self._place_m)
+        if self._model.masses.whole_on_line:
+            return pull, pull
         about = self._outer(change) + cross(W, self.turn_m)
-        pull = self._outer(slope) + 2.0 * cross(W, self._place_m) + cross(about, offset)
+        pull += cross(about, offset)
         pull += cross(self.turn_m, cross(total, offset)) + cross(total, self._offset)
         if not self._model.masses.turns:
             return pull, about
@@ -130,7 +133,7 @@ class Changes:
         turn, spin, slope = self.turn, motion.spin[..., None], at.slope[..., None]
         turning, stretching = motion.turning[..., None], motion.stretching[..., None]
         bent = cross(turn, turning)
-        spins, spins_m = self._inner(bent), self._outer(bent)
+        spins = self._inner(bent)
         change = cross(turn, motion.twisting[..., None]) + cross(spins, turning) + cross(spin, bent)
         stretched = cross(turn, stretching) + self._shortening(motion.turning)
         pulled = (
@@ -142,10 +145,13 @@ class Changes:
             + self._shortening(motion.twisting)
         )
         velocity = self._outer(cross(spins, slope) + cross(spin, self.slope) + stretched)
-        about = self._outer(change) + cross(W, spins_m)
         total, offset = motion.total_spin[..., None], at.offset_m[..., None]
         pull = self._outer(pulled) + cross(W, 2.0 * velocity + cross(W, self._place_m))
         pull += cross(W_dot, self._place_m)
+        if self._model.masses.whole_on_line:
+            return pull, pull
+        spins_m = self._outer(bent)
+        about = self._outer(change) + cross(W, spins_m)
         pull += cross(about, offset) + cross(motion.total_spin_rate[..., None], self._offset)
         pull += cross(spins_m, cross(total, offset))
         pull += cross(total, cross(spins_m, offset) + cross(total, self._offset))

@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ...arrays import FloatArray
 from ...quadrature import Grid
 
 
-def cross(a: Any, b: Any) -> FloatArray:
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return a × b of fields (3, ...), which broadcast."""
-    return np.stack(
-        (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    )
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(a[j], b[k], out=result[i])
+        result[i] -= a[k] * b[j]
+    return result
 
 
 def turned(frame: FloatArray, vector: FloatArray) -> FloatArray:
     """Return R y for frames (3, 3, ...) and vectors (3, ...)."""
-    return np.stack([sum(frame[i, j] * vector[j] for j in range(3)) for i in range(3)])
+    result = np.empty((3, *np.broadcast_shapes(frame.shape[2:], vector.shape[1:])))
+    for i, row in enumerate(frame):
+        np.multiply(row[0], vector[0], out=result[i])
+        result[i] += row[1] * vector[1]
+        result[i] += row[2] * vector[2]
+    return result
 
 
 def turned_back(frame: FloatArray, vector: FloatArray) -> FloatArray:
     """Return Rᵀ y for frames (3, 3, ...) and vectors (3, ...)."""
-    return np.stack([sum(frame[j, i] * vector[j] for j in range(3)) for i in range(3)])
+    return turned(np.swapaxes(frame, 0, 1), vector)
 
 
 def about_axis(angle: FloatArray) -> FloatArray:
