@@ -45,9 +45,10 @@ class Theory:
     extension: bool = True
     shear: float | None = None
     rotary_inertia: bool = False
+    trapeze: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("extension", "rotary_inertia"):
+        for name in ("extension", "rotary_inertia", "trapeze"):
             object.__setattr__(self, name, flag(name, getattr(self, name)))
         if self.shear is None:
             return
