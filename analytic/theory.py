@@ -26,6 +26,10 @@ class Theory:
     rotary_inertia : bool
         Whether slices have inertia against rotation in the plane: that of a homogeneous section,
         ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
+    trapeze : bool
+        Whether slices of a blade in space have inertia against torsion too, with the propeller
+        moment, and twist shortens the axis, the trapeze effect. Both are of the same size; codes
+        without them are compared with False.
 
     Raises
     ------

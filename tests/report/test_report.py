@@ -113,6 +113,7 @@ def test_the_document_is_json_and_says_all(right):
         "extension": True,
         "shear": None,
         "rotary_inertia": False,
+        "trapeze": True,
     }
 
 
