@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from .description import Described
 from .input_checks import not_negative
+from .line import Offset, checked_offset, scaled
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +21,8 @@ class PointMass(Described):
         [kg].
     inertia : float
         Against rotation in the plane of bending [kg m²].
+    offset : tuple
+        (c2, c3) [m] from the blade's line, along chord and thickness of the section.
 
     Examples
     --------
@@ -34,6 +37,7 @@ class PointMass(Described):
     position: float
     mass: float
     inertia: float = 0.0
+    offset: Offset = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         at = not_negative(
@@ -48,6 +52,7 @@ class PointMass(Described):
             position=at,
             mass=not_negative("mass", self.mass, "kg"),
             inertia=not_negative("inertia", self.inertia, "kg m^2"),
+            offset=checked_offset("offset", self.offset),
         )
 
     def in_units(self, length: float, mass: float) -> PointMass:
@@ -56,4 +61,5 @@ class PointMass(Described):
             position=self.position / length,
             mass=self.mass / mass,
             inertia=self.inertia / (mass * length**2),
+            offset=scaled(self.offset, length),
         )

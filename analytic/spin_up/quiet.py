@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_blade
+from ..beam import AnyBlade, require_planar
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
@@ -86,7 +86,7 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
-    require_blade(beam)
+    require_planar(beam)
     omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")

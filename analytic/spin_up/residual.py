@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade, require_blade
+from ..beam import AnyBlade, require_planar
 from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import linear_modes
 from ..input_checks import finite_array, flag, positive, whole_number
@@ -104,6 +104,7 @@ def residual_amplitude(
     mode = whole_number("mode", mode)
     if flag("corrected", corrected) and mode != 1:
         raise ValueError(f"corrected=True knows the backbone of mode 1, got mode={mode}")
+    require_planar(beam)
     require_ramp(spin_up)
     if flag("exact", exact):
         if ramp_times is not None or corrected or mode != 1:
@@ -125,7 +126,7 @@ def residual_amplitude(
 
 def modes_for(beam: AnyBlade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
-    require_blade(beam)
+    require_planar(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
     top = max(1.0, math.ceil(10.0 * spin_up.fastest / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
