@@ -247,6 +247,13 @@ class SpaceContinuum:
         """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
         return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
 
+    def tip_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
+        at, still = self._state(q), np.zeros_like(q)
+        motion = self._motion(at, still, still, 0.0, 0.0)
+        change = Changes(self, at, motion, *self._clamp(0.0, 0.0))
+        return np.moveaxis(self.weights @ change.slope, 0, 1)
+
     @property
     def setting(self) -> float:
         """1: loads in the plane of rotation act in it, however the blade is set."""

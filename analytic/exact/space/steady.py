@@ -141,6 +141,27 @@ class SpaceBlade:
                 step *= 0.5
             rate = min(reached + step, self.rate)
 
+    @property
+    def driven(self) -> bool:
+        """No drive acts."""
+        return False
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the tip's place along the direction, less that of the steady state, (samples,)."""
+        return np.asarray((self.model.tip(q) - self.tip) @ np.array(self.direction))
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return its rate, (samples,)."""
+        return np.asarray(self.model.tip_rate(q, q_dot) @ np.array(self.direction))
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return its derivatives to the coordinates, (samples, n)."""
+        return np.asarray(np.array(self.direction) @ self.model.tip_gradient(q))
+
+    def lifted(self, q: FloatArray, finer: SpaceBlade) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return np.asarray(self.model.padded(q, finer.model))
+
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
         return self.model.residual(q, q_dot, q_ddot, self.rate)
@@ -161,7 +182,7 @@ class SpaceBlade:
         """Return the blade on half as many functions again."""
         return SpaceBlade(self.model.refined(), self.rate, self.direction, self)
 
-    @property
+    @cached_property
     def tip(self) -> FloatArray:
         """Place of the tip from the clamp in the steady state, (3,)."""
         return np.asarray(self.model.tip(self.equilibrium[None])[0])
