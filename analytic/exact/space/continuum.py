@@ -16,8 +16,7 @@ shortens the axis. With the spin ω' = R K̇ relative to b, d'Alembert's princip
 
 A_c, ω and α being those in space. All integrals from the clamp are one matrix, all beyond a point
 its transpose with the weights: so mass and stiffness are symmetric, and the Jacobi integral is
-kept. The plane is the subset κ3, ε, γ2. Derived in the literature on rotor blades with strains as
-variables; see Su and Cesnik (2011) and Boyer and Renda (2017).
+kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesnik (2011).
 """
 
 from __future__ import annotations
