@@ -9,11 +9,11 @@ from .fem.stability import critical_speed as critical_speed
 from .fem.stability import divergence_speed as divergence_speed
 from .files.results import load as load
 from .files.results import save as save
-from .growth import GrowthRate as GrowthRate
-from .growth import growth_rate_of as growth_rate_of
-from .oscillation import SteadyOscillation as SteadyOscillation
-from .oscillation import steady_oscillation as steady_oscillation
+from .runs.check import SimulationError as SimulationError
+from .runs.growth import GrowthRate as GrowthRate
+from .runs.growth import growth_rate_of as growth_rate_of
+from .runs.oscillation import SteadyOscillation as SteadyOscillation
+from .runs.oscillation import steady_oscillation as steady_oscillation
 from .sweeps.grid import sweep as sweep
-from .verdict import SimulationError as SimulationError
 
 __version__: str

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..fem.case import Case
 from ..fem.elements import formulation
 from ..fem.linearization import natural_frequencies
-from ..oscillation import SteadyOscillation
+from ..runs.oscillation import SteadyOscillation
 from ..verification.entries import theory_of
 
 WORTH = 1e-2

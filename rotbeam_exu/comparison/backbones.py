@@ -12,8 +12,8 @@ from analytic import Beam, periodic_orbits, planar_note, reduced_model
 from ..fem.frame import Frame
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
+from ..runs.attributes import beam_attributes
 from ..sweeps.grid import sweep
-from ..verdict import beam_attributes
 from .theory import beyond_range
 
 _FITTED = 0.6

@@ -8,8 +8,8 @@ from analytic import SpinUpResponse
 from analytic.loads import rippled
 
 from ..lazily import xr
-from ..verdict import beam_attributes, loads_attributes, motion_attributes
-from ..versions import versions
+from ..runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from ..runs.versions import versions
 
 
 def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:

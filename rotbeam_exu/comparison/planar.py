@@ -22,7 +22,7 @@ from analytic.input_checks import finite_values
 
 from ..lazily import xr
 from ..paper import SPEEDS
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 
 _OMEGA: dict[str, Any] = {"units": "rad/s", "long_name": "angular velocity ω"}
 _AMPLITUDE: dict[str, Any] = {"units": "1", "long_name": "amplitude a = |q|/L of the planar orbit"}

@@ -13,8 +13,8 @@ from analytic.damping import UNDAMPED
 from analytic.loads import HarmonicLoad
 
 from ..lazily import xr
-from ..verdict import beam_attributes, loads_attributes
-from ..versions import versions
+from ..runs.attributes import beam_attributes, loads_attributes
+from ..runs.versions import versions
 
 
 def forced_response(response: ForcedResponse) -> xr.Dataset:

@@ -11,8 +11,8 @@ from analytic import Beam, SpinUp
 
 from ..fem.simulation import simulate
 from ..lazily import xr
-from ..oscillation import steady_oscillation
-from ..verdict import beam_attributes, motion_attributes
+from ..runs.attributes import beam_attributes, motion_attributes
+from ..runs.oscillation import steady_oscillation
 
 
 def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:

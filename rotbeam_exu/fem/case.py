@@ -16,8 +16,7 @@ from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 from analytic.ramps import AnyRamp, fastest, require_ramp
 
-from ..resolution import checked_steps
-from ..verdict import (
+from ..runs.attributes import (
     beam_attributes,
     beam_of,
     loads_attributes,
@@ -25,6 +24,7 @@ from ..verdict import (
     motion_attributes,
     motion_of,
 )
+from ..runs.resolution import checked_steps
 from .elements import Formulation, formulation, require_modeled
 from .frame import Frame, require_frame
 

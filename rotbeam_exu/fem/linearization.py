@@ -16,8 +16,8 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.lazily import sparse
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
-from ..resolution import require_feasible, require_stretch, warn_if_coarse
-from ..verdict import SimulationError
+from ..runs.check import SimulationError
+from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
 from .lazily import exudyn

@@ -21,8 +21,8 @@ from analytic.ramps import AnyRamp
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..verdict import SimulationError, check_run, remedy
-from ..versions import versions
+from ..runs.check import SimulationError, check_run, remedy
+from ..runs.versions import versions
 from .case import Case
 from .columns import columns
 from .elements import Chain, Formulation
@@ -104,7 +104,7 @@ def simulate(
     ValueError, TypeError
         If an input is refused.
     SimulationError
-        If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+        If the solver fails, or the run does not pass the checks of `rotbeam_exu.runs.check`.
     KeyboardInterrupt
         On Ctrl-C, at the next step.
 

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..paper import MODEL_NAMES, MODELS
-from ..verdict import beam_of
+from ..runs.attributes import beam_of
 from .captions import CAPTIONS
 
 _COEFFICIENTS = "λ_ω of ω_NL = ω_n (1 - λ_ω a²) and λ_x of Eq. 65, a → 0,"

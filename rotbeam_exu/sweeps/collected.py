@@ -9,7 +9,7 @@ import numpy as np
 
 from ..fem.case import Case
 from ..lazily import xr
-from ..versions import versions
+from ..runs.versions import versions
 from .measured import MEASURED
 
 

@@ -12,8 +12,8 @@ from ..fem.elements import Formulation, formulation
 from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import run_case
 from ..lazily import xr
-from ..oscillation import NoOscillationError, steady_oscillation
-from ..verdict import SimulationError
+from ..runs.check import SimulationError
+from ..runs.oscillation import NoOscillationError, steady_oscillation
 from .provenance import code_of
 
 MEASURED = {

@@ -22,7 +22,7 @@ from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.system import exudyn_system
 from rotbeam_exu.files.beam_file import load_beam
-from rotbeam_exu.verdict import beam_of
+from rotbeam_exu.runs.attributes import beam_of
 
 
 def frequency_errors(blade, *meshes):

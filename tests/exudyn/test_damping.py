@@ -20,7 +20,8 @@ from rotbeam_exu.fem.elements.formulation import spun
 from rotbeam_exu.fem.linearization import mass_matrix
 from rotbeam_exu.fem.loading import Loading
 from rotbeam_exu.fem.system import exudyn_system
-from rotbeam_exu.verdict import beam_of, check_run, energy_drift
+from rotbeam_exu.runs.attributes import beam_of
+from rotbeam_exu.runs.check import check_run, energy_drift
 
 
 def by_mass(beam, c):

@@ -23,7 +23,8 @@ from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.system import exudyn_system
-from rotbeam_exu.verdict import check_run, loads_of, remedy
+from rotbeam_exu.runs.attributes import loads_of
+from rotbeam_exu.runs.check import check_run, remedy
 
 ALL = (
     Gravity(2.0),

@@ -11,7 +11,7 @@ from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import FORMULATIONS, formulation
 from rotbeam_exu.fem.linearization import growth_rate, mass_matrix
-from rotbeam_exu.verdict import _reach
+from rotbeam_exu.runs.check import _reach
 
 FLAP = 0.5 * math.pi
 GAUSS = np.append(gauss_points(40)[0], 1.0)

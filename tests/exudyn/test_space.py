@@ -22,8 +22,8 @@ from rotbeam_exu.fem.space.simulation import simulate_3d
 from rotbeam_exu.fem.space.state import SpaceState
 from rotbeam_exu.fem.system import exudyn_system
 from rotbeam_exu.fem.units import Units
-from rotbeam_exu.growth import growth_rate_of
-from rotbeam_exu.verdict import energy_drift
+from rotbeam_exu.runs.check import energy_drift
+from rotbeam_exu.runs.growth import growth_rate_of
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
 RECTANGLE = Beam.reference().rectangle()

@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
-from rotbeam_exu.verdict import energy_drift
+from rotbeam_exu.runs.check import energy_drift
 
 TIMES = [1.5, 3.0, 6.0, 10.0, 15.0]
 CONVERGED = np.array([-4.887901, 1.441960, 2.349072, -0.895043, -0.287494])

@@ -28,8 +28,8 @@ FLOORS = {
     ],
     "rotbeam_exu": [
         {"lazily"},
-        {"versions", "paper", "resolution", "tones", "verdict", "files"},
-        {"growth", "oscillation", "fem"},
+        {"paper", "runs", "files"},
+        {"fem"},
         {"sweeps", "verification"},
         {"comparison", "figures"},
         {"explorer", "paper_figures", "report"},
@@ -105,10 +105,10 @@ def test_no_arrow_points_up_and_each_library_has_its_room():
         ("analytic.beam", "exudyn"),
         ("analytic.methods.harmonic_balance", "analytic.exact.beam.continuum"),
         ("analytic.reduced.model", "analytic.exact.linear.modes"),
-        ("analytic.exact.linear.modes", "rotbeam_exu.verdict"),
+        ("analytic.exact.linear.modes", "rotbeam_exu.runs.check"),
         ("rotbeam_exu.verification.measures", "exudyn"),
         ("rotbeam_exu.fem.simulation", "rotbeam_exu.sweeps.grid"),
-        ("rotbeam_exu.oscillation", "rotbeam_exu.fem.case"),
+        ("rotbeam_exu.runs.oscillation", "rotbeam_exu.fem.case"),
         ("rotbeam_exu.cli.run", "matplotlib.pyplot"),
     ],
 )

@@ -9,7 +9,7 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import finite_number
 
 from ...lazily import xr
-from ...verdict import SimulationError
+from ...runs.check import SimulationError
 from ..case import Case
 from ..frame import Frame
 from ..simulation import run_case
@@ -74,7 +74,7 @@ def simulate_3d(
     ValueError, TypeError
         If an input is refused.
     SimulationError
-        If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+        If the solver fails, or the run does not pass the checks of `rotbeam_exu.runs.check`.
 
     Examples
     --------

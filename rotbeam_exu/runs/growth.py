@@ -10,7 +10,7 @@ import numpy as np
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive
 
-from .lazily import xr
+from ..lazily import xr
 
 SMALL = 1e-2
 """Deflection out of the plane over L up to which the growth is that of small motion."""

@@ -13,9 +13,9 @@ from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
-from .lazily import xr
+from ..lazily import xr
+from .attributes import beam_of
 from .tones import fit_signal
-from .verdict import beam_of
 
 SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
@@ -80,7 +80,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """Measure the oscillation of q from the end of the ramp to the end of the run.
 
     A Fourier series and, for the other modes, free tones are fitted to q, frequencies included, by
-    least squares weighted with Hann's window (`rotbeam_exu.tones`). The errors bound what the
+    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). The errors bound what the
     remainder of the fit could have done, were its phases the least lucky. Time may be in any
     unit, evenly sampled or not.
 
