@@ -162,6 +162,11 @@ class Beam(Described):
         """The beam without dimensions: the uniform blade."""
         return UNIFORM
 
+    hub_radius = property(lambda self: 0.0)
+    point_masses = property(lambda self: ())
+    damping = property(lambda self: self.blade.damping)
+    section = property(lambda self: self.blade.section)
+
     @property
     def blade(self) -> Blade:
         """The same as a `Blade`, without a hub."""

@@ -107,6 +107,8 @@ class Blade(Described):
                     f"{own:.4g} kg: give it in kg, or clamp the blade there"
                 )
 
+    blade = property(lambda self: self)
+
     def with_hub_radius(self, radius: float) -> Blade:
         """Return the blade clamped at `radius` [m] from the axis."""
         return replace(self, hub_radius=radius)

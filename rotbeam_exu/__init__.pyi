@@ -1,11 +1,10 @@
+from .fem.linearization import flap_frequencies as flap_frequencies
 from .fem.linearization import growth_rate as growth_rate
 from .fem.linearization import natural_frequencies as natural_frequencies
 from .fem.linearization import steady_stretch as steady_stretch
+from .fem.out_of_plane import simulate_3d as simulate_3d
+from .fem.picture import ray_traced as ray_traced
 from .fem.simulation import simulate as simulate
-from .fem.space.linearization import flap_frequencies as flap_frequencies
-from .fem.space.picture import ray_traced as ray_traced
-from .fem.space.simulation import simulate_3d as simulate_3d
-from .fem.stability import critical_speed as critical_speed
 from .fem.stability import divergence_speed as divergence_speed
 from .files.results import load as load
 from .files.results import save as save

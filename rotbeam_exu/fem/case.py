@@ -26,7 +26,7 @@ from ..runs.attributes import (
 )
 from ..runs.resolution import checked_steps
 from .elements import Formulation, formulation, require_modeled
-from .frame import Frame, require_frame
+from .frame import Frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,8 +74,7 @@ class Case:
         require_blade(self.beam)
         if not isinstance(self.spin_up, SteadyRotation):
             require_ramp(self.spin_up)
-        require_frame(self.beam, self.frame)
-        require_modeled(self.beam, self.model)
+        require_modeled(self.beam, self.model, self.frame)
         _ = self.steps_and_sampling
         try:
             _ = hash(self.model), describe(self.model)

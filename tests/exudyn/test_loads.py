@@ -22,7 +22,7 @@ from rotbeam_exu import SimulationError, load, save, simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Exact
-from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.runs.attributes import loads_of
 from rotbeam_exu.runs.check import check_run, remedy
 

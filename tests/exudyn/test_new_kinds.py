@@ -33,8 +33,7 @@ from rotbeam_exu import comparison, figures, load, natural_frequencies, save, si
 from rotbeam_exu.cli.repeat import recorded_case
 from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
-from rotbeam_exu.fem.elements import Cable
-from rotbeam_exu.fem.space.elements import SpaceCable
+from rotbeam_exu.fem.elements import Cable, SpaceCable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.runs.attributes import (
     beam_attributes,

@@ -14,13 +14,11 @@ from analytic import (
     planar_stability,
 )
 from rotbeam_exu import ray_traced, simulate
-from rotbeam_exu.fem.elements.formulation import spun
-from rotbeam_exu.fem.space.elements import SpaceCable, SpaceExact
-from rotbeam_exu.fem.space.linearization import flap_frequencies
-from rotbeam_exu.fem.space.nodes import FrameNodes, directors
-from rotbeam_exu.fem.space.simulation import simulate_3d
-from rotbeam_exu.fem.space.state import SpaceState
-from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.fem.elements import SpaceCable, SpaceExact
+from rotbeam_exu.fem.elements.reissner_in_space import FrameNodes, directors
+from rotbeam_exu.fem.linearization import flap_frequencies
+from rotbeam_exu.fem.out_of_plane import SpaceState, simulate_3d
+from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.fem.units import Units
 from rotbeam_exu.runs.check import energy_drift
 from rotbeam_exu.runs.growth import growth_rate_of
@@ -69,7 +67,7 @@ def test_forces_turn_with_the_blade(model, blade, elastic_force):
     assert np.abs(after - before).max() < 1e-12 * np.abs(force).max()
     # The rate of turning is the generator's.
     later = model.turned(at[None], np.array([1e-6])) - model.turned(at[None], np.array([-1e-6]))
-    np.testing.assert_allclose(later / 2e-6, spun(model, at[None]), atol=1e-9)
+    np.testing.assert_allclose(later / 2e-6, model.spun(at[None]), atol=1e-9)
 
 
 def test_rates_of_a_state_are_those_of_its_coordinates():

@@ -1,4 +1,4 @@
-"""The cubic shape functions of nodes that carry a value and its slope."""
+"""Shape functions: cubic ones of nodes that carry a value and its slope, and Lagrange's."""
 
 from __future__ import annotations
 
@@ -11,6 +11,20 @@ HERMITE = tuple(
     for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])
 )
 """Of value and slope at the one end and at the other, over ξ from 0 to 1, on unit length."""
+
+_LAGRANGE = {
+    1: tuple(np.polynomial.Polynomial(c) for c in ([1, -1], [0, 1])),
+    2: tuple(np.polynomial.Polynomial(c) for c in ([1, -3, 2], [0, 4, -4], [0, -1, 2])),
+}
+
+
+def lagrange(xi: FloatArray, degree: int, order: int = 0) -> FloatArray:
+    """Return the derivatives to ξ from 0 to 1, of `order`, of those of evenly spaced nodes.
+
+    (points, nodes); degree 2 is Eqs. 3-5.
+    """
+    functions = (f.deriv(order) if order else f for f in _LAGRANGE[degree])
+    return np.stack([function(xi) for function in functions], axis=1)
 
 
 def scales(length: float) -> FloatArray:
