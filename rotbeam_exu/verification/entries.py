@@ -11,7 +11,6 @@ from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
 from .peers import PEERS, Entry, StateOf, installed, peer
-from .theory import BERNOULLI_EULER, Theory
 
 
 def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
@@ -73,16 +72,9 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         elements=elements,
         meshes=meshes,
         step=step,
-        theory=theory_of(model),
+        theory=model.theory,
         order=order,
     )
-
-
-def theory_of(model: Formulation) -> Theory:
-    """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
-    if model.shear_share is None:
-        return BERNOULLI_EULER
-    return Theory(rotary_inertia=True, shear_share=model.shear_share)
 
 
 def entries_at_hand() -> tuple[Entry, ...]:

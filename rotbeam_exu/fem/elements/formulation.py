@@ -13,6 +13,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.description import Described
 from analytic.lazily import sparse
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..frame import Frame
 from ..lazily import exudyn
@@ -93,9 +94,9 @@ class Formulation(Described, abstract=True):
         return None
 
     @property
-    def shear_share(self) -> float | None:
-        """k_s GA over EA of a beam with shear and rotary inertia; None of Bernoulli-Euler's."""
-        return None
+    def theory(self) -> Theory:
+        """Theory of its beam: Bernoulli and Euler's unless it shears and has rotary inertia."""
+        return BERNOULLI_EULER
 
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
