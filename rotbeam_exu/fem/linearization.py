@@ -18,7 +18,7 @@ from analytic.lazily import linalg
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
-from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
+from ..runs.resolution import require_stretch, warn_if_coarse
 from . import drive
 from .elements import Chain, Formulation, SpaceCable, formulation, require_modeled
 from .lazily import exudyn
@@ -258,7 +258,6 @@ def steady_system(
     unit_beam = units.beam(beam)
     elements = whole_number("elements", elements)
     require_stretch(beam)
-    require_feasible(elements)
     mass = mass_matrix(model, unit_beam, elements)
     with exudyn_system() as mbs:
         chain = model.lay(mbs, unit_beam, elements)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import finite_array, flag, positive
+from analytic.input_checks import finite_array, flag
 
 _WIDTH = 0.05
 """Height of the drawn sections over L: as drawn to scale a slender blade is a hair."""
@@ -60,8 +60,6 @@ def ray_traced(
     times: Sequence[float],
     *,
     size: tuple[int, int] = (1200, 700),
-    width: float = _WIDTH,
-    stretched: float = 1.0,
     whole: bool = False,
 ) -> NDArray[np.uint8]:
     """Return a picture of the blade at some times, an RGB array (height, width, 3).
@@ -78,10 +76,6 @@ def ray_traced(
         When [s]; the nearest samples are drawn.
     size : tuple of int
         Of the picture, width and height [pixels].
-    width : float
-        Of the strips, over L.
-    stretched : float
-        By what deflections out of the plane are drawn larger.
     whole : bool
         Show all that the blade can reach, not only what it does while it is bent less than a right
         angle.
@@ -109,9 +103,8 @@ def ray_traced(
     at = finite_array("times", times, "s").ravel()
     length = float(run.attrs["beam_length"])
     frames = run[["axis", "upright"]].sel(time=at, method="nearest")
-    scale = np.array([1.0, 1.0, positive("stretched", stretched)])
     shown = [
-        _strip(axis * scale, upright, 0.5 * width * length, _COLORS[k])
+        _strip(axis, upright, 0.5 * _WIDTH * length, _COLORS[k])
         for axis, upright, k in zip(
             frames["axis"].to_numpy(),
             frames["upright"].to_numpy(),

@@ -1,4 +1,4 @@
-"""The attributes by which a run says its beam, motion and loads, written and read back."""
+"""The attributes by which a run says its beam, motion, loads and versions."""
 
 from __future__ import annotations
 
