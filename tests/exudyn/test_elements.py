@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 
-from analytic import Beam
+from analytic import Beam, Rectangle
 from rotbeam_exu import natural_frequencies
 from rotbeam_exu.fem.elements import (
     FORMULATIONS,
@@ -30,7 +30,7 @@ MODELS = [cls() for cls in FORMULATIONS.values()]
 MODELS += [Exact(nodes=3), Ancf3(law="coupled"), Substructures(frame="pinned")]
 CASES = [(model, BEAM) for model in MODELS]
 CASES += [(SpaceCable(), BEAM.with_section_out_of_plane(bending_ratio=1.0))]
-CASES += [(SpaceExact(), BEAM.rectangle())]
+CASES += [(SpaceExact(), BEAM.with_shape(Rectangle()))]
 of_all = pytest.mark.parametrize(("model", "blade"), CASES, ids=[str(one) for one, _ in CASES])
 
 

@@ -7,8 +7,10 @@ import xarray as xr
 from analytic import (
     Beam,
     Damping,
+    Rectangle,
     SpinUp,
     SteadyRotation,
+    Tube,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -22,8 +24,8 @@ from rotbeam_exu.runs.check import energy_drift
 from rotbeam_exu.runs.growth import growth_rate_of
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
-RECTANGLE = Beam.reference().rectangle()
-TUBE = Beam.reference().tube(0.015, 0.00077)
+RECTANGLE = Beam.reference().with_shape(Rectangle())
+TUBE = Beam.reference().with_shape(Tube(radius=0.015, wall=0.00077))
 
 
 def test_rates_of_a_state_are_those_of_its_coordinates():
@@ -149,7 +151,7 @@ def test_rate_of_a_known_growth(rate):
         ({"frame": "rotating"}, "frame='inertial'"),
         ({"kick": 0.5}, "1e-6"),
         ({"kick": np.nan}, "kick"),
-        ({"blade": Beam.reference()}, "blade.rectangle"),
+        ({"blade": Beam.reference()}, r"blade.with_shape\(Rectangle"),
         ({"blade": ALIKE}, "element='cable'"),
         ({"blade": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
         ({"blade": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
