@@ -29,10 +29,10 @@ _PAIRS = ((0, 0), (0, 2), (2, 2), (1, 1), (0, 1), (1, 2))
 _CONSTANT = np.array([0.5, 0.0, 0.0, 0.5, 0.0, 0.0])
 
 
-_FORMS = np.zeros((6, 3, 3))
+_FORMS: FloatArray = np.zeros((6, 3, 2, 3, 2))
 for _form, (_a, _b) in zip(_FORMS, _PAIRS, strict=True):
-    _form[_a, _b] = _form[_b, _a] = 1.0
-_FORMS = np.kron(_FORMS, np.eye(2))
+    _form[_a, :, _b] = _form[_b, :, _a] = np.eye(2)
+_FORMS = _FORMS.reshape(6, 6, 6)
 
 
 @dataclass(frozen=True, kw_only=True)

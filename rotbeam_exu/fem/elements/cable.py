@@ -98,12 +98,13 @@ class Cable(_Cables, SlopeNodes):
         damping = mesh.blade.damping
 
         def stretching(slope: ComplexArray, rate: ComplexArray) -> FloatArray:
-            return damping.axial * (np.abs(slope) * (rate / slope).real) ** 2
+            return np.asarray(damping.axial * (np.abs(slope) * (rate / slope).real) ** 2)
 
         def bending(
             slope: ComplexArray, second: ComplexArray, rate: ComplexArray, turning: ComplexArray
         ) -> FloatArray:
-            return damping.bending * ((turning - second * rate / slope) / slope).imag ** 2
+            change = (turning - second * rate / slope) / slope
+            return np.asarray(damping.bending * change.imag**2)
 
         def dissipation(coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
             rows = (e[..., ::2] + 1j * e[..., 1::2] for e in (coordinates, velocities))

@@ -6,7 +6,7 @@ The clamp turns about z, the normal of the plane, and in space holds what would 
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -92,7 +92,7 @@ class SpaceSlopeNodes(Formulation, abstract=True):
         gradient[0, 3:5], gradient[1, 5] = (-math.sin(angle), math.cos(angle)), 1.0
         return gradient, np.zeros(2)
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+    def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
         """Positions and slopes, and their rates."""
         values = (x + state.u, state.v, state.w, 1.0 + state.u_slope, state.v_slope, state.w_slope)
         rates = (
