@@ -54,10 +54,6 @@ def simulate_3d(
     element : {"exact", "cable"} or Formulation
         The geometrically exact beam, sheared and twisted, or the cable, which has no torsion and
         bends alike in all directions.
-    elements : int
-        Number of elements of equal length.
-    duration, step : float
-        End of the run and step size [s].
     frame : {"inertial", "rotating"}
         As in `simulate`; the rotating one is for the cable.
     kick : float
@@ -65,8 +61,8 @@ def simulate_3d(
         that does not stretch the blade.
     initial_state : callable, optional
         Planar state at t = 0, as of `simulate`, onto which the kick is put.
-    progress : callable, optional
-        Called with the fraction done.
+    elements, duration, step, progress
+        As in `simulate`.
 
     Returns
     -------
@@ -147,16 +143,7 @@ def kicked(
     Its tangents are turned out of the plane by 2 kick x/L, and w = kick L (x/L)² of small kicks.
     An arc is no mode: it has a share of each, so that whatever grows has something to grow from.
     It bends and does not stretch, which of a slender blade would take all its energy.
-
-    Parameters
-    ----------
-    planar : callable, optional
-        State of points, as in `simulate`.
-    x : ndarray (nodes,)
-        From 0 to the length, evenly [m].
-    length : float
-        [m].
-    kick : float
+    `x` (nodes,) goes from 0 to the length evenly [m].
     """
     fine = np.linspace(0.0, length, _BETWEEN * (x.size - 1) + 1)
     zero = np.zeros(fine.size)
@@ -166,10 +153,8 @@ def kicked(
     # What is added to the slopes (u', v', w') turns the tangent, and leaves it as long as it was.
     tangent = np.stack((1.0 + state.u_slope, state.v_slope))
     added = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))
-    (u_slope, v_slope, w_slope), (u, v, w) = (
-        added,
-        integrate.cumulative_simpson(added, x=fine, initial=0.0),
-    )
+    u_slope, v_slope, w_slope = added
+    u, v, w = integrate.cumulative_simpson(added, x=fine, initial=0.0)
     bent = vars(state) | {
         "u": state.u + u, "v": state.v + v, "w": w,
         "u_slope": state.u_slope + u_slope, "v_slope": state.v_slope + v_slope,

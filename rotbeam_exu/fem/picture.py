@@ -45,9 +45,8 @@ def ray_traced(
     """Return a picture of the blade at some times, an RGB array (height, width, 3).
 
     Seen from the clamp's frame, whose plane of rotation is the floor, with all that the blade can
-    reach; early times are blue, late
-    ones red. Sections are drawn as strips of one height, along the axis that is in the plane at
-    rest, so that bending in the plane and twist are seen.
+    reach; early times are blue, late ones red. Sections are drawn as strips of one height, along
+    the axis that is in the plane at rest, so that bending in the plane and twist are seen.
 
     Parameters
     ----------

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from analytic import AnyBlade
+from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
@@ -45,10 +46,11 @@ def formulation(
         If the name, or an option of it, is not known: the sentence says which are.
     """
     if not isinstance(element, str):
-        if not isinstance(element, Formulation):
+        if not isinstance(element, Formulation) or not _is_a_value(element):
             raise TypeError(
-                "element must be the name of a formulation, or one, which is an instance of a "
-                f"frozen dataclass, as Exact(nodes=3), got {shown(element)}"
+                "element must be the name of a formulation, or an instance of a frozen dataclass "
+                "that inherits from a kind of node and whose options are numbers and text, as "
+                f"Exact(nodes=3), got {shown(element)}"
             )
         return element
     element = ALIASES.get(element, element)
@@ -67,6 +69,15 @@ def formulation(
             raise ValueError(f"element {element!r} has no option {name!r}; {has}")
     model: Formulation = cls(**(options or {}))
     return model
+
+
+def _is_a_value(element: Formulation) -> bool:
+    """Whether it hashes, and a file can hold it."""
+    try:
+        _ = hash(element), describe(element)
+    except TypeError:
+        return False
+    return True
 
 
 def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame) -> None:

@@ -138,11 +138,11 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
         """Return the chain with its elastic energy, with κ = |r'×r''|/|r'|²."""
 
         def stretching(slope: FloatArray) -> FloatArray:
-            return 0.5 * (np.linalg.norm(slope, axis=-1) - 1.0) ** 2
+            return np.asarray(0.5 * (np.linalg.norm(slope, axis=-1) - 1.0) ** 2)
 
         def bending(slope: FloatArray, second: FloatArray) -> FloatArray:
             across = np.sum(np.cross(slope, second) ** 2, axis=-1)
-            return 0.5 * across / np.sum(slope**2, axis=-1) ** 2
+            return np.asarray(0.5 * across / np.sum(slope**2, axis=-1) ** 2)
 
         def energy(coordinates: FloatArray) -> FloatArray:
             vectors = coordinates.reshape(*coordinates.shape[:2], 2, 3)
