@@ -27,12 +27,10 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     >>> print(entry.name, entry.own_meshes, entry.step)
     exact nodes=3 (8, 16, 32) 0.001
     """
-    order, coupled = model.order, getattr(model, "law", "") == "coupled"
     meshes: tuple[int, ...] = ()
     if elements is None:
-        elements = 32 if order == 2.0 else 16
-        # At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so.
-        meshes = (8, 16, 32, 64) if isinstance(model, Ancf3) and not coupled else ()
+        elements = 32 if model.order == 2.0 else 16
+        meshes = model.meshes
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
@@ -67,13 +65,12 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         name=" ".join([model.name, *options]),
         simulate=spin,
         first_frequency=first,
-        # The orbit does not say how thick its sections are, which that law would need to start.
-        release=None if coupled else release,
+        release=release if model.starts_in_motion else None,
         elements=elements,
         meshes=meshes,
         step=step,
         theory=model.theory,
-        order=order,
+        order=model.order,
     )
 
 

@@ -46,7 +46,7 @@ def formulation(
         If the name, or an option of it, is not known: the sentence says which are.
     """
     if not isinstance(element, str):
-        if not isinstance(element, Formulation) or not _is_a_value(element):
+        if not _is_formulation(element):
             raise TypeError(
                 "element must be the name of a formulation, or an instance of a frozen dataclass "
                 "that inherits from a kind of node and whose options are numbers and text, as "
@@ -71,16 +71,16 @@ def formulation(
     return model
 
 
-def _is_a_value(element: Formulation) -> bool:
-    """Whether it hashes, and a file can hold it."""
+def _is_formulation(element: object) -> bool:
+    """Whether it is one, hashes, and a file can hold it."""
     try:
         _ = hash(element), describe(element)
     except TypeError:
         return False
-    return True
+    return isinstance(element, Formulation)
 
 
-def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame) -> None:
+def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:
     """Refuse a blade that the formulation does not model, or not in this frame.
 
     Raises

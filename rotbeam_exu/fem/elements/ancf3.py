@@ -85,6 +85,16 @@ class Ancf3(Sheared, SectionSlopeNodes):
             raise ValueError(f"unknown law {self.law!r}; known are 'uncoupled' and 'coupled'")
         super().__post_init__()
 
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so."""
+        return (8, 16, 32, 64) if self.starts_in_motion else ()
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """No state says how thick its sections are, which the coupled law would need."""
+        return self.law != "coupled"
+
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)

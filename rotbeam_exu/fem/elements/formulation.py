@@ -13,7 +13,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.description import Described
 from analytic.lazily import sparse
-from analytic.theory import BERNOULLI_EULER, Theory
+from analytic.theory import Theory
 
 from ..frame import Frame
 from ..lazily import exudyn
@@ -94,9 +94,24 @@ class Formulation(Described, abstract=True):
         return None
 
     @property
+    def meshes(self) -> tuple[int, ...]:
+        """Numbers of elements on which it is judged; none of half, the same and twice as many."""
+        return ()
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """Whether the state of a beam says all of its coordinates."""
+        return True
+
+    @property
+    def shear_share(self) -> float | None:
+        """k_s GA over EA of a beam that shears and has rotary inertia, else None."""
+        return None
+
+    @property
     def theory(self) -> Theory:
-        """Theory of its beam: Bernoulli and Euler's unless it shears and has rotary inertia."""
-        return BERNOULLI_EULER
+        """Theory of its beam."""
+        return Theory(shear=self.shear_share, rotary_inertia=self.shear_share is not None)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from analytic.input_checks import finite_number, positive
-from analytic.theory import Theory
 
 POISSON_RATIO = 0.3
 """Default ν; the paper gives neither ν nor a shear modulus."""
@@ -29,8 +28,3 @@ class Sheared:
     def shear_share(self) -> float:
         """k_s G A over EA."""
         return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))
-
-    @property
-    def theory(self) -> Theory:
-        """Theory of a beam with shear and rotary inertia."""
-        return Theory(shear=self.shear_share, rotary_inertia=True)
