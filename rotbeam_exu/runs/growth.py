@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import positive
 
 from ..lazily import xr
+from .oscillation import frequency_guess
 
 SMALL = 1e-2
 """Deflection out of the plane over L up to which the growth is that of small motion."""
@@ -29,21 +29,16 @@ class GrowthRate:
         Of the envelope [1/s]; negative where it decays.
     decades : float
         Powers of ten over which it was measured.
-    start, largest : float
-        The envelope over the first period, and the largest of the run, over L; root mean squares
-        over a period.
     period : float
         Of the oscillation in the plane [s].
     """
 
     rate: float
     decades: float
-    start: float
-    largest: float
     period: float
 
 
-def growth_rate_of(run: xr.Dataset, *, period: float | None = None) -> GrowthRate:
+def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     """Return how fast the motion out of the plane grows, from its envelope.
 
     The envelope is the root mean square over a whole period of the oscillation in the plane, of w
@@ -55,8 +50,6 @@ def growth_rate_of(run: xr.Dataset, *, period: float | None = None) -> GrowthRat
     ----------
     run : Dataset
         As made by `simulate_3d`, over at least two periods of the oscillation in the plane.
-    period : float, optional
-        Of the oscillation in the plane [s]; otherwise from the zeros of q.
 
     Raises
     ------
@@ -85,36 +78,21 @@ def growth_rate_of(run: xr.Dataset, *, period: float | None = None) -> GrowthRat
             raise ValueError(
                 f"the run has no {name}: growth is measured of what simulate_3d returns"
             )
-    steady = run.sel(time=run["time"] >= float(run.attrs["ramp_time"]))
-    time, length = steady["time"].to_numpy(), float(run.attrs["beam_length"])
-    period = _period(time, steady["q"].to_numpy()) if period is None else positive("period", period)
+    ramp_time, length = float(run.attrs["ramp_time"]), float(run.attrs["beam_length"])
+    steady = run.sel(time=run["time"] >= ramp_time)
+    time, q = steady["time"].to_numpy(), steady["q"].to_numpy() / length
+    period = 2.0 * math.pi / frequency_guess(time - time[0], q, ramp_time)
     if time[-1] - time[0] < 2.0 * period:
         raise ValueError(
             f"a growth needs two periods of {period:.4g} s after the ramp, and the run has "
             f"{time[-1] - time[0]:.4g} s: take a duration above "
-            f"{float(run.attrs['ramp_time']) + 2.0 * period:.4g} s"
+            f"{ramp_time + 2.0 * period:.4g} s"
         )
     w, w_dot = steady["w"].to_numpy(), steady["w_dot"].to_numpy()
     squares = (w / length) ** 2 + (w_dot / length * period / (2.0 * math.pi)) ** 2
     envelope, at = _over_a_period(time, squares, period)
     rate, fitted = _fitted(at, envelope, period)
-    return GrowthRate(
-        rate=rate, decades=fitted, start=float(envelope[0]), largest=float(envelope.max()),
-        period=period,
-    )  # fmt: skip
-
-
-def _period(time: FloatArray, q: FloatArray) -> float:
-    """Return the mean time between the zeros at which q rises."""
-    before = np.flatnonzero((q[:-1] < 0.0) & (q[1:] >= 0.0))
-    if before.size < 2:
-        raise ValueError(
-            "the tip does not cross the line of the clamp twice after the ramp: take a longer "
-            "duration, or give the period"
-        )
-    share = q[before] / (q[before] - q[before + 1])
-    crossings = time[before] + share * (time[before + 1] - time[before])
-    return float((crossings[-1] - crossings[0]) / (before.size - 1))
+    return GrowthRate(rate=rate, decades=fitted, period=period)
 
 
 def _over_a_period(

@@ -116,7 +116,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     if omega_n is not None:
         # The nonlinear frequency may be lower, by a few percent.
         _check_samples(time, 0.9 * omega_n, "of the beam's slowest oscillation")
-    guess = _frequency_guess(time, x, ramp_time, omega_n)
+    guess = frequency_guess(time, x, ramp_time, omega_n)
     _check_samples(time, guess, "found")
     # More than some fifty samples a period of so smooth a signal cost time and add nothing.
     every = max(1, int(_samples(time, guess) // 50))
@@ -216,10 +216,13 @@ def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
             return None  # so fast that theory has no answer to compare with
 
 
-def _frequency_guess(
-    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None
+def frequency_guess(
+    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None = None
 ) -> float:
-    """Frequency from the zero crossings between samples well above and well below the middle."""
+    """Return the frequency from the crossings between samples well above and below the middle.
+
+    Of q/L over the time from the ramp's end on; `omega_n` is for the sentence if there are none.
+    """
     height = float(np.ptp(x))
     if height <= 1e-12:
         raise NoOscillationError(
