@@ -14,15 +14,14 @@ from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
-from analytic.lazily import linalg
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
 from ..runs.resolution import require_stretch, warn_if_coarse
-from . import drive
-from .elements import Chain, Formulation, SpaceCable, formulation, require_modeled
+from .elements import Chain, Formulation, SpaceCable, formulation
 from .lazily import exudyn
-from .solver import exudyn_system, mass_matrix, static_settings
+from .rotating_beam import add_rotating_beam
+from .solver import exudyn_system, static_settings
 from .units import Units
 
 
@@ -223,22 +222,16 @@ def flap_frequencies(
     >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
     [ 7.0656 23.7847 57.0132]
     """
-    modes = 2 * whole_number("elements", elements)
-    if whole_number("count", count) > modes:
-        raise ValueError(
-            f"count = {count} is more than the {modes} modes of {elements} cables out of the "
-            "plane; take more elements"
-        )
     with steady_system(blade, omega, SpaceCable(), elements) as (mbs, _, settings):
-        mass, stiffness = mbs.ComputeLinearizedSystem(settings)[:2]
+        mass, stiffness = (np.asarray(m) for m in mbs.ComputeLinearizedSystem(settings)[:2])
     # Coordinates are (x, y, z) of r and r' in turn; the clamp holds those of the first node.
     across = np.arange(2, 6 * (elements + 1), 3)[2:]
-    squares = linalg.eigh(
-        np.asarray(stiffness)[np.ix_(across, across)],
-        np.asarray(mass)[np.ix_(across, across)],
-        eigvals_only=True,
-    )
-    return np.asarray(np.sqrt(squares[:count])) / Units.of(blade).time
+    pick = np.ix_(across, across)
+    system = Linearization(
+        mass=mass[pick], stiffness=stiffness[pick], gyroscopic=0.0 * mass[pick], tip=0.0,
+        units=Units.of(blade), mesh=f"{elements} cables out of the plane",
+    )  # fmt: skip
+    return system.frequencies(count)
 
 
 @contextmanager
@@ -252,17 +245,13 @@ def steady_system(
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    beam, model, units = undamped(beam), formulation(element), Units.of(beam)
-    require_modeled(beam, model, "rotating")
-    rotation = units.rotation(SteadyRotation(omega=omega))
-    unit_beam = units.beam(beam)
-    elements = whole_number("elements", elements)
     require_stretch(beam)
-    mass = mass_matrix(model, unit_beam, elements)
+    units = Units.of(beam)
+    unit_beam, rotation = units.beam(undamped(beam)), units.rotation(SteadyRotation(omega=omega))
     with exudyn_system() as mbs:
-        chain = model.lay(mbs, unit_beam, elements)
-        drive.hold_root(mbs, chain, model)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
+        built = add_rotating_beam(
+            mbs, unit_beam, rotation, element=element, elements=elements, frame="rotating"
+        )
         mbs.Assemble()
         settings = static_settings(unit_beam, elements)
         try:
@@ -272,4 +261,4 @@ def steady_system(
                 f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
                 f"EA = {beam.axial_stiffness:g} N and the speed"
             ) from error
-        yield mbs, chain, settings
+        yield mbs, built.chain, settings

@@ -6,7 +6,7 @@ import pytest
 from analytic import Theory, linear_modes
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, formulation
-from rotbeam_exu.fem.linearization import mass_matrix
+from rotbeam_exu.fem.solver import mass_matrix
 
 
 def first_frequency(beam, omega, element, elements):

@@ -16,9 +16,8 @@ from analytic import (
 )
 from rotbeam_exu import SimulationError, load, natural_frequencies, save, simulate, steady_stretch
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact
-from rotbeam_exu.fem.linearization import mass_matrix
 from rotbeam_exu.fem.loading import Loading
-from rotbeam_exu.fem.solver import exudyn_system
+from rotbeam_exu.fem.solver import exudyn_system, mass_matrix
 from rotbeam_exu.runs.attributes import beam_of
 from rotbeam_exu.runs.check import check_run, energy_drift
 

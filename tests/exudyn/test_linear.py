@@ -10,7 +10,7 @@ from analytic import SpinUp, linear_response
 from rotbeam_exu import SimulationError, growth_rate, natural_frequencies, simulate
 from rotbeam_exu import steady_oscillation as steady
 from rotbeam_exu.fem.elements import Linear, formulation
-from rotbeam_exu.fem.linearization import mass_matrix
+from rotbeam_exu.fem.solver import mass_matrix
 
 
 def test_at_rest_it_is_the_cable(beam):

@@ -68,7 +68,8 @@ class _Cables(Formulation, abstract=True):
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""
-        return np.asarray(np.linalg.norm(coordinates[..., self.angles.size // 2 :], axis=-1) - 1.0)
+        slopes = coordinates[..., coordinates.shape[-1] // 2 :]
+        return np.asarray(np.linalg.norm(slopes, axis=-1) - 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
