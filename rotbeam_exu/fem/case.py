@@ -122,7 +122,7 @@ class Case:
 
     @cached_property
     def steps_and_sampling(self) -> tuple[int, int]:
-        """How many steps there are, and of how many one is kept."""
+        """Number of steps, and of how many one is kept."""
         return checked_steps(
             self.beam, self.fastest, self.ramp_time, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],

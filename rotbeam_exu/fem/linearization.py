@@ -71,7 +71,7 @@ class Linearization:
 
     @property
     def stretch(self) -> float:
-        """How far the rotation moves the tip [m]."""
+        """Displacement of the tip by the rotation [m]."""
         return self.tip * self.units.length
 
     @property

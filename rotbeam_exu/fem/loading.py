@@ -32,7 +32,7 @@ from .solver import mass_matrix
 
 
 class Loading:
-    """What acts on a chain besides its inertia: the consistent loads and external damping.
+    """Consistent loads and external damping: all that acts on a chain besides its inertia.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class Loading:
                 acting = self._model.turned(per_node, angle).ravel()
 
         def frame_rate(t: float) -> float:
-            """How fast the velocities of the clamp's frame turn in the coordinates."""
+            """Return the rate at which velocities of the clamp's frame turn in the coordinates."""
             return rotation.rate(t) if inertial else 0.0
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:

@@ -153,7 +153,7 @@ def _chain_of(error: BaseException | None) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Trajectory:
-    """What was sampled of a run, in the units in which it was solved.
+    """Samples of a run, in the units in which it was solved.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How fast a run in space leaves the plane of rotation: a rate from its envelope."""
+"""Growth out of the plane of rotation of a run in space: a rate from its envelope."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a mesh and a step can resolve, said before a run instead of after it."""
+"""Limits of what a mesh and a step resolve, told before a run instead of after it."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class Fit:
 
     @cached_property
     def remainder(self) -> FloatArray:
-        """What neither series nor tones explain, over time."""
+        """Signal that neither series nor tones explain, over time."""
         return np.asarray(self.x - _columns(self.time, self.rates) @ self.coefficients)
 
     @property

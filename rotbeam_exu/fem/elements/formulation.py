@@ -79,7 +79,7 @@ class Formulation(Described, abstract=True):
     new_jacobians: ClassVar[bool] = False
     """Whether the solver is to make a new Jacobian in each step."""
     spectral_radius: ClassVar[float] = 0.9
-    """Of the generalized-α integrator in the inertial frame."""
+    """Spectral radius of the generalized-α integrator in the inertial frame."""
 
     quarter_turn: ClassVar[FloatArray]
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""

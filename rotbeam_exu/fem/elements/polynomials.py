@@ -10,7 +10,7 @@ HERMITE = tuple(
     np.polynomial.Polynomial(c)
     for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])
 )
-"""Of value and slope at the one end and at the other, over ξ from 0 to 1, on unit length."""
+"""Functions of value and slope at one end and the other, over ξ from 0 to 1, on unit length."""
 
 _LAGRANGE = {
     1: tuple(np.polynomial.Polynomial(c) for c in ([1, -1], [0, 1])),
@@ -19,7 +19,7 @@ _LAGRANGE = {
 
 
 def lagrange(xi: FloatArray, degree: int, order: int = 0) -> FloatArray:
-    """Return the derivatives to ξ from 0 to 1, of `order`, of those of evenly spaced nodes.
+    """Return the derivatives to ξ from 0 to 1, of `order`, of Lagrange's with evenly spaced nodes.
 
     (points, nodes); degree 2 is Eqs. 3-5.
     """

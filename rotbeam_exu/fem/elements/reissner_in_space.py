@@ -26,7 +26,7 @@ _turns = Lazily("scipy.spatial.transform")
 _HALF_TURN = np.array(
     [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
 )
-"""What the unit vector along z makes of Euler parameters, as a quaternion from the left."""
+"""Product of the unit vector along z with Euler parameters, as a quaternion from the left."""
 
 
 class FrameNodes(Formulation, abstract=True):
