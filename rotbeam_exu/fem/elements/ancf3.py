@@ -12,7 +12,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn, items
+from ..lazily import exudyn
 from ..mesh import Mesh
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
@@ -99,10 +99,7 @@ class Ancf3(Sheared, SectionSlopeNodes):
         """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
-        nodes = tuple(
-            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0]))
-            for x in mesh.positions
-        )
+        nodes = self.add_nodes(mbs, mesh.positions)
         add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)
         turning = add_point_masses(mbs, nodes, mesh)
         return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)

@@ -27,9 +27,8 @@ _GAUSS = tuple(zip(*gauss_points(2), strict=True))
 
 
 class _Cables(Formulation, abstract=True):
-    """Cables in a row, of the kind of node and of body that the class names."""
+    """Cables in a row, of the body that the class names."""
 
-    node: ClassVar[str]
     body: ClassVar[str]
     order = 4.0
     takes_blades: ClassVar[bool] = True
@@ -37,11 +36,7 @@ class _Cables(Formulation, abstract=True):
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
         mesh, damping = Mesh(blade=beam, elements=elements), beam.damping
-        slope = self.quarter_turn.shape[0] // 2
-        reference = np.zeros((elements + 1, 2 * slope))
-        reference[:, 0], reference[:, slope] = mesh.positions, 1.0
-        node, body = getattr(items, self.node), getattr(items, self.body)
-        nodes = tuple(mbs.AddNode(node(referenceCoordinates=list(at))) for at in reference)
+        nodes, body = self.add_nodes(mbs, mesh.positions), getattr(items, self.body)
         EI, EA = mesh.sections.bending_stiffness, mesh.sections.axial_stiffness
         bodies = tuple(
             mbs.AddObject(
@@ -88,7 +83,6 @@ class Cable(_Cables, SlopeNodes):
     name: ClassVar[str] = "cable"
     summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
     takes_viscosity: ClassVar[bool] = True
-    node: ClassVar[str] = "NodePoint2DSlope1"
     body: ClassVar[str] = "ObjectANCFCable2D"
 
     def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
@@ -122,7 +116,6 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
     name: ClassVar[str] = "cable"
     summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
     new_jacobians: ClassVar[bool] = True  # half the time
-    node: ClassVar[str] = "NodePointSlope1"
     body: ClassVar[str] = "ObjectANCFCable"
 
     def require_section(self, blade: AnyBlade) -> None:

@@ -16,7 +16,7 @@ from analytic.lazily import sparse
 from analytic.theory import Theory
 
 from ..frame import Frame
-from ..lazily import exudyn
+from ..lazily import exudyn, items
 from .point_masses import TurningNode, spins
 
 
@@ -81,6 +81,10 @@ class Formulation(Described, abstract=True):
     spectral_radius: ClassVar[float] = 0.9
     """Spectral radius of the generalized-α integrator in the inertial frame."""
 
+    node: ClassVar[str]
+    """Exudyn's class of the nodes."""
+    straight: ClassVar[tuple[float, ...]]
+    """Reference coordinates of a node of the straight beam, but for its x, the first."""
     quarter_turn: ClassVar[FloatArray]
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
     angles: ClassVar[FloatArray]
@@ -116,6 +120,13 @@ class Formulation(Described, abstract=True):
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
         raise NotImplementedError
+
+    def add_nodes(
+        self, mbs: exudyn.MainSystem, positions: FloatArray
+    ) -> tuple[exudyn.NodeIndex, ...]:
+        """Add the nodes of the straight beam at `positions` along the x axis."""
+        node = getattr(items, self.node)
+        return tuple(mbs.AddNode(node(referenceCoordinates=[x, *self.straight])) for x in positions)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""

@@ -20,7 +20,7 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ..lazily import exudyn, items
+from ..lazily import exudyn
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
 from .node_kinds import QUARTER_TURN, SlopeNodes
@@ -39,10 +39,7 @@ class _LinearFrames(SlopeNodes, abstract=True):
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
-        nodes = tuple(
-            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=reference))
-            for reference in row.reference.reshape(-1, 4)
-        )
+        nodes = self.add_nodes(mbs, row.reference[::4])
         add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
         return Chain(nodes=nodes, elastic_energy=row.energy)
 

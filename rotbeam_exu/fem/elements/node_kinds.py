@@ -25,6 +25,7 @@ ABOUT_Z = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 class _PlaneNodes(Formulation, abstract=True):
     """Nodes carry r and a vector of two; the clamp holds r."""
 
+    node: ClassVar[str] = "NodePoint2DSlope1"
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
     angles: ClassVar[FloatArray] = np.zeros(4)
     fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
@@ -32,6 +33,8 @@ class _PlaneNodes(Formulation, abstract=True):
 
 class SlopeNodes(_PlaneNodes, abstract=True):
     """Nodes carry r and the slope r' of the axis; the clamp holds its direction."""
+
+    straight: ClassVar[tuple[float, ...]] = (0.0, 1.0, 0.0)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
@@ -46,6 +49,8 @@ class SlopeNodes(_PlaneNodes, abstract=True):
 
 class SectionSlopeNodes(_PlaneNodes, abstract=True):
     """Nodes carry r and the slope r_y of the section; the clamp holds its direction."""
+
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """r_y = (-sin θ, cos θ), Eq. 14: the section at the root neither turns nor stretches."""
@@ -63,6 +68,8 @@ class SectionSlopeNodes(_PlaneNodes, abstract=True):
 class AngleNodes(Formulation, abstract=True):
     """Nodes carry r and the angle φ of the section; the clamp holds it."""
 
+    node: ClassVar[str] = "NodeRigidBody2D"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = ABOUT_Z
     angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
     fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
@@ -82,6 +89,8 @@ class SpaceSlopeNodes(Formulation, abstract=True):
     """Nodes in space carry r and the slope r' of the axis; the clamp holds its direction."""
 
     leaves_plane: ClassVar[bool] = True
+    node: ClassVar[str] = "NodePointSlope1"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), ABOUT_Z)
     angles: ClassVar[FloatArray] = np.zeros(6)
     fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1, 2)

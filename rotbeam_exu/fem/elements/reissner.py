@@ -67,10 +67,7 @@ class Exact(Sheared, AngleNodes):
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
-        nodes = tuple(
-            mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, 0, 0]))
-            for x in mesh.positions
-        )
+        nodes = self.add_nodes(mbs, mesh.positions)
         inner, at, damping = self.nodes - 1, mesh.sections, beam.damping
         for i in range(elements):
             EI, EA = at.bending_stiffness[i], at.axial_stiffness[i]

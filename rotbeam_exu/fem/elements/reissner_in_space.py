@@ -33,6 +33,8 @@ class FrameNodes(Formulation, abstract=True):
     """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
 
     leaves_plane: ClassVar[bool] = True
+    node: ClassVar[str] = "NodeRigidBodyEP"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = np.block(
         [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), 0.5 * _HALF_TURN]]
     )
@@ -117,12 +119,7 @@ class SpaceExact(Sheared, FrameNodes):
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements)
-        nodes = tuple(
-            mbs.AddNode(
-                items.NodeRigidBodyEP(referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
-            )
-            for x in mesh.positions
-        )
+        nodes = self.add_nodes(mbs, mesh.positions)
         stiffness, inertia = self._stiffness(mesh), _inertia(mesh)
         for i, pair in enumerate(pairwise(nodes)):
             data: Any = exudyn.BeamSection()
