@@ -153,8 +153,8 @@ def _integrated(
 ) -> FloatArray:
     """Return ∫(EA stretching + EI bending) dx, (samples,), as Exudyn integrates.
 
-    Of positions and slopes (samples, nodes, 2, ...), or of more such rows; the integrands take
-    the first derivatives of each row, that of bending the second ones after them.
+    A row is positions and slopes, (samples, nodes, 2, ...). The integrands take the first
+    derivative of each row, that of bending the second after it.
     """
     ends = [np.concatenate((row[:, :-1], row[:, 1:]), axis=2) for row in rows]
 
