@@ -5,17 +5,12 @@ from __future__ import annotations
 import dataclasses
 
 from analytic import AnyBlade, SpinUp, SteadyRotation
-from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
-from ..fem.elements.section import shear_share
-from ..fem.linearization import mesh_frequencies
+from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
 from .peers import PEERS, Entry, StateOf, installed, peer
-
-_SECOND = 2.0
-_ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: _SECOND}
 
 
 def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
@@ -32,12 +27,10 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     >>> print(entry.name, entry.own_meshes, entry.step)
     exact nodes=3 (8, 16, 32) 0.001
     """
-    order, coupled = _declared_order(model), getattr(model, "law", "") == "coupled"
     meshes: tuple[int, ...] = ()
     if elements is None:
-        elements = 32 if order == _SECOND else 16
-        # At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so.
-        meshes = (8, 16, 32, 64) if isinstance(model, Ancf3) and not coupled else ()
+        elements = 32 if model.order == 2.0 else 16
+        meshes = model.meshes
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
@@ -66,35 +59,19 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         )  # fmt: skip
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(mesh_frequencies(beam, omega, model, elements, 1)[0])
+        return float(Linearization.of(beam, omega, model, elements).frequencies(1)[0])
 
     return Entry(
         name=" ".join([model.name, *options]),
         simulate=spin,
         first_frequency=first,
-        # The orbit does not say how thick its sections are, which that law would need to start.
-        release=None if coupled else release,
+        release=release if model.starts_in_motion else None,
         elements=elements,
         meshes=meshes,
         step=step,
-        theory=theory_of(model),
-        order=order,
+        theory=model.theory,
+        order=model.order,
     )
-
-
-def theory_of(model: Formulation) -> Theory:
-    """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
-    if not isinstance(model, Exact | Ancf3):
-        return BERNOULLI_EULER
-    share = shear_share(model.poisson_ratio, model.shear_correction)
-    return Theory(rotary_inertia=True, shear=share)
-
-
-def _declared_order(model: Formulation) -> float | None:
-    """Order in the mesh: of quadratic functions and two points twice that of linear and one."""
-    if isinstance(model, Exact):
-        return 2.0 * (model.nodes - 1)
-    return _ORDERS.get(type(model))
 
 
 def entries_at_hand() -> tuple[Entry, ...]:
