@@ -12,7 +12,7 @@ import numpy as np
 from analytic import AnyBlade, Beam, SpinUp, spin_up_response
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case, starting_orbit
+from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
 from .peers import Entry
 from .submission import Declaration, Frequency, Run, Submission
@@ -147,7 +147,7 @@ def _simulated(entry: Entry, case: Case, elements: int, step: float) -> xr.Datas
         return entry.simulate(case.blade, case.motion, **how)  # type: ignore[arg-type]
     assert entry.release is not None
     assert case.motion is not None
-    orbit = starting_orbit(case)
+    orbit = case.orbit
     return entry.release(case.blade, case.motion, partial(orbit.state, 0), **how)  # type: ignore[arg-type]
 
 

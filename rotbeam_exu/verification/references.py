@@ -1,7 +1,8 @@
-"""The truth of each case: shipped where it can be, computed where theory or blade are others."""
+"""The exact answer of each case: shipped, or computed where theory or blade are others."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -9,17 +10,17 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from .cases import CASES, Asked, Case
-from .sampled import sampled_history, spline
-from .shipped import FILE, Shipped, shipped
+from .shipped import FILE, Shipped, shipped, spline
 from .theory import BERNOULLI_EULER, Theory
 
 COMPUTED_BOUND = 1e-9
 """Relative error of computed frequencies: to it they settle."""
+
+_BEYOND = 20  # samples beyond the end, for a last step that is longer
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,6 +42,8 @@ class Reference:
     bound: float
     source: str
     _history: interpolate.BSpline | None = field(default=None, repr=False)
+    # Orbits take a second each, and the search for mistakes asks for the same ones again.
+    _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
 
     def history(self, times: ArrayLike) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.
@@ -73,7 +76,9 @@ class Reference:
 
     def first_frequency(self, speed: float) -> float:
         """Return ω_n [rad/s] in steady rotation at `speed` [rad/s]; ValueError if refused."""
-        return _first_frequency(self.theory, self.case.blade, speed)
+        data = _shipped_of(self.theory)
+        here = None if data is None else data.first_frequency(self.case.blade, speed)
+        return self.theory.first_frequency(self.case.blade, speed) if here is None else here
 
     def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
         """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.
@@ -95,15 +100,22 @@ class Reference:
 
     def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
         """Return what `frequency_at` does, of several amplitudes: what is computed, in one go."""
-        if speed is None:
-            if self.case.motion is None:
-                raise ValueError(f"case {self.case.name} has several speeds: say which")
-            speed = self.case.motion.omega
-        at = tuple(map(float, amplitudes))
-        return np.array(_frequencies_at(self.theory, self.case.blade, speed, at))
+        speed = self.case.rotation.omega if speed is None else speed
+        data, blade, known = _shipped_of(self.theory), self.case.blade, self._known
+        at = [(speed, float(a)) for a in amplitudes]
+        for place in set(at) - set(known):
+            here = data.frequency_at(blade, *place) if data else None
+            if here is not None:
+                known[place] = here
+        missing = sorted(set(at) - set(known))
+        if missing:
+            # One backbone, for orbits are found from their neighbors.
+            found = self.theory.orbits(blade, speed, [a for _, a in missing])
+            known.update(zip(missing, found.frequency.tolist(), strict=True))
+        return np.array([known[place] for place in at])
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask
 def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
     """Return the exact answer of a case: shipped of Bernoulli and Euler's beam, else computed.
 
@@ -122,22 +134,16 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
         If its history does not settle, or the shipped data cannot be read.
     """
     data = _shipped_of(theory)
+    bound, source, found = COMPUTED_BOUND, f"computed from the exact beam, {theory.name}", None
     if case.asked is not Asked.HISTORY:
-        here = data if case in (CASES["L"], CASES["B"]) else None
-        return Reference(
-            case=case,
-            theory=theory,
-            bound=COMPUTED_BOUND if here is None else here.frequency_bound,
-            source=_computed(theory) if here is None else here.source,
-        )
-    found = None if data is None else data.history(case)
-    if data is not None and found is not None:
-        (history, bound), source = found, data.source
+        if data and case in (CASES["L"], CASES["B"]):
+            bound, source = data.frequency_bound, data.source
+    elif data and (here := data.history(case)):
+        (found, bound), source = here, data.source
     else:
         samples = sampled_history(case, theory)
-        history, bound = spline(samples.time, samples.q), samples.error
-        source = _computed(theory)
-    return Reference(case=case, theory=theory, bound=bound, source=source, _history=history)
+        found, bound = spline(samples.time, samples.q), samples.error
+    return Reference(case=case, theory=theory, bound=bound, source=source, _history=found)
 
 
 def _shipped_of(theory: Theory) -> Shipped | None:
@@ -145,28 +151,57 @@ def _shipped_of(theory: Theory) -> Shipped | None:
     return shipped() if theory == BERNOULLI_EULER and FILE.exists() else None
 
 
-def _computed(theory: Theory) -> str:
-    return f"computed from the exact beam, {theory.name}"
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sampled:
+    """A history of the tip as samples that a spline joins.
+
+    Attributes
+    ----------
+    time, q : ndarray (samples,)
+        [s], [m].
+    error : float
+        Over max|q|: of the samples by the next coarser computation, and of the spline by the
+        computation halfway between them.
+    """
+
+    time: FloatArray
+    q: FloatArray
+    error: float
 
 
-@lru_cache(maxsize=256)
-def _first_frequency(theory: Theory, blade: AnyBlade, speed: float) -> float:
-    data = _shipped_of(theory)
-    here = None if data is None else data.first_frequency(blade, speed)
-    return theory.first_frequency(blade, speed) if here is None else here
+def sampled_history(
+    case: Case, theory: Theory, *, tolerance: float = 1e-6, spacing: float | None = None
+) -> Sampled:
+    """Compute the history of a case.
 
+    Parameters
+    ----------
+    case : Case
+        That asks for a history.
+    theory : Theory
+    tolerance : float
+        Largest error of a spin-up over max|q|; orbits are known to their residual.
+    spacing : float, optional
+        Of the samples [s]; without it, some 400 of them in a period.
 
-@lru_cache(maxsize=256)
-def _frequencies_at(
-    theory: Theory, blade: AnyBlade, speed: float, amplitudes: tuple[float, ...]
-) -> tuple[float, ...]:
-    data, found = _shipped_of(theory), dict[float, float]()
-    for a in amplitudes:
-        here = None if data is None else data.frequency_at(blade, speed, a)
-        found |= {} if here is None else {a: here}
-    missing = sorted(set(amplitudes) - set(found))
-    if missing:
-        # One backbone, for orbits are found from their neighbors.
-        frequencies = theory.orbits(blade, speed, missing).frequency.tolist()
-        found |= dict(zip(missing, frequencies, strict=True))
-    return tuple(found[a] for a in amplitudes)
+    Raises
+    ------
+    RuntimeError
+        If the tolerance or the orbit is not reached.
+    ValueError
+        If theory has no answer, as for a blade that rotation tears.
+    """
+    blade, motion = case.blade, case.rotation
+    if spacing is None:
+        spacing = 0.015 / max(blade.omega_0, motion.omega / 3.0)
+    count = math.ceil(case.duration / spacing) + _BEYOND
+    time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
+    if case.is_spun_up:
+        found = theory.history(blade, motion, time, tolerance=tolerance, loads=case.loads)
+        q, error = found.q, found.error
+    else:
+        orbit = theory.orbits(blade, motion.omega, case.amplitudes)
+        q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())
+    between = spline(time[::2], q[::2])(time[1::2]) - q[1::2]
+    error += float(np.abs(between).max() / np.abs(q).max())
+    return Sampled(time=time[::2], q=q[::2], error=error)

@@ -23,7 +23,7 @@ from analytic.lazily import interpolate
 from ..lazily import xr
 from . import shipped
 from .cases import CASES, VERSION, Case
-from .sampled import Sampled, sampled_history
+from .references import Sampled, sampled_history
 from .shipped import (
     DURATION,
     FILE,

@@ -12,8 +12,7 @@ import pytest
 from analytic import Blade, Damping, Gravity, PointMass, Section, SmoothRamp, SpinUp, TipForce
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification import kit as room
-from rotbeam_exu.verification import problem_statement
-from rotbeam_exu.verification.cases import CASES, VERSION, Asked, starting_orbit
+from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
@@ -122,7 +121,7 @@ def test_drives_read_back_to_the_last_bit(folder):
 
 def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
     case = CASES["O"]
-    orbit = starting_orbit(case)
+    orbit = case.orbit
     for mesh in MESHES:
         start = columns(folder / f"start_O_{mesh}.csv")
         assert start["x"] == pytest.approx(np.linspace(0.0, 8.0, mesh + 1), abs=1e-15)
@@ -161,14 +160,14 @@ def test_the_sample_passes(folder):
 
 
 def test_the_paper_is_of_the_present_source():
-    """If this fails: python -m rotbeam_exu.verification.problem_statement, and look at it."""
-    assert problem_statement.DIGEST.read_text().strip() == problem_statement.digest()
-    assert problem_statement.PDF.read_bytes().startswith(b"%PDF")
+    """If this fails: python -m rotbeam_exu.verification.kit, and look at it."""
+    assert room.DIGEST.read_text().strip() == room.problem_digest()
+    assert room.PDF.read_bytes().startswith(b"%PDF")
 
 
 def test_the_paper_has_two_pages():
     pytest.importorskip("typst")
-    pages = problem_statement.typeset(format="png", ppi=20)
+    pages = room.typeset(format="png", ppi=20)
     assert len(pages) == 2
 
 

@@ -11,8 +11,7 @@ from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_respon
 from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
-from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.sampled import sampled_history
+from rotbeam_exu.verification.references import reference, sampled_history
 from rotbeam_exu.verification.shipped import DURATION, shipped, shipped_backbones, shipped_histories
 from rotbeam_exu.verification.theory import BERNOULLI_EULER, Theory
 
