@@ -88,7 +88,7 @@ GROUPS = (
     _group(
         "Verification",
         "Judging another code, called from Python or read from files.",
-        rotbeam_exu__verification__measures="verify",
+        rotbeam_exu__verification__verify="verify",
         rotbeam_exu__verification__entries="formulation_entry",
         rotbeam_exu__verification__judgement="judged",
         rotbeam_exu__verification__submission_files__reading="read_submission",

@@ -92,6 +92,11 @@ class Case:
             raise ValueError(f"case {self.name} has several speeds: say which")
         return self.motion
 
+    @property
+    def ramp_time(self) -> float:
+        """Time in which it is spun up [s]; 0 of a steady rotation."""
+        return float(stated(self.rotation).get("ramp_time", 0.0))
+
     @cached_property
     def orbit(self) -> Backbone:
         """Exact orbit that its history starts on, at phase 0; ValueError if it starts at rest."""

@@ -1,19 +1,20 @@
 """Codes made of the exact answer, with errors that are known."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from analytic import spin_up_response
-from rotbeam_exu.verification.peers import Entry
+from rotbeam_exu.verification.verify import Entry
 
 
-def exact_history(beam, spin_up, duration):
+def exact_history(case):
     """Time and the exact answer, fifty samples a period of the paper's beam."""
-    time = np.linspace(0.0, duration, math.ceil(duration / 0.02) + 1)
-    return time, spin_up_response(beam, spin_up, time, tolerance=1e-6)
+    time = np.linspace(0.0, case.duration, math.ceil(case.duration / 0.02) + 1)
+    return time, spin_up_response(case.blade, case.motion, time, tolerance=1e-6)
 
 
 @pytest.fixture(scope="session")
@@ -22,10 +23,11 @@ def made_of_the_exact_answer():
     known = {}
 
     def make(change=None, *, power=2.0, size=1e-2, **options):
-        def code(beam, spin_up, *, elements, duration, step):
-            key = beam, spin_up, duration
+        def code(case, *, elements, step):
+            case = replace(case, duration=case.whole_duration(step))
+            key = case.blade, case.motion, case.duration
             if key not in known:
-                known[key] = exact_history(*key)
+                known[key] = exact_history(case)
             time, exact = known[key]
             q = exact.q * (1.0 + step**2 + size / elements**power)
             q = q if change is None else change(time, q, elements)

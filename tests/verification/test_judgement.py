@@ -10,11 +10,10 @@ from scipy.interpolate import CubicSpline
 from analytic import AmplitudeNotReachedError, SpinUp, SteadyRotation
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
-from rotbeam_exu.verification.measures import handed_in, verify
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import Entry
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import BackbonePoint, Declaration, Run, Submission
+from rotbeam_exu.verification.verify import Entry, handed_in, verify
 
 S1 = SpinUp(omega=6.0, ramp_time=3.0)
 
@@ -79,8 +78,8 @@ def test_a_linear_oscillator_is_told_from_the_truth_at_two_radians():
 
 
 def test_a_code_of_another_frequency_is_told_so():
-    def slow(beam, spin_up, *, elements, duration, step):
-        time = np.arange(0.0, duration, 0.02)
+    def slow(case, *, elements, step):
+        time = np.arange(0.0, case.duration, 0.02)
         return xr.Dataset(
             {"q": ("time", 0.1 * np.sin(1.5 * time)), "q_dot": ("time", 0.0 * time)}, {"time": time}
         )
@@ -91,7 +90,7 @@ def test_a_code_of_another_frequency_is_told_so():
 
 
 def test_a_code_that_fails_says_why():
-    def broken(beam, spin_up, *, elements, duration, step):
+    def broken(case, *, elements, step):
         raise RuntimeError("no license")
 
     found = judge(Entry(name="broken", simulate=broken))

@@ -9,9 +9,8 @@ from analytic import Beam, linear_modes
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.verification.cases import frequency_case
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.measures import handed_in
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import Entry
+from rotbeam_exu.verification.verify import Entry, handed_in
 
 
 def of_frequency(difference, power, size=0.05, higher=0.0, **options):

@@ -9,10 +9,10 @@ from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.measures import handed_in
 from rotbeam_exu.verification.peers import installed, peer
 from rotbeam_exu.verification.submission_files.reading import read_submission
 from rotbeam_exu.verification.submission_files.writing import write_submission
+from rotbeam_exu.verification.verify import handed_in
 
 
 def the_same(submission, folder, cases=CASES):

@@ -79,6 +79,7 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
     shear_correction: float = 1.0
 
     name: ClassVar[str] = "ancf3"
+    order = 4.0
     takes_blades: ClassVar[bool] = True
     summary: ClassVar[str] = "the paper's ANCF element, three nodes, quadratic, shear-deformable"
 
@@ -86,6 +87,21 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         if self.law not in ("uncoupled", "coupled"):
             raise ValueError(f"unknown law {self.law!r}; known are 'uncoupled' and 'coupled'")
         checked_shear(self.poisson_ratio, self.shear_correction)
+
+    @property
+    def shear_share(self) -> float:
+        """k_s G A over EA."""
+        return shear_share(self.poisson_ratio, self.shear_correction)
+
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so."""
+        return (8, 16, 32, 64) if self.starts_in_motion else ()
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """No state says how thick its sections are, which the coupled law would need."""
+        return self.law != "coupled"
 
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
@@ -116,7 +132,7 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         """
         nu = self.poisson_ratio if self.law == "coupled" else 0.0
         plane = 1.0 / (1.0 - nu**2)
-        shear = shear_share(self.poisson_ratio, self.shear_correction)
+        shear = self.shear_share
         d = np.zeros((*EA.shape, 6, 6))
         for i, j, value in (
             (0, 0, plane * EA),

@@ -39,6 +39,7 @@ class Cable(SlopeNodes, NoDivergence):
     """
 
     name: ClassVar[str] = "cable"
+    order = 4.0
     takes_blades: ClassVar[bool] = True
     takes_viscosity: ClassVar[bool] = True
     summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"

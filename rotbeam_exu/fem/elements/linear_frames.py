@@ -32,6 +32,11 @@ FloatingFrame = Literal["tangent", "pinned"]
 class _LinearFrames(SlopeNodes, abstract=True):
     """What both formulations below share: `row` says how a beam is cut into frames."""
 
+    order: float | None = None
+    shear_share: float | None = None
+    meshes: tuple[int, ...] = ()
+    starts_in_motion: bool = True
+
     def row(self, beam: Beam, elements: int) -> FrameRow:
         """Return the beam cut into frames."""
         raise NotImplementedError
@@ -87,6 +92,7 @@ class Linear(_LinearFrames):
     """
 
     name: ClassVar[str] = "linear"
+    order = 4.0
     summary: ClassVar[str] = "one linear floating frame, clamped to the root; diverges above ω0"
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
@@ -125,6 +131,7 @@ class Substructures(_LinearFrames):
     cells: int = 2
 
     name: ClassVar[str] = "substructures"
+    order = 2.0
     summary: ClassVar[str] = "linear floating frames in a row; each number has a divergence speed"
 
     def __post_init__(self) -> None:

@@ -75,7 +75,7 @@ class Exact(AngleNodes, NoDivergence):
                     crossSectionInertia=section.rotary_inertia,
                     bendingStiffness=section.bending_stiffness,
                     axialStiffness=section.axial_stiffness,
-                    shearStiffness=self._shear_share * section.axial_stiffness,
+                    shearStiffness=self.shear_share * section.axial_stiffness,
                     bendingDamping=section.bending_stiffness * mesh.damping.bending,
                     axialDamping=section.axial_stiffness * mesh.damping.axial,
                 )
@@ -99,7 +99,7 @@ class Exact(AngleNodes, NoDivergence):
         """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
         axial, shear, curvature = self._strains(beam, coordinates)
         EA, EI = self._stiffness(beam, coordinates)
-        density = EA * (axial**2 + self._shear_share * shear**2) + EI * curvature**2
+        density = EA * (axial**2 + self.shear_share * shear**2) + EI * curvature**2
         # The points of an element, one or two, weigh the same.
         return np.asarray(0.5 * beam.length * density.mean(axis=-1))
 
@@ -129,7 +129,13 @@ class Exact(AngleNodes, NoDivergence):
         return EA, EI
 
     @property
-    def _shear_share(self) -> float:
+    def order(self) -> float:
+        """Twice that of quadratic functions and two points, against linear ones and one."""
+        return 2.0 * (self.nodes - 1)
+
+    @property
+    def shear_share(self) -> float:
+        """k_s G A over EA."""
         return shear_share(self.poisson_ratio, self.shear_correction)
 
     def _strains(
