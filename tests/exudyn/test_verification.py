@@ -72,7 +72,7 @@ def test_the_cable_converges_to_the_reference_from_an_orbit():
 @pytest.mark.parametrize("name", ["S1+g", "S1+h"])
 def test_loads_and_blades_reach_an_element(name):
     """Without its weight or its hub the tip would be off by as much as it swings."""
-    case = replace(CASES[name], duration=3.0)
+    case = replace(CASES[name], duration=4.0)
     run = formulation_entry(Cable()).simulate(case, elements=8, step=4e-3)
     off = run["q"] - reference(case).history(run["time"].to_numpy())
     assert np.abs(off).max() < 0.05 * np.abs(run["q"]).max()
