@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from functools import partial
 
-from analytic import AnyBlade
+from analytic import AnyBlade, Theory
 
 from ..fem.elements import (
     Ancf3,
@@ -21,7 +21,6 @@ from ..fem.simulation import simulate
 from ..lazily import xr
 from .cases import Case
 from .peers import PEERS, installed, peer
-from .theory import BERNOULLI_EULER, Theory
 from .verify import Entry
 
 _SECOND = 2.0
@@ -77,8 +76,7 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
 
 def theory_of(model: Formulation) -> Theory:
     """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
-    share = model.shear_share
-    return Theory(rotary_inertia=True, shear_share=share) if share else BERNOULLI_EULER
+    return Theory(shear=model.shear_share, rotary_inertia=model.shear_share is not None)
 
 
 def entries_at_hand() -> tuple[Entry, ...]:

@@ -10,12 +10,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from analytic import linear_modes, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import CASES, Asked, Case
 from .shipped import FILE, Shipped, shipped, spline
-from .theory import BERNOULLI_EULER, Theory
 
 COMPUTED_BOUND = 1e-9
 """Relative error of computed frequencies: to it they settle."""
@@ -78,7 +79,9 @@ class Reference:
         """Return ω_n [rad/s] in steady rotation at `speed` [rad/s]; ValueError if refused."""
         data = _shipped_of(self.theory)
         here = None if data is None else data.first_frequency(self.case.blade, speed)
-        return self.theory.first_frequency(self.case.blade, speed) if here is None else here
+        if here is not None:
+            return here
+        return float(linear_modes(self.case.blade, speed, 1, theory=self.theory).frequencies[0])
 
     def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
         """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.
@@ -110,7 +113,7 @@ class Reference:
         missing = sorted(set(at) - set(known))
         if missing:
             # One backbone, for orbits are found from their neighbors.
-            found = self.theory.orbits(blade, speed, [a for _, a in missing])
+            found = periodic_orbits(blade, speed, [a for _, a in missing], theory=self.theory)
             known.update(zip(missing, found.frequency.tolist(), strict=True))
         return np.array([known[place] for place in at])
 
@@ -197,10 +200,12 @@ def sampled_history(
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
-        found = theory.history(blade, motion, time, tolerance=tolerance, loads=case.loads)
+        found = spin_up_response(
+            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
+        )
         q, error = found.q, found.error
     else:
-        orbit = theory.orbits(blade, motion.omega, case.amplitudes)
+        orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
         q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())
     between = spline(time[::2], q[::2])(time[1::2]) - q[1::2]
     error += float(np.abs(between).max() / np.abs(q).max())

@@ -24,12 +24,12 @@ import numpy as np
 from analytic import AnyBlade, Beam, SpinUp, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
 from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
 from .submission import Declaration, Frequency, Run, Submission
-from .theory import BERNOULLI_EULER, Theory
 
 DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On

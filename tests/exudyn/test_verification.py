@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from analytic import Beam, spin_up_response
+from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import verify as room
@@ -16,7 +17,6 @@ from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.peers import peer
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
 
 
