@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 
 from ..verification.judgement import Judgement
-from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes import Mistake
 from ..verification.submission import Submission
 
 

@@ -23,7 +23,7 @@ from analytic.arrays import FloatArray
 from .cases import CASES, VERSION, Asked, Case, stated
 from .judgement import THRESHOLDS
 from .references import reference
-from .submission_files.histories import FARTHEST
+from .submission_files.runs import FARTHEST
 from .submission_files.tables import DIGITS
 
 STATIC = Path(__file__).parent / "data" / "kit"

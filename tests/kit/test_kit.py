@@ -17,7 +17,7 @@ from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission_files.reading import read_submission
+from rotbeam_exu.verification.submission_files.folder import read_submission
 
 HISTORIES = [case for case in CASES.values() if case.asked is Asked.HISTORY]
 
