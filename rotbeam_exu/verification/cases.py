@@ -81,6 +81,13 @@ class Case:
     oscillates: bool = False
 
     @property
+    def quantities(self) -> tuple[str, ...]:
+        """Quantities that are judged of it."""
+        if self.asked is Asked.HISTORY:
+            return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
+        return ("linear frequency",) if self.asked is Asked.FREQUENCIES else ("backbone",)
+
+    @property
     def is_spun_up(self) -> bool:
         """Whether its history starts at rest; else it starts on an orbit."""
         return self.motion is not None and not self.amplitudes

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from analytic import AnyBlade, Theory
 
-from .backbone import backbone
 from .cases import CASES, Asked, Case
 from .convergence import Convergence
+from .frequencies import backbone, linear_frequency
 from .history import Histories
-from .linear_frequency import linear_frequency
 from .outcomes import Finding, Order, Outcome, worst_of
 from .references import Reference
 from .references import reference as shipped_or_computed
@@ -134,87 +133,74 @@ def judged(
     converges to the reference (L) True
     """
     known = CASES if cases is None else cases
-    found: dict[str, _Judged] = {}
+    findings: dict[str, dict[str, Finding]] = {}
+    orders: dict[str, dict[str, Order]] = {}
+    histories: dict[str, Histories] = {}
+    sources: dict[str, str] = {}
     linear: dict[float, Convergence] = {}
     blade: AnyBlade | None = None
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
     for case in sorted(known.values(), key=lambda one: list(Asked).index(one.asked)):
-        if not _handed_in(submission, case):
+        name = case.name
+        if not submission.has(case):
             continue
+        orders[name], sources[name] = {}, "none"
         try:
             reference = reference_of(case, submission.declaration.theory)
         except (RuntimeError, ValueError) as error:
-            note = f"no reference: {error}"
-            nothing = Finding(outcome=Outcome.NO_VERDICT, note=note)
-            found[case.name] = _Judged(findings=dict.fromkeys(_quantities(case), nothing))
+            nothing = Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+            findings[name] = dict.fromkeys(case.quantities, nothing)
             continue
+        sources[name] = reference.source
         own = linear if case.blade == blade else dict[float, Convergence]()
         if case.asked is Asked.FREQUENCIES:
-            finding, linear = linear_frequency(
-                submission, reference, THRESHOLDS["linear frequency"]
-            )
-            found[case.name], blade = _Judged(findings={"linear frequency": finding}), case.blade
+            (quantity,), blade = case.quantities, case.blade
+            found, linear = linear_frequency(submission, reference, THRESHOLDS[quantity])
+            findings[name] = {quantity: found}
         elif case.asked is Asked.BACKBONE:
-            finding = backbone(submission, reference, THRESHOLDS["backbone"], own)
-            found[case.name] = _Judged(findings={"backbone": finding})
+            (quantity,) = case.quantities
+            found = backbone(submission, reference, THRESHOLDS[quantity], own)
+            findings[name] = {quantity: found}
         else:
-            found[case.name] = _of_history(submission, reference, own)
-        found[case.name].source = reference.source
-    in_order = {name: found[name] for name in known if name in found}
+            seen = _histories(submission, reference)
+            if isinstance(seen, Finding):
+                findings[name] = dict.fromkeys(case.quantities, seen)
+            else:
+                histories[name] = seen
+                findings[name], orders[name] = _of_histories(seen, own)
+    names = [name for name in known if name in findings]
     return Judgement(
         declaration=submission.declaration,
-        findings={name: one.findings for name, one in in_order.items()},
-        orders={name: one.orders for name, one in in_order.items()},
-        histories={name: one.histories for name, one in in_order.items() if one.histories},
-        sources={name: one.source for name, one in in_order.items()},
+        findings={name: findings[name] for name in names},
+        orders={name: orders[name] for name in names},
+        histories={name: histories[name] for name in names if name in histories},
+        sources={name: sources[name] for name in names},
     )
 
 
-@dataclass(kw_only=True)
-class _Judged:
-    findings: dict[str, Finding]
-    orders: dict[str, Order] = field(default_factory=dict)
-    histories: Histories | None = None
-    source: str = "none"
-
-
-def _handed_in(submission: Submission, case: Case) -> bool:
-    if case.asked is Asked.FREQUENCIES:
-        return bool(submission.frequencies)
-    if case.asked is Asked.BACKBONE:
-        return bool(submission.backbone)
-    return any(run.case == case.name for run in submission.runs)
-
-
-def _quantities(case: Case) -> tuple[str, ...]:
-    if case.asked is Asked.FREQUENCIES:
-        return ("linear frequency",)
-    if case.asked is Asked.BACKBONE:
-        return ("backbone",)
-    return ("history", "amplitude", "nonlinear shift") if case.oscillates else ("history",)
-
-
-def _of_history(
-    submission: Submission, reference: Reference, linear: Mapping[float, Convergence]
-) -> _Judged:
-    """Judge the runs of a case; what the code refuses on its finest mesh, it cannot do."""
-    case = reference.case
-    runs = [run for run in submission.runs if run.case == case.name]
+def _histories(submission: Submission, reference: Reference) -> Histories | Finding:
+    """Return the runs of a case; what the code refuses on its finest mesh, it cannot do."""
+    runs = [run for run in submission.runs if run.case == reference.case.name]
     finest = max(runs, key=lambda run: (run.elements, -run.step))
     if finest.failure:
-        nothing = Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
-        return _Judged(findings=dict.fromkeys(_quantities(case), nothing))
-    histories = Histories(
-        case=case,
+        return Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
+    return Histories(
+        case=reference.case,
         runs=tuple(run for run in runs if not run.failure),
         reference=reference,
         declaration=submission.declaration,
     )
-    history, orders = histories.deflection(THRESHOLDS["history"])
+
+
+def _of_histories(
+    seen: Histories, linear: Mapping[float, Convergence]
+) -> tuple[dict[str, Finding], dict[str, Order]]:
+    """Return what is found of the runs of a case, by quantity, and their orders."""
+    history, orders = seen.deflection(THRESHOLDS["history"])
     findings = {"history": history}
-    if case.oscillates and case.motion is not None:
-        own = linear.get(case.motion.omega)
-        findings["amplitude"] = histories.amplitude(THRESHOLDS["amplitude"])
-        shift = histories.shift(THRESHOLDS["nonlinear shift"], own)
+    if seen.case.oscillates:
+        findings["amplitude"] = seen.amplitude(THRESHOLDS["amplitude"])
+        own = linear.get(seen.case.rotation.omega)
+        shift = seen.shift(THRESHOLDS["nonlinear shift"], own)
         findings |= {} if shift is None else {"nonlinear shift": shift}
-    return _Judged(findings=findings, orders=orders, histories=histories)
+    return findings, orders

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from analytic.arrays import FloatArray
 from analytic.theory import BERNOULLI_EULER, Theory
 
+from .cases import Asked, Case
+
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
@@ -110,3 +112,9 @@ class Submission:
     frequencies: tuple[Frequency, ...] = ()
     backbone: tuple[BackbonePoint, ...] = ()
     runs: tuple[Run, ...] = ()
+
+    def has(self, case: Case) -> bool:
+        """Return whether something of a case was submitted."""
+        if case.asked is Asked.HISTORY:
+            return any(run.case == case.name for run in self.runs)
+        return bool(self.frequencies if case.asked is Asked.FREQUENCIES else self.backbone)
