@@ -176,7 +176,7 @@ def row_of(case: Case) -> dict[str, Any]:
 
 def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
     """Yield what blade, motion and loads state, by the names of where it stands."""
-    yield from _parts("", getattr(case.blade, "blade", case.blade))
+    yield from _parts("", case.blade.blade)
     yield from _parts("motion.", (case.motion,) if case.motion else ())
     yield from _parts("loads.", case.loads)
 

@@ -86,10 +86,10 @@ class Kratos:
         RotbeamWarning
             If steps did not converge.
         """
-        beam, spin_up = case.blade, case.rotation
+        beam, spin_up = case.blade.uniform, case.rotation
         if case.loads or not case.is_spun_up:
             raise NotImplementedError("the adapter to Kratos takes spin-ups without loads")
-        if not isinstance(beam, Beam):
+        if beam is None:
             raise SimulationError("the adapter to Kratos takes the uniform Beam, not a Blade")
         elements, step = whole_number("elements", elements), positive("step", step, "s")
         require_resolved_ramp(case.ramp_time, step)
