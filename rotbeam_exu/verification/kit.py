@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, is_dataclass
@@ -36,15 +35,9 @@ DIGEST = STATIC / "PROBLEM.sha256"
 
 @dataclass(frozen=True)
 class Column:
-    """A column of cases.csv.
+    """A column of cases.csv: its name, its unit, and the cell of a case that has none.
 
-    Attributes
-    ----------
-    name, unit : str
-    nothing : float or None
-        What stands in it of a case that has none.
-    besides : str
-        How PROBLEM.pdf tells it below "besides"; {} is the number.
+    PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
     """
 
     name: str
@@ -101,25 +94,21 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         what = "is not empty" if target.is_dir() else "is a file"
         raise FileExistsError(f"{target} {what}: name a folder that is new, or empty")
-    contents, made = kit_files(), None
+    contents, above = kit_files(), target.absolute().parent
     try:
-        target.absolute().parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(prefix=".kit-", dir=target.absolute().parent))
-        for name, content in contents.items():
-            path = made / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
-        made.chmod(0o755)
-        if target.exists():
-            target.rmdir()
-        made.rename(target)
+        above.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".kit-", dir=above) as aside:
+            made = Path(aside, "kit")
+            for name, content in contents.items():
+                path = made / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+            if target.exists():
+                target.rmdir()
+            made.rename(target)
     except OSError as error:
-        raise OSError(
-            f"cannot write to {target.parent}: {error.strerror or error}; choose another folder"
-        ) from error
-    finally:
-        if made is not None:
-            shutil.rmtree(made, ignore_errors=True)
+        why = f"{error.strerror or error}; choose another folder"
+        raise OSError(f"cannot write to {target.parent}: {why}") from error
     return target
 
 

@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import linear_modes, periodic_orbits, spin_up_response
+from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
@@ -194,7 +195,7 @@ def sampled_history(
     ValueError
         If theory has no answer, as for a blade that rotation tears.
     """
-    blade, motion = case.blade, case.rotation
+    blade, motion = case.blade, cast("SpinUp", case.rotation)
     if spacing is None:
         spacing = 0.015 / max(blade.omega_0, motion.omega / 3.0)
     count = math.ceil(case.duration / spacing) + _BEYOND

@@ -89,17 +89,17 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         checked_shear(self.poisson_ratio, self.shear_correction)
 
     @property
-    def shear_share(self) -> float:
+    def shear_share(self) -> float:  # type: ignore[override]
         """k_s G A over EA."""
         return shear_share(self.poisson_ratio, self.shear_correction)
 
     @property
-    def meshes(self) -> tuple[int, ...]:
+    def meshes(self) -> tuple[int, ...]:  # type: ignore[override]
         """At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so."""
         return (8, 16, 32, 64) if self.starts_in_motion else ()
 
     @property
-    def starts_in_motion(self) -> bool:
+    def starts_in_motion(self) -> bool:  # type: ignore[override]
         """No state says how thick its sections are, which the coupled law would need."""
         return self.law != "coupled"
 

@@ -70,14 +70,22 @@ class Formulation(Protocol):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     fixed_at_root: ClassVar[tuple[int, ...]]
     """Root coordinates held at their reference values, whatever the angle."""
-    order: float | None
-    """Order of convergence in the length of the elements; None if it is not known."""
-    shear_share: float | None
-    """k_s GA over EA of a beam that shears and has rotary inertia; None of Bernoulli-Euler's."""
-    meshes: tuple[int, ...]
-    """Numbers of elements on which it is judged; none of half, the same and twice as many."""
-    starts_in_motion: bool
-    """Whether the state of a beam says all of its coordinates."""
+
+    @property
+    def order(self) -> float | None:
+        """Order of convergence in the length of the elements; None if it is not known."""
+
+    @property
+    def shear_share(self) -> float | None:
+        """k_s GA over EA of a beam that shears and has rotary inertia, else None."""
+
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """Numbers of elements on which it is judged; none of half, the same and twice as many."""
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """Whether the state of a beam says all of its coordinates."""
 
     def __hash__(self) -> int:
         """Equal options, equal hash: a formulation is a value."""

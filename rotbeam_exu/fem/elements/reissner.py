@@ -129,12 +129,12 @@ class Exact(AngleNodes, NoDivergence):
         return EA, EI
 
     @property
-    def order(self) -> float:
+    def order(self) -> float:  # type: ignore[override]
         """Twice that of quadratic functions and two points, against linear ones and one."""
         return 2.0 * (self.nodes - 1)
 
     @property
-    def shear_share(self) -> float:
+    def shear_share(self) -> float:  # type: ignore[override]
         """k_s G A over EA."""
         return shear_share(self.poisson_ratio, self.shear_correction)
 

@@ -59,8 +59,10 @@ class Faults:
 
     def extend(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
         """Keep faults of one file, each with its line, and return whether there are any."""
-        told = [self.add(file, said, line) for said, line in found]
-        return bool(told)
+        several = list(found)
+        for said, line in several:
+            self.add(file, said, line)
+        return bool(several)
 
     def of(self, file: str) -> bool:
         """Return whether a file has one."""
