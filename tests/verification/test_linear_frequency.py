@@ -46,7 +46,7 @@ def test_another_limit_is_named():
     assert found.model_difference == pytest.approx(-3e-3, abs=1e-6)
 
 
-def test_a_verdict_never_gets_worse_by_refining():
+def test_a_judgement_never_gets_worse_by_refining():
     rank = list(Outcome)
     for difference in (0.0, 1.5e-4, 1.99e-4):
         seen = []
