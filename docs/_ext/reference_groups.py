@@ -92,7 +92,7 @@ GROUPS = (
         rotbeam_exu__verification__verify="verify",
         rotbeam_exu__verification__entries="formulation_entry",
         rotbeam_exu__verification__judgement="judged",
-        rotbeam_exu__verification__submission_files__folder="read_submission write_submission",
+        rotbeam_exu__verification__submission_files="read_submission write_submission",
     ),
     _group(
         "Warnings", "What is legal, and probably not what was meant.", analytic="RotbeamWarning"

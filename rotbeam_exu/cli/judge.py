@@ -15,8 +15,8 @@ from ..report.record import Record
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
 from ..verification.mistakes import Mistake, mistakes_in
+from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import MalformedSubmissionError
-from ..verification.submission_files.folder import digests, read_submission
 from .output import new_console, print_note, print_text, print_written
 from .verdicts import print_judgements
 

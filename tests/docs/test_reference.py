@@ -31,7 +31,7 @@ BEYOND = {
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.files.beam_file", "rotbeam_exu.verification.verify",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
-    "rotbeam_exu.verification.submission_files.folder",
+    "rotbeam_exu.verification.submission_files",
 }  # fmt: skip
 """Modules from which users import as well."""
 

@@ -17,7 +17,7 @@ from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission_files.folder import read_submission
+from rotbeam_exu.verification.submission_files import read_submission
 
 HISTORIES = [case for case in CASES.values() if case.asked is Asked.HISTORY]
 
@@ -102,6 +102,17 @@ FORCE = TipForce(amplitude=0.1, frequency=3.0)
 def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):
     with pytest.raises(ValueError, match=f"cases.csv has no column for {lost}.* of case S1: add"):
         row_of(replace(S1, **change))
+
+
+def test_another_column_is_a_line(monkeypatch):
+    """In both tables and in the problem."""
+    drag = room.Column("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
+    monkeypatch.setitem(room.COLUMNS, "damping.external", drag)
+    case = replace(S1, name="S5", blade=S1.blade.with_damping(Damping(external=0.1)))
+    monkeypatch.setitem(CASES, "S5", case)
+    assert row_of(case)["drag"] == 0.1
+    document = json.loads(room.problem_numbers())
+    assert {row["id"]: row["besides"] for row in document["cases"]}["S5"] == ["drag 0.1 kg/(m s)"]
 
 
 def test_a_case_that_it_can_say_is_whole():

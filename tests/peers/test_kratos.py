@@ -23,6 +23,21 @@ def test_it_says_how_to_install_it():
         peer("kratos")
 
 
+def test_another_peer_is_a_class_and_a_line(monkeypatch):
+    class Other(Kratos):
+        name = "other"
+        package = "Another code"
+
+        def is_installed(self):
+            return False
+
+    monkeypatch.setitem(peers.PEERS, "other", Other())
+    with pytest.raises(NotInstalledError, match="^Another code is not installed; pip install"):
+        peer("other")
+    with pytest.raises(ValueError, match="known are 'kratos', 'other'"):
+        peer("third")
+
+
 def test_the_command_line_says_so_too(capsys, monkeypatch):
     monkeypatch.setattr(peers, "installed", lambda name: False)
     with pytest.raises(SystemExit) as stop:

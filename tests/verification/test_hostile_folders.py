@@ -6,14 +6,14 @@ import signal
 import pytest
 
 from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
-from rotbeam_exu.verification.submission_files import content
-from rotbeam_exu.verification.submission_files.content import LARGEST
-from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
-from rotbeam_exu.verification.submission_files.folder import (
+from rotbeam_exu.verification.submission_files import (
+    content,
     digests,
     read_submission,
     write_submission,
 )
+from rotbeam_exu.verification.submission_files.content import LARGEST
+from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
 from rotbeam_exu.verification.submission_files.tables import number
 
 SECRET = "example.org,password,hunter2\n"

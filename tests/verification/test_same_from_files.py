@@ -10,7 +10,7 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.peers import installed, peer
-from rotbeam_exu.verification.submission_files.folder import read_submission, write_submission
+from rotbeam_exu.verification.submission_files import read_submission, write_submission
 from rotbeam_exu.verification.verify import handed_in
 
 
