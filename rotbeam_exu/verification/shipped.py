@@ -94,50 +94,40 @@ class Shipped:
             f"(SHA-256 {DIGEST[:12]}), {attrs['method']}, made at commit {attrs['commit']}"
         )
 
-    @cached_property
-    def _places(self) -> dict[tuple[Any, ...], str]:
-        made_of, cases = self._made_of("history"), shipped_histories().items()
-        return {key(case): name for name, case in cases if made_of.get(name) == said(key(case))}
-
-    def _made_of(self, dimension: str) -> dict[str, str]:
-        """Return what each thing along a dimension was made of, by its name."""
-        names, of = self.data[dimension].to_numpy(), self.data[f"{dimension}_of"].to_numpy()
-        return dict(zip(names.tolist(), of.tolist(), strict=True))
+    def _names(self, dimension: str) -> dict[str, str]:
+        """Return the names along a dimension by what each thing was made of."""
+        of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
+        return dict(zip(of.tolist(), names.tolist(), strict=True))
 
     def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._places.get(key(case))
+        name = self._names("history").get(said(key(case)))
         if name is None or case.duration > DURATION:
             return None
         here = self.data.sel(history=name)
         return spline(here["time"].to_numpy(), here["q"].to_numpy()), float(here["bound"])
 
-    @cached_property
-    def _frequencies(self) -> dict[tuple[AnyBlade, float], float]:
-        column = self.data["first_frequency"]
-        places = ((CASES["L"].blade, w) for w in column["speed"].to_numpy().tolist())
-        return dict(zip(places, column.to_numpy().tolist(), strict=True))
-
     def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
         """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        return self._frequencies.get((blade, speed))
+        column = self.data["first_frequency"]
+        here = column.to_numpy()[column["speed"].to_numpy() == speed]
+        return float(here[0]) if here.size and blade == CASES["L"].blade else None
 
     @cached_property
-    def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, interpolate.CubicSpline]]:
-        """ω_n and the curvature over a², by blade and speed."""
-        a, made_of, found = self.data["amplitude"].to_numpy(), self._made_of("backbone"), {}
-        for name, place in shipped_backbones().items():
-            if made_of.get(name) == said(place):
-                here = self.data.sel(backbone=name)
-                curvature = here["curvature"].to_numpy()
-                known = np.isfinite(curvature)
-                over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
-                found[place] = float(here["omega_n"]), over_square
+    def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
+        """ω_n and the curvature over a², by what a backbone was made of."""
+        a, found = self.data["amplitude"].to_numpy(), {}
+        for of, name in self._names("backbone").items():
+            here = self.data.sel(backbone=name)
+            curvature = here["curvature"].to_numpy()
+            known = np.isfinite(curvature)
+            over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
+            found[of] = float(here["omega_n"]), over_square
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
-        omega_n, curvature = self._backbones.get((blade, speed), (0.0, None))
+        omega_n, curvature = self._backbones.get(said((blade, speed)), (0.0, None))
         if curvature is None or not amplitude**2 <= curvature.x[-1]:
             return None
         return omega_n * (1.0 - float(curvature(amplitude**2)) * amplitude**2)
