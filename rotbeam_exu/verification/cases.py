@@ -21,11 +21,11 @@ from analytic import (
 from analytic.loads import Load
 
 VERSION = "1.0"
-"""Of the benchmark: cases, references and thresholds."""
+"""Version of the benchmark: of its cases, references and thresholds."""
 
 
 class Level(StrEnum):
-    """How much a code must be able to do."""
+    """Demand that a case makes on a code."""
 
     BASIC = "basic"
     MODERATE = "moderate"
@@ -34,7 +34,7 @@ class Level(StrEnum):
 
 
 class Asked(StrEnum):
-    """What is handed in."""
+    """Result that is handed in."""
 
     FREQUENCIES = "first natural frequency at each speed"
     HISTORY = "deflection of the tip over time"
@@ -89,7 +89,7 @@ class Case:
 
     @property
     def is_spun_up(self) -> bool:
-        """Whether its history starts at rest; else it starts on an orbit."""
+        """True where its history starts at rest; else it starts on an orbit."""
         return self.motion is not None and not self.amplitudes
 
     @property

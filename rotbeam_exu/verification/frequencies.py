@@ -36,38 +36,25 @@ def linear_frequency(
         rows[one.speed].append(one)
     if not rows:
         return Finding(outcome=Outcome.NOT_SUBMITTED, note="no frequencies"), {}
-    declared = submission.declaration.order
-    found = {
-        speed: _of_linear(speed, on_meshes, declared, reference, tolerance)
-        for speed, on_meshes in rows.items()
-    }
-    limits = {
-        speed: one.runs
-        for speed, one in found.items()
-        if one.runs is not None and math.isfinite(one.runs.limit)
-    }
+
+    def finding(speed: float) -> Finding:
+        try:
+            true = reference.first_frequency(speed)
+        except ValueError as error:
+            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        if rows[speed][-1].failure:
+            return Finding(outcome=Outcome.NO_LIMIT, note=rows[speed][-1].failure)
+        done = [one for one in rows[speed] if not one.failure]
+        values = [one.frequency / true - 1.0 for one in done]
+        sizes, declared = [1.0 / one.elements for one in done], submission.declaration.order
+        runs = convergence(sizes, values, noise=FLOOR, declared=declared)
+        where = f"at {speed:g} rad/s"
+        return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
+
+    found = {speed: finding(speed) for speed in rows}
+    runs = {speed: one.runs for speed, one in found.items() if one.runs is not None}
+    limits = {speed: one for speed, one in runs.items() if math.isfinite(one.limit)}
     return worst_of(list(found.values())), limits
-
-
-def _of_linear(
-    speed: float,
-    on_meshes: list[Frequency],
-    declared: float | None,
-    reference: Reference,
-    tolerance: float,
-) -> Finding:
-    try:
-        true = reference.first_frequency(speed)
-    except ValueError as error:
-        return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
-    if on_meshes[-1].failure:
-        return Finding(outcome=Outcome.NO_LIMIT, note=on_meshes[-1].failure)
-    done = [one for one in on_meshes if not one.failure]
-    values = [one.frequency / true - 1.0 for one in done]
-    sizes = [1.0 / one.elements for one in done]
-    runs = convergence(sizes, values, noise=FLOOR, declared=declared)
-    where = f"at {speed:g} rad/s"
-    return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
 
 
 def backbone(

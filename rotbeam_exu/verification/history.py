@@ -1,4 +1,4 @@
-"""What a history of the tip shows: itself, its amplitude, its nonlinear frequency, its orders."""
+"""Histories of the tip against the reference: q(t), amplitude, nonlinear frequency, orders."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ HISTORY_FLOOR = 1e-6
 and what Newton's tolerances may leave."""
 
 LEAST_SHIFT = 5e-4
-"""Of |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
+"""Least |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
 tells of its frequency."""
 
 
@@ -61,7 +61,7 @@ class Histories:
 
     @cached_property
     def differences(self) -> dict[Run, FloatArray]:
-        """Of each run from the reference over max|q|, at the run's own times."""
+        """Differences of each run from the reference over max|q|, at the run's own times."""
         return {run: (run.q - self.reference.history(run.time)) / self.scale for run in self.runs}
 
     @cached_property

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from analytic import AnyBlade, Theory
+from analytic import AnyBlade
 
 from .cases import CASES, Asked, Case
 from .convergence import Convergence
 from .frequencies import backbone, linear_frequency
 from .history import Histories
 from .outcomes import Finding, Order, Outcome, worst_of
-from .references import Reference
-from .references import reference as shipped_or_computed
+from .references import Reference, reference
 from .submission import Declaration, Submission
 
 THRESHOLDS = {
@@ -31,12 +30,10 @@ q(t), over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seco
 ω_NL/ω_n - 1 and of backbones: the best third-order model is off by 6 % at a = 0.4.
 """
 
-ReferenceOf = Callable[[Case, Theory], Reference]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Judgement:
-    """What `judged` found.
+    """The result of `judged`.
 
     Attributes
     ----------
@@ -73,7 +70,7 @@ class Judgement:
 
     @property
     def passed(self) -> bool:
-        """Whether something was submitted, and all that can be decided is the reference."""
+        """True where something was submitted, and all that can be decided is the reference."""
         outcomes = [found.outcome.passed for found in self.by_quantity.values()]
         decided = [passed for passed in outcomes if passed is not None]
         return bool(decided) and all(decided)
@@ -102,7 +99,6 @@ def judged(
     submission: Submission,
     *,
     cases: dict[str, Case] | None = None,
-    reference_of: ReferenceOf = shipped_or_computed,
 ) -> Judgement:
     """Judge what a code handed in by where it converges to.
 
@@ -111,8 +107,6 @@ def judged(
     submission : Submission
     cases : dict, optional
         By name; those of the benchmark by default. What was not submitted of them is left out.
-    reference_of : callable
-        (case, theory) -> Reference.
 
     Returns
     -------
@@ -146,23 +140,23 @@ def judged(
             continue
         orders[name], sources[name] = {}, "none"
         try:
-            reference = reference_of(case, submission.declaration.theory)
+            truth = reference(case, submission.declaration.theory)
         except (RuntimeError, ValueError) as error:
             nothing = Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
             findings[name] = dict.fromkeys(case.quantities, nothing)
             continue
-        sources[name] = reference.source
+        sources[name] = truth.source
         own = linear if case.blade == blade else dict[float, Convergence]()
         if case.asked is Asked.FREQUENCIES:
             (quantity,), blade = case.quantities, case.blade
-            found, linear = linear_frequency(submission, reference, THRESHOLDS[quantity])
+            found, linear = linear_frequency(submission, truth, THRESHOLDS[quantity])
             findings[name] = {quantity: found}
         elif case.asked is Asked.BACKBONE:
             (quantity,) = case.quantities
-            found = backbone(submission, reference, THRESHOLDS[quantity], own)
+            found = backbone(submission, truth, THRESHOLDS[quantity], own)
             findings[name] = {quantity: found}
         else:
-            seen = _histories(submission, reference)
+            seen = _histories(submission, truth)
             if isinstance(seen, Finding):
                 findings[name] = dict.fromkeys(case.quantities, seen)
             else:
@@ -178,16 +172,16 @@ def judged(
     )
 
 
-def _histories(submission: Submission, reference: Reference) -> Histories | Finding:
+def _histories(submission: Submission, truth: Reference) -> Histories | Finding:
     """Return the runs of a case; what the code refuses on its finest mesh, it cannot do."""
-    runs = [run for run in submission.runs if run.case == reference.case.name]
+    runs = [run for run in submission.runs if run.case == truth.case.name]
     finest = max(runs, key=lambda run: (run.elements, -run.step))
     if finest.failure:
         return Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
     return Histories(
-        case=reference.case,
+        case=truth.case,
         runs=tuple(run for run in runs if not run.failure),
-        reference=reference,
+        reference=truth,
         declaration=submission.declaration,
     )
 

@@ -26,11 +26,11 @@ from .submission_files.runs import FARTHEST
 from .submission_files.tables import DIGITS
 
 STATIC = Path(__file__).parent / "data" / "kit"
-"""What is in every kit as it stands: the problem, starters, a sample submission."""
+"""Files that every kit has as they stand: the problem, starters, a sample submission."""
 
 SOURCE, PDF = STATIC / "problem.typ", STATIC / "PROBLEM.pdf"
 DIGEST = STATIC / "PROBLEM.sha256"
-"""Of what the PDF was made from: the source, and the numbers in it."""
+"""SHA-256 of the source and the numbers that the PDF was made from."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ MESHES = (8, 16, 32, 64, 128)
 _SOURCES = {SOURCE.name, DIGEST.name}  # of the PDF, which is what an author wants
 
 SPACING = 0.01
-"""Of drives and of the history for self-check [s]."""
+"""Time between the samples of drives and of the history for self-check [s]."""
 
 
 def write_kit(folder: str | os.PathLike[str]) -> Path:

@@ -176,24 +176,10 @@ class Sampled:
 def sampled_history(
     case: Case, theory: Theory, *, tolerance: float = 1e-6, spacing: float | None = None
 ) -> Sampled:
-    """Compute the history of a case.
+    """Compute a history: a spin-up to `tolerance` over max|q|, an orbit to its residual.
 
-    Parameters
-    ----------
-    case : Case
-        That asks for a history.
-    theory : Theory
-    tolerance : float
-        Largest error of a spin-up over max|q|; orbits are known to their residual.
-    spacing : float, optional
-        Of the samples [s]; without it, some 400 of them in a period.
-
-    Raises
-    ------
-    RuntimeError
-        If the tolerance or the orbit is not reached.
-    ValueError
-        If theory has no answer, as for a blade that rotation tears.
+    Samples are `spacing` [s] apart, or some 400 in a period. RuntimeError if the history is not
+    reached, ValueError if theory has no answer.
     """
     blade, motion = case.blade, cast("SpinUp", case.rotation)
     if spacing is None:

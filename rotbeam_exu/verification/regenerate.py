@@ -36,10 +36,10 @@ from .shipped import (
 )
 
 SPACING = 5e-3
-"""Of the shipped samples [s]."""
+"""Time between the shipped samples [s]."""
 
 TOLERANCES = {"S1+g": 2e-6}
-"""Of histories over max|q|, 1e-8 of others: gravity sets in at once and moves the highest modes."""
+"""Tolerance of q over max|q|, 1e-8 of others: gravity sets in at once, and moves high modes."""
 
 _WORST = 1e-8  # relative error of ω_NL between the points of a backbone
 _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress

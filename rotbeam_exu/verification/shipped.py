@@ -23,12 +23,12 @@ from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 FILE = Path(__file__).parent / "data" / "references.nc"
 
 DIGEST = "0ba10ced1247adbbac635b42d7b3fd46d6edf850deb1f073d763e09de5890e87"
-"""SHA-256 of the file: all verdicts stand on it, and no other is taken."""
+"""SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
 
 DURATION = 20.0
-"""Of the shipped histories [s]."""
+"""End of the shipped histories [s]."""
 
 
 def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
@@ -74,7 +74,7 @@ def said(value: Any) -> str:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shipped:
-    """What the file holds.
+    """The content of the file.
 
     Attributes
     ----------

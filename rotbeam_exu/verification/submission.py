@@ -1,4 +1,4 @@
-"""What a code hands in: who it is, its frequencies, its histories; from files or from a call."""
+"""Submissions of a code: its declaration, frequencies and histories, from files or a call."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .cases import Asked, Case
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """What the author says of a code; the file entry.toml.
+    """The author's declaration of a code; the file entry.toml.
 
     Attributes
     ----------

@@ -159,18 +159,15 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
         declaration=Declaration(
-            code=entry.name,
-            theory=entry.theory,
-            order=entry.order,
+            code=entry.name, theory=entry.theory, order=entry.order,
             order_in_step=entry.order_in_step,
         ),
-        frequencies=tuple(frequencies),
-        runs=tuple(runs),
-    )
+        frequencies=tuple(frequencies), runs=tuple(runs),
+    )  # fmt: skip
 
 
 def faster_than_paper(beam: AnyBlade) -> float:
-    """How many times faster the beam is than the paper's."""
+    """Return the ratio of the beam's natural frequency at rest to that of the paper's beam."""
     return beam.omega_0 / Beam.reference().omega_0
 
 

@@ -12,8 +12,8 @@ from collections.abc import Collection
 from analytic.input_checks import RotbeamWarning
 
 from ..cases import CASES, Asked
-from ..judgement import Judgement, ReferenceOf
-from ..references import reference as shipped_or_computed
+from ..judgement import Judgement
+from ..references import reference
 from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history
 from .mistake import Mistake, largest
@@ -22,22 +22,8 @@ from .tables import mistake_in_backbone, mistake_in_frequencies
 __all__ = ["Mistake", "mistakes_in"]
 
 
-def mistakes_in(
-    submission: Submission,
-    judgement: Judgement,
-    *,
-    reference_of: ReferenceOf = shipped_or_computed,
-) -> list[Mistake]:
-    """Return the mistakes that explain large errors, one a case at most.
-
-    Parameters
-    ----------
-    submission : Submission
-    judgement : Judgement
-        Of it.
-    reference_of : callable
-        (case, theory) -> Reference.
-    """
+def mistakes_in(submission: Submission, judgement: Judgement) -> list[Mistake]:
+    """Return the mistakes that explain large errors of a submission, one a case at most."""
     found: list[Mistake] = []
     ramps: Collection[str] = RAMPS
     with warnings.catch_warnings():
@@ -47,7 +33,7 @@ def mistakes_in(
             seen = judgement.histories.get(name)
             try:
                 if seen is None:
-                    one = _in_table(name, submission, reference_of)
+                    one = _in_table(name, submission)
                 else:
                     run, true = seen.rows.finest, seen.reference.history
                     one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
@@ -63,11 +49,11 @@ def mistakes_in(
     return found
 
 
-def _in_table(name: str, submission: Submission, reference_of: ReferenceOf) -> Mistake | None:
+def _in_table(name: str, submission: Submission) -> Mistake | None:
     case = CASES.get(name)
     if case is None or case.asked is Asked.HISTORY:
         return None
-    reference = reference_of(case, submission.declaration.theory)
+    truth = reference(case, submission.declaration.theory)
     if case.asked is Asked.FREQUENCIES:
-        return mistake_in_frequencies(case, submission.frequencies, reference)
-    return mistake_in_backbone(case, submission.backbone, reference)
+        return mistake_in_frequencies(case, submission.frequencies, truth)
+    return mistake_in_backbone(case, submission.backbone, truth)

@@ -93,17 +93,10 @@ def mistake_in_history(
     reference: Callable[[FloatArray], FloatArray],
     ramps: Collection[str] = RAMPS,
 ) -> Mistake | None:
-    """Return the mistake that explains what a history is off by, if there is one.
+    """Return the mistake that explains the error of a history, if there is one.
 
-    Parameters
-    ----------
-    case : Case
-    time, q : ndarray (samples,)
-        As handed in, [s] and [m].
-    reference : callable
-        The reference's q [m] at times [s] within the case.
-    ramps : collection of str
-        Wrong ramps to try, keys of RAMPS; each takes a second or two.
+    Times [s] and q [m] are as handed in; `reference` gives q [m] at times within the case. `ramps`
+    are the wrong ones to try, keys of RAMPS; each takes a second or two.
     """
     every = max(1, time.size // _SAMPLES)
     time, q = time[::every], q[::every]

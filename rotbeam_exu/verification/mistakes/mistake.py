@@ -15,7 +15,7 @@ LEFT = 0.2
 
 @dataclass(frozen=True, kw_only=True)
 class Mistake:
-    """What explains the error of a case.
+    """An explanation of the error of a case.
 
     Attributes
     ----------

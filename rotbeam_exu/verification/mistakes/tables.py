@@ -24,7 +24,7 @@ SMALL = 2e-4
 """Relative error of a frequency below which no mistake is looked for: what passes."""
 
 SMALL_OF_SHIFT = 1e-2
-"""Of backbones over the largest shift: a first harmonic for a peak is 5 % of it at 0.6."""
+"""The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
 
 _FREQUENCY_UNITS = {
     "hertz": ("Hz", 0.5 / math.pi),

@@ -14,7 +14,7 @@ class Peer(Protocol):
     name: ClassVar[str]
     """Name that the user gives."""
     package: ClassVar[str]
-    """What has to be installed, in words."""
+    """Package that has to be installed, in words."""
 
     def is_installed(self) -> bool:
         """Say whether the code is at hand, without importing it."""

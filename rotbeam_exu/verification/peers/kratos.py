@@ -66,25 +66,10 @@ class Kratos:
         return Entry(name=self.name, simulate=self, elements=32, step=5e-4, order=2.0)
 
     def __call__(self, case: Case, *, elements: int = 32, step: float = 5e-4) -> xr.Dataset:
-        """Spin the beam up.
+        """Spin the beam up, as `Code` does; RotbeamWarning if steps did not converge.
 
-        Returns
-        -------
-        Dataset
-            q [m] and q_dot [m/s] (Eq. 16) over `time` [s]. The attributes hold the inputs, wall
-            time, and how many steps did not converge.
-
-        Raises
-        ------
-        NotImplementedError
-            If the case has loads, or starts on an orbit.
-        SimulationError
-            If the blade is no uniform beam, a number is not finite, or the tip leaves its reach.
-
-        Warns
-        -----
-        RotbeamWarning
-            If steps did not converge.
+        The attributes hold the inputs, wall time, and how many steps did not converge.
+        SimulationError if the blade is no uniform beam, or if the tip leaves its reach.
         """
         beam, spin_up = case.blade.uniform, case.rotation
         if case.loads or not case.is_spun_up:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,17 +32,13 @@ from .tables import (
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
 
 
-def read_submission(
-    folder: str | os.PathLike[str], *, cases: Mapping[str, Case] = CASES
-) -> Submission:
+def read_submission(folder: str | os.PathLike[str]) -> Submission:
     r"""Read what an author hands in.
 
     Parameters
     ----------
     folder : path
         With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
-    cases : mapping
-        Those of the benchmark, by name.
 
     Returns
     -------
@@ -73,11 +68,11 @@ def read_submission(
         raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
     declaration = entry.declaration_of(root, faults)
     points: dict[Asked, list[dict[str, Any]]] = {}
-    for file, case in _tables(cases).items():
+    for file, case in _tables().items():
         if os.path.lexists(root / file):
             points[case.asked] = _points(root, file, case, faults)
-    histories = runs.runs_of(root, cases, faults)
-    _strangers(root, cases, faults)
+    histories = runs.runs_of(root, faults)
+    _strangers(root, faults)
     frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
     backbone = [row for row in backbone if "failure" not in row]
     if not faults and not (frequencies or backbone or histories):
@@ -134,11 +129,11 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     if twice:
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
-    for table, case in _tables(CASES).items():
+    for table, case in _tables().items():
         one = case.asked is Asked.FREQUENCIES
         points = submission.frequencies if one else submission.backbone
         texts |= {table: written(_columns(case), points)} if points else {}
-    texts |= {runs.FILE: written(runs.columns_of(CASES), named)} if named else {}
+    texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
     for file, text in texts.items():
         (root / file).write_text(text, encoding="utf-8", newline="\n")
     for run in named:
@@ -156,7 +151,7 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
     root = Path(folder)
-    files = [entry.FILE, *_tables(CASES), runs.FILE, *(run.file for run in submission.runs)]
+    files = [entry.FILE, *_tables(), runs.FILE, *(run.file for run in submission.runs)]
     return {
         file: hashlib.sha256(content_of(root, file)).hexdigest()
         for file in files
@@ -164,9 +159,9 @@ def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str,
     }
 
 
-def _tables(cases: Mapping[str, Case]) -> dict[str, Case]:
+def _tables() -> dict[str, Case]:
     """Return the cases that are handed in as one table, by its file."""
-    return {f"{name}.csv": case for name, case in cases.items() if case.asked is not Asked.HISTORY}
+    return {f"{name}.csv": case for name, case in CASES.items() if case.asked is not Asked.HISTORY}
 
 
 def _columns(case: Case) -> tuple[Column, ...]:
@@ -195,18 +190,18 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
     return list(found.values())
 
 
-def _strangers(root: Path, cases: Mapping[str, Case], faults: Faults) -> None:
+def _strangers(root: Path, faults: Faults) -> None:
     """Add tables and folders of histories that belong to no case: misspelled, most likely.
 
     A link out of the folder may have any name, and is looked into under none.
     """
-    tables = (*_tables(cases), runs.FILE)
+    tables = (*_tables(), runs.FILE)
     for path in sorted(root.iterdir()):
         name = printable(path.name)
         if below(root, path.name) is None:
-            if path.name in cases:
+            if path.name in CASES:
                 faults.add(name, OUTSIDE)
-        elif path.is_dir() and path.name not in cases and any(path.glob("m*_h*.csv")):
-            faults.add(name, f"is the folder of no case; {near(name, cases, str)}")
+        elif path.is_dir() and path.name not in CASES and any(path.glob("m*_h*.csv")):
+            faults.add(name, f"is the folder of no case; {near(name, CASES, str)}")
         elif path.suffix.lower() == ".csv" and path.name not in tables:
             faults.add(name, f"is a table that nobody asked for; {near(name, tables, str)}")

@@ -1,4 +1,4 @@
-"""What is wrong with a submission's files: all at once, each with its place and a remedy."""
+"""Faults of a submission's files: all at once, each with its place and a remedy."""
 
 from __future__ import annotations
 

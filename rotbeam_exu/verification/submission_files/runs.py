@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..cases import Asked, Case
+from ..cases import CASES, Asked, Case
 from ..submission import Run
 from .content import below
 from .faults import Faults, printable, several, shown
@@ -21,7 +21,6 @@ from .tables import (
     DIGITS,
     FAILURE,
     Column,
-    Kind,
     Sheet,
     bounded,
     digits,
@@ -45,7 +44,7 @@ HISTORY = (
 )
 _SLACK = 1e-6
 _NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
-"""Of a history's file: elements, and step [s]."""
+"""Name of a history's file: elements, and step [s]."""
 
 _ROUNDED = 1e-2
 """Relative distance of a step from what the name of its file says."""
@@ -54,30 +53,24 @@ _positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, go
 _cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
 
 
-def columns_of(cases: Mapping[str, Case]) -> tuple[Column, ...]:
-    """Return the columns of runs.csv."""
-    return (
-        Column("file", _history_of(cases)), Column("elements", whole),
-        Column("step", _positive, "s"), Column("dof", whole, needed=False),
-        Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
-        FAILURE, Column("remark", text, needed=False),
-    )  # fmt: skip
+def _history(_: str, cell: str) -> str:
+    """Return the name of a history's file."""
+    case, _, name = cell.partition("/")
+    known = [one.name for one in CASES.values() if one.asked is Asked.HISTORY]
+    if case not in known:
+        among = f"known are {', '.join(known)}"
+        raise ValueError(f"{shown(case)} is no case with a history; {among}")
+    if not _NAME.fullmatch(name):
+        raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
+    return cell
 
 
-def _history_of(cases: Mapping[str, Case]) -> Kind:
-    """Return the kind of names of histories."""
-    known = tuple(name for name, case in cases.items() if case.asked is Asked.HISTORY)
-
-    def read(_: str, cell: str) -> str:
-        case, _, name = cell.partition("/")
-        if case not in known:
-            among = f"known are {', '.join(known)}"
-            raise ValueError(f"{shown(case)} is no case with a history; {among}")
-        if not _NAME.fullmatch(name):
-            raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
-        return cell
-
-    return read
+COLUMNS = (
+    Column("file", _history), Column("elements", whole),
+    Column("step", _positive, "s"), Column("dof", whole, needed=False),
+    Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
+    FAILURE, Column("remark", text, needed=False),
+)  # fmt: skip
 
 
 def file_of(run: Run) -> str:
@@ -88,21 +81,21 @@ def file_of(run: Run) -> str:
     return f"{run.case}/m{run.elements:03d}_h{mantissa}e{power}.csv"
 
 
-def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run, ...]:
+def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
     """Return the runs that runs.csv lists, those that failed without a history."""
     there = [
         f"{name}/{printable(path.name)}"
-        for name, case in cases.items()
+        for name, case in CASES.items()
         if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir()
         for path in sorted((root / name).glob("*.csv"))
     ]
     if not there and not os.path.lexists(root / FILE):
         return ()
-    found, listed = [], list(_listed(root, cases, faults))
+    found, listed = [], list(_listed(root, faults))
     for row in listed:
         samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
-            samples = history_of(root, row["file"], cases[row["case"]], faults)
+            samples = history_of(root, row["file"], CASES[row["case"]], faults)
         if samples is not None:
             found.append(Run(**(row | samples)))
     if not faults.of(FILE):
@@ -113,9 +106,9 @@ def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run,
     return tuple(found)
 
 
-def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[dict[str, Any]]:
+def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     """Yield the rows of runs.csv that are right by themselves, with their case."""
-    sheet = sheet_of(root, FILE, columns_of(cases), faults)
+    sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         case, _, name = row["file"].partition("/")
