@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import math
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from analytic import AnyBlade
 
 from .cases import CASES, Asked, Case
-from .convergence import Convergence
-from .frequencies import backbone, linear_frequency
+from .convergence import Convergence, convergence
 from .history import Histories
-from .outcomes import Finding, Order, Outcome, worst_of
+from .outcomes import Finding, Order, Outcome, found_of, worst_of
 from .references import Reference, reference
-from .submission import Declaration, Submission
+from .submission import BackbonePoint, Declaration, Frequency, Submission
 
 THRESHOLDS = {
     "linear frequency": 2e-4,
@@ -29,6 +30,10 @@ Of ω_n, what is off by more moves ω_NL by a tenth of the least nonlinear shift
 q(t), over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seconds, 45 rad. Of
 ω_NL/ω_n - 1 and of backbones: the best third-order model is off by 6 % at a = 0.4.
 """
+
+FLOOR = 1e-7
+"""Relative round-off of a mesh's frequency: 1e-8 to 1e-7 of 64 to 128 elements, axial modes being
+10⁸ times stiffer."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -149,11 +154,11 @@ def judged(
         own = linear if case.blade == blade else dict[float, Convergence]()
         if case.asked is Asked.FREQUENCIES:
             (quantity,), blade = case.quantities, case.blade
-            found, linear = linear_frequency(submission, truth, THRESHOLDS[quantity])
+            found, linear = _linear_frequency(submission, truth, THRESHOLDS[quantity])
             findings[name] = {quantity: found}
         elif case.asked is Asked.BACKBONE:
             (quantity,) = case.quantities
-            found = backbone(submission, truth, THRESHOLDS[quantity], own)
+            found = _backbone(submission, truth, THRESHOLDS[quantity], own)
             findings[name] = {quantity: found}
         else:
             seen = _histories(submission, truth)
@@ -198,3 +203,68 @@ def _of_histories(
         shift = seen.shift(THRESHOLDS["nonlinear shift"], own)
         findings |= {} if shift is None else {"nonlinear shift": shift}
     return findings, orders
+
+
+def _linear_frequency(
+    submission: Submission, reference: Reference, tolerance: float
+) -> tuple[Finding, dict[float, Convergence]]:
+    """Return the worst finding of the first frequency over the speeds, and its limits by speed.
+
+    They are of ω_n over the reference, less one. A coarse mesh that the code refuses is left out;
+    the finest says that it does not converge. A speed that the theory refuses is no verdict.
+    """
+    rows: dict[float, list[Frequency]] = defaultdict(list)
+    for one in sorted(submission.frequencies, key=lambda one: (one.speed, one.elements)):
+        rows[one.speed].append(one)
+    if not rows:
+        return Finding(outcome=Outcome.NOT_SUBMITTED, note="no frequencies"), {}
+
+    def finding(speed: float) -> Finding:
+        try:
+            true = reference.first_frequency(speed)
+        except ValueError as error:
+            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        if rows[speed][-1].failure:
+            return Finding(outcome=Outcome.NO_LIMIT, note=rows[speed][-1].failure)
+        done = [one for one in rows[speed] if not one.failure]
+        values = [one.frequency / true - 1.0 for one in done]
+        sizes, declared = [1.0 / one.elements for one in done], submission.declaration.order
+        runs = convergence(sizes, values, noise=FLOOR, declared=declared)
+        where = f"at {speed:g} rad/s"
+        return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
+
+    found = {speed: finding(speed) for speed in rows}
+    runs = {speed: one.runs for speed, one in found.items() if one.runs is not None}
+    limits = {speed: one for speed, one in runs.items() if math.isfinite(one.limit)}
+    return worst_of(list(found.values())), limits
+
+
+def _backbone(
+    submission: Submission,
+    reference: Reference,
+    tolerance: float,
+    linear: Mapping[float, Convergence],
+) -> Finding:
+    """Return the worst finding of ω_NL/ω_n - 1 over speeds and amplitudes.
+
+    `linear` is, by speed, the limit of the code's ω_n/ω_n,exact - 1; without it ω_n is exact.
+    """
+    rows: dict[tuple[float, float], list[BackbonePoint]] = defaultdict(list)
+    for point in submission.backbone:
+        rows[point.speed, point.amplitude].append(point)
+    found, declared = [], submission.declaration.order
+    for (speed, amplitude), points in rows.items():
+        where = f"at {speed:g} rad/s and a = {amplitude:g}"
+        try:
+            true = reference.frequency_at(amplitude, speed)
+            shift = true / reference.first_frequency(speed) - 1.0
+        except (RuntimeError, ValueError) as error:
+            note = f"no reference {where}: {error}"
+            found.append(Finding(outcome=Outcome.NO_VERDICT, note=note))
+            continue
+        off, doubt = (linear[speed].limit, linear[speed].bar) if speed in linear else (0.0, 0.0)
+        values = [(point.frequency / true - 1.0 - off) / shift for point in points]
+        runs = convergence([1.0 / one.elements for one in points], values, declared=declared)
+        bound = (reference.bound + doubt) / abs(shift)
+        found.append(found_of(runs, tolerance=tolerance, bound=bound, where=where))
+    return worst_of(found)
