@@ -16,7 +16,7 @@ import contextlib
 import math
 import time as clock
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -195,25 +195,20 @@ def _runs(entry: Entry, case: Case) -> list[Run]:
 
 
 def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
-    started = clock.perf_counter()
+    nothing, started = np.empty(0), clock.perf_counter()
+    run = Run(case=case.name, elements=elements, step=step, time=nothing, q=nothing)
     try:
         found = entry.simulate(case, elements=elements, step=step)
     except NotImplementedError:
         raise
     except RuntimeError as error:
-        nothing = np.empty(0)
-        return Run(
-            case=case.name, elements=elements, step=step, time=nothing, q=nothing,
-            failure=str(error),
-        )  # fmt: skip
+        return replace(run, failure=str(error))
     # A whole number of steps may end a little later than the case.
     found = found.isel(time=found["time"].to_numpy() <= case.duration)
     own = str(found.attrs.get("verdict", "passed"))
-    return Run(
-        case=case.name, elements=elements, step=step,
-        time=found["time"].to_numpy(), q=found["q"].to_numpy(), q_dot=found["q_dot"].to_numpy(),
-        wall=clock.perf_counter() - started, remark="" if own == "passed" else own,
-    )  # fmt: skip
+    columns = {name: found[name].to_numpy() for name in ("time", "q", "q_dot")}
+    wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
+    return replace(run, **columns, wall=wall, remark=remark)
 
 
 def cost_at_error(
