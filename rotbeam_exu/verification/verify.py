@@ -206,9 +206,9 @@ def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
     # A whole number of steps may end a little later than the case.
     found = found.isel(time=found["time"].to_numpy() <= case.duration)
     own = str(found.attrs.get("verdict", "passed"))
-    columns = {name: found[name].to_numpy() for name in ("time", "q", "q_dot")}
+    time, q, q_dot = (found[name].to_numpy() for name in ("time", "q", "q_dot"))
     wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
-    return replace(run, **columns, wall=wall, remark=remark)
+    return replace(run, time=time, q=q, q_dot=q_dot, wall=wall, remark=remark)
 
 
 def cost_at_error(
