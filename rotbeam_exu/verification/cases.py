@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import Any
@@ -122,7 +122,13 @@ def stated(value: Any) -> dict[str, Any]:
     A blade that learns to have more then states the same as before.
     """
     parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
-    return {name: part for name, part, default in parts if part or part != default}
+    return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
+
+
+def _is_nothing(part: Any) -> bool:
+    if isinstance(part, tuple):
+        return all(map(_is_nothing, part))
+    return not (stated(part) if is_dataclass(part) else part)
 
 
 def spin_up_case(

@@ -121,6 +121,8 @@ def test_a_blade_is_known_by_what_it_has():
     assert room.said((one, 6.0)) != room.said((other, 6.0))
     assert "hub_radius=0.5" in room.said(one)
     assert "setting_angle" not in room.said(one)  # nor what a blade may learn to have
+    assert "line" not in room.said(one)  # whose offsets are pairs of zeros
+    assert "mass_offset" in room.said(BEAM.with_offsets(mass=(0.01, 0.0)))
 
 
 def test_shipped_frequencies_are_those_of_more_functions():
