@@ -46,7 +46,6 @@ from .reduced.linear_frame import LinearResponse as LinearResponse
 from .reduced.linear_frame import linear_response as linear_response
 from .reduced.model import ReducedModel as ReducedModel
 from .reduced.model import reduced_model as reduced_model
-from .reduced.speeds import critical_speed as critical_speed
 from .reduced.speeds import divergence_speed as divergence_speed
 from .reduced.speeds import softening_speed as softening_speed
 from .reduced.tables import paper_table as paper_table

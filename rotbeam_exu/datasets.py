@@ -27,8 +27,8 @@ from analytic import (
 from analytic.loads import HarmonicLoad, rippled
 
 from .lazily import xr
-from .verdict import beam_attributes, loads_attributes, motion_attributes
-from .versions import versions
+from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.versions import versions
 
 OMEGA = "angular velocity ω [rad/s]"
 AMPLITUDE = "peak amplitude a = |q|/L"

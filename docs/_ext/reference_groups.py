@@ -67,14 +67,14 @@ GROUPS = (
     _group(
         "Reduced models",
         "The models of the paper, and those that repair them.",
-        analytic="reduced_model ReducedModel VARIANTS Variant softening_speed critical_speed "
+        analytic="reduced_model ReducedModel VARIANTS Variant softening_speed "
         "divergence_speed paper_table",
     ),
     _group(
         "Exudyn",
         "The beam by finite elements: in the plane, in space, in a model of yours.",
         rotbeam_exu="simulate steady_oscillation SteadyOscillation natural_frequencies "
-        "steady_stretch growth_rate critical_speed divergence_speed simulate_3d flap_frequencies "
+        "steady_stretch growth_rate divergence_speed simulate_3d flap_frequencies "
         "growth_rate_of GrowthRate ray_traced SimulationError",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
         rotbeam_exu__fem__elements="Cable Exact Ancf3 Linear Substructures Formulation",

@@ -26,7 +26,7 @@ from ..datasets import dataset
 from ..fem.elements import Formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 
 _CURVE = 400
 _SHORTEST = 0.8

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from functools import partial
 
-from analytic import AnyBlade, Theory
+from analytic import AnyBlade
 
 from ..fem.elements import (
     Ancf3,
@@ -16,7 +16,7 @@ from ..fem.elements import (
     Substructures,
     require_modeled,
 )
-from ..fem.linearization import mesh_frequencies
+from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
 from .cases import Case
@@ -60,7 +60,7 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         )  # fmt: skip
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(mesh_frequencies(beam, omega, model, elements, 1)[0])
+        return float(Linearization.of(beam, omega, model, elements).frequencies(1)[0])
 
     return Entry(
         name=" ".join([model.name, *options]),
@@ -69,14 +69,9 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         elements=elements or (32 if model.order == _SECOND else 16),
         meshes=() if elements else model.meshes,
         step=step,
-        theory=theory_of(model),
+        theory=model.theory,
         order=model.order,
     )
-
-
-def theory_of(model: Formulation) -> Theory:
-    """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
-    return Theory(shear=model.shear_share, rotary_inertia=model.shear_share is not None)
 
 
 def entries_at_hand() -> tuple[Entry, ...]:

@@ -13,8 +13,8 @@ from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from ..lazily import xr
-from ..oscillation import SteadyOscillation, steady_oscillation
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
+from ..runs.oscillation import SteadyOscillation, steady_oscillation
 from .cases import Case
 from .convergence import Convergence
 from .outcomes import Finding, Order, Outcome, found_of

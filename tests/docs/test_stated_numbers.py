@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-from exudyn.itemInterface import NodePoint2DSlope1, ObjectANCFCable2D
+from exudyn.itemInterface import ObjectANCFCable2D
 from scipy import optimize
 
 from analytic import (
@@ -42,10 +42,7 @@ class OtherQuadrature(Cable):
 
     def lay(self, mbs, beam, elements):
         length = beam.length / elements
-        nodes = tuple(
-            mbs.AddNode(NodePoint2DSlope1(referenceCoordinates=[i * length, 0.0, 1.0, 0.0]))
-            for i in range(elements + 1)
-        )
+        nodes = self.add_nodes(mbs, np.linspace(0.0, beam.length, elements + 1))
         bodies = tuple(
             mbs.AddObject(
                 ObjectANCFCable2D(

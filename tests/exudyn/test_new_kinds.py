@@ -44,10 +44,15 @@ from rotbeam_exu import (
 )
 from rotbeam_exu.cli.repeat import recorded_case
 from rotbeam_exu.fem.case import Case
-from rotbeam_exu.fem.elements import Cable
-from rotbeam_exu.fem.space.elements import SpaceCable
+from rotbeam_exu.fem.elements import Cable, SpaceCable
 from rotbeam_exu.files.results import differing_inputs
-from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
+from rotbeam_exu.runs.attributes import (
+    beam_attributes,
+    beam_of,
+    loads_of,
+    motion_attributes,
+    motion_of,
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,8 +27,9 @@ from analytic.motion import Rotation
 from analytic.warning import warn
 
 from ...lazily import xr
-from ...resolution import require_resolved_ramp, sampling
-from ...verdict import SimulationError, beam_attributes, motion_attributes
+from ...runs.attributes import beam_attributes, motion_attributes
+from ...runs.check import SimulationError
+from ...runs.resolution import require_resolved_ramp, sampling
 from ..cases import Case
 from ..verify import Entry
 
