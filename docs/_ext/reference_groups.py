@@ -89,11 +89,10 @@ GROUPS = (
     _group(
         "Verification",
         "Judging another code, called from Python or read from files.",
-        rotbeam_exu__verification__measures="verify",
+        rotbeam_exu__verification__verify="verify",
         rotbeam_exu__verification__entries="formulation_entry",
         rotbeam_exu__verification__judgement="judged",
-        rotbeam_exu__verification__submission_files__reading="read_submission",
-        rotbeam_exu__verification__submission_files__writing="write_submission",
+        rotbeam_exu__verification__submission_files="read_submission write_submission",
     ),
     _group(
         "Warnings", "What is legal, and probably not what was meant.", analytic="RotbeamWarning"

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import partial
 
-from analytic import AnyBlade, SpinUp, SteadyRotation
+from analytic import AnyBlade
 
-from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
+from ..fem.elements import (
+    Ancf3,
+    Cable,
+    Exact,
+    Formulation,
+    Linear,
+    Substructures,
+    require_modeled,
+)
 from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
-from .peers import PEERS, Entry, StateOf, installed, peer
+from .cases import Case
+from .peers import PEERS, installed, peer
+from .verify import Entry
+
+_SECOND = 2.0
 
 
 def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
@@ -27,35 +40,23 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     >>> print(entry.name, entry.own_meshes, entry.step)
     exact nodes=3 (8, 16, 32) 0.001
     """
-    meshes: tuple[int, ...] = ()
-    if elements is None:
-        elements = 32 if model.order == 2.0 else 16
-        meshes = model.meshes
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
         if getattr(model, field.name) != field.default
     ]
 
-    def spin(
-        beam: AnyBlade, spin_up: SpinUp, *, elements: int, duration: float, step: float
-    ) -> xr.Dataset:
+    def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
+        try:
+            require_modeled(case.blade, model)
+        except ValueError as error:
+            raise NotImplementedError(str(error)) from error
+        if not (case.is_spun_up or model.starts_in_motion):
+            raise NotImplementedError(f"{model.name} does not start on an orbit")
         return simulate(
-            beam, spin_up, element=model, elements=elements, duration=duration, step=step
-        )
-
-    def release(
-        beam: AnyBlade,
-        rotation: SteadyRotation,
-        state: StateOf,
-        *,
-        elements: int,
-        duration: float,
-        step: float,
-    ) -> xr.Dataset:
-        return simulate(
-            beam, rotation, element=model, elements=elements, duration=duration, step=step,
-            initial_state=state,
+            case.blade, case.rotation, element=model, elements=elements, step=step,
+            duration=case.whole_duration(step), loads=case.loads,
+            initial_state=None if case.is_spun_up else partial(case.orbit.state, 0),
         )  # fmt: skip
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
@@ -63,11 +64,10 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
 
     return Entry(
         name=" ".join([model.name, *options]),
-        simulate=spin,
+        simulate=simulated,
         first_frequency=first,
-        release=release if model.starts_in_motion else None,
-        elements=elements,
-        meshes=meshes,
+        elements=elements or (32 if model.order == _SECOND else 16),
+        meshes=() if elements else model.meshes,
         step=step,
         theory=model.theory,
         order=model.order,

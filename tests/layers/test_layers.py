@@ -111,7 +111,7 @@ def test_no_arrow_points_up_and_each_library_has_its_room():
         ("analytic.methods.harmonic_balance", "analytic.exact.beam.continuum"),
         ("analytic.reduced.model", "analytic.exact.linear.modes"),
         ("analytic.exact.linear.modes", "rotbeam_exu.runs.check"),
-        ("rotbeam_exu.verification.measures", "exudyn"),
+        ("rotbeam_exu.verification.verify", "exudyn"),
         ("rotbeam_exu.fem.simulation", "rotbeam_exu.sweeps.grid"),
         ("rotbeam_exu.runs.oscillation", "rotbeam_exu.fem.case"),
         ("rotbeam_exu.cli.run", "matplotlib.pyplot"),
@@ -157,8 +157,7 @@ def test_what_is_judged_needs_no_fem():
     inside = [
         (name, target)
         for name, target in arrows()
-        if name in ("rotbeam_exu.verification.measures", "rotbeam_exu.verification.cost")
-        and target.startswith("rotbeam_exu.fem")
+        if name == "rotbeam_exu.verification.verify" and target.startswith("rotbeam_exu.fem")
     ]
     assert inside == []
 
@@ -170,7 +169,7 @@ def test_what_is_judged_needs_no_fem():
         ("rotbeam_exu", ("exudyn", "matplotlib", "xarray", "sympy")),
         ("rotbeam_exu.verification.references", ("exudyn", "matplotlib", "xarray", "sympy")),
         ("rotbeam_exu.verification.kit", ("exudyn", "matplotlib", "sympy")),
-        ("rotbeam_exu.verification.measures", ("exudyn", "matplotlib", "sympy")),
+        ("rotbeam_exu.verification.verify", ("exudyn", "matplotlib", "sympy")),
         ("rotbeam_exu.verification.peers", ("exudyn", "matplotlib", "sympy")),
     ],
 )
