@@ -12,7 +12,7 @@ import numpy as np
 from analytic import spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import optimize
-from analytic.ramps import SpeedChange
+from analytic.motion import SpeedChange
 
 from ..cases import Case
 from .mistake import LEFT, Mistake, explaining, largest
