@@ -243,6 +243,7 @@ def steady_system(
     With its chain and the settings of a static solution.
     """
     omega = rotation_speed(omega)
+    require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
     require_stretch(beam)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_steady_state, warn_if_rpm
+from ...beam import AnyBlade, require_blade, require_steady_state, warn_if_rpm
 from ...input_checks import points_of_beam, rotation_speed
 from ...methods.system import Tangent
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -58,6 +58,7 @@ def lives_in_space(beam: AnyBlade) -> bool:
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
+    require_blade(beam)
     blade = beam.blade
     known = blade.section.out_of_plane
     turned = blade.setting_angle != 0.0 and known is not None and known.torsion_ratio is not None
