@@ -38,7 +38,7 @@ GROUPS = (
         "Linear vibration",
         "Small vibration about steady rotation.",
         analytic="linear_modes LinearModes TorsionModes campbell Campbell Crossing damping_ratios "
-        "unstretched_frequencies",
+        "steady_state unstretched_frequencies",
     ),
     _group(
         "Backbone",
