@@ -6,7 +6,7 @@ from pathlib import Path
 
 from analytic import Beam
 
-from ..files.run_file import RunFile, load_run_file
+from ..files.beam_file import RunFile, load_run_file
 from .motion import Motion, chosen_motion
 from .options import given
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import Parameter
 
 from .. import paper
-from ..files.run_file import RunFile
+from ..files.beam_file import RunFile
 from ..lazily import xr
 from .configuration import configured
 from .job import Job

@@ -10,8 +10,8 @@ from typing import Any
 
 from analytic.warning import warn
 
+from ..files.netcdf import plain
 from ..files.results import read, save, whole_file, writable_folder
-from ..files.round_trip import plain
 from ..lazily import xr
 from ..versions import versions
 

@@ -6,7 +6,7 @@ import pytest
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import load, save, simulate
-from rotbeam_exu.files.run_file import load_run_file
+from rotbeam_exu.files.beam_file import load_run_file
 from rotbeam_exu.verification import measures
 
 RUN = """
