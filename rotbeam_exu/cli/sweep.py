@@ -134,11 +134,11 @@ def _measured(result: xr.Dataset) -> xr.Dataset:
 
 def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     """Print the result, and why cases failed; return how many did."""
-    from ..sweeps.grid import failed_cases
+    from ..sweeps.grid import failures
 
     measured = _measured(result)
     _print_result(measured)
-    failed = failed_cases(measured)
+    failed = failures(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
         print_text(new_console(), f"failed at {where}: {sentence}")
@@ -148,7 +148,7 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
 @contextmanager
 def _executor(scheduler: str | None) -> Iterator[Executor | None]:
     """Give the executor of a Dask cluster, or None for processes here."""
-    from ..sweeps.dask import dask_executor
+    from ..sweeps.workers import dask_executor
 
     if scheduler is None:
         yield None

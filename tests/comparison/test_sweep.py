@@ -22,7 +22,7 @@ from rotbeam_exu import SimulationError, load, save, simulate, steady_oscillatio
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.linearization import mesh_frequencies
 from rotbeam_exu.sweeps import grid as sweeps
-from rotbeam_exu.sweeps.dask import dask_executor
+from rotbeam_exu.sweeps.workers import dask_executor
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
 COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
@@ -108,24 +108,14 @@ def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, tmp_
     assert victim.with_suffix(".damaged").stat().st_size == 1000
 
 
-@pytest.mark.parametrize("amplitude", [0.5, np.nan])
-def test_a_number_changed_by_hand_is_not_believed(beam, serial, tmp_path, amplitude):
+def test_a_number_changed_by_hand_is_not_believed(beam, serial, tmp_path):
     sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
-    victims = sorted(tmp_path.glob("*.nc"))[:2]
-    # With our own means, and with others'.
-    save(load(victims[0]).assign_attrs(amplitude=amplitude), victims[0])
-    with h5py.File(victims[1], "r+") as file:
-        file.attrs["amplitude"] = amplitude
+    with h5py.File(min(tmp_path.glob("*.nc")), "r+") as file:
+        file.attrs["amplitude"] = 0.5
     with pytest.warns(RotbeamWarning, match="was changed after it was written; it is set aside"):
         again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, history=True)
     xr.testing.assert_identical(again, serial)
-    assert len(list(tmp_path.glob("*.damaged"))) == 2
-
-
-def test_a_cache_of_another_format_is_refused(beam, tmp_path):
-    (tmp_path / "rotbeam-cache.json").write_text('{"format": 99}')
-    with pytest.raises(ValueError, match="has format 99, this version writes 2; choose another"):
-        sweep(beam, **SMALL, **COARSE, cache=tmp_path)
+    assert len(list(tmp_path.glob("*.damaged"))) == 1
 
 
 def test_a_failed_case_stays_on_record_with_its_sentence(beam):
@@ -135,7 +125,7 @@ def test_a_failed_case_stays_on_record_with_its_sentence(beam):
     assert found["verdict"].to_numpy().tolist() == [["passed", "failed"]]
     assert "run for" in found["failure"].to_numpy()[0, 1]
     assert np.isnan(found["frequency"].to_numpy()[0, 1])
-    assert list(sweeps.failures(found).values()) == [1]
+    assert list(sweeps.failures(found).values()) == [[(6.0, 8.5)]]
     with pytest.raises(SimulationError, match=r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"):
         sweep(beam, **grid, **COARSE, jobs=1)
 
