@@ -39,9 +39,6 @@ _TITLE = 22
 _DIGITS = 7
 """Of a float in a table."""
 
-_FRAME = 3
-"""Columns of the terminal that a column of a table takes beside its text."""
-
 _SPELLED = {
     "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
     "–": "-", "·": "*", "√": "sqrt ",
@@ -132,24 +129,41 @@ def print_columns(
         _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
         for name, cells in columns.items()
     }
-    numeric = [all(map(_is_number, cells)) for cells in readable.values()]
-    names = list(readable)
-    least = [max(map(_longest_word, (name, *readable[name]))) for name in names]
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    most = [max(map(_longest_line, (name, *readable[name]))) for name in names]
-    room = console.width
-    for part in _parts(least, room):
-        bare = _total([0] * len(part))
-        widths = _widths([least[i] for i in part], [most[i] for i in part], room - bare)
-        table = Table(box=frame)
-        for i, width in zip(part, widths, strict=True):
-            table.add_column(names[i], width=width, justify="right" if numeric[i] else "left")
-        for row in zip(*(readable[names[i]] for i in part), strict=True):
-            table.add_row(*row)
+    first, *others = readable
+    parts, room = [[first]], console.width
+    for name in others:
+        if len(parts[-1]) > 1 and _least_width(console, readable, [*parts[-1], name]) > room:
+            parts.append([first])
+        parts[-1].append(name)
+    for part in parts:
         # Two columns at least: a longer line is better than half a number.
-        console.width = max(room, _total(widths))
-        console.print(table, soft_wrap=False)
+        console.width = max(room, _least_width(console, readable, part))
+        console.print(_laid(readable, part, frame), soft_wrap=False, crop=False)
+
+
+def _laid(readable: Mapping[str, Sequence[str]], part: Sequence[str], frame: box.Box) -> Table:
+    """Return a table of some columns, which are broken between words only."""
+    table = Table(box=frame)
+    for name in part:
+        numeric = all(map(_is_number, readable[name]))
+        longest = max(map(cell_len, " ".join([name, *readable[name]]).split()), default=1)
+        whole = not any(" " in text for text in (name, *readable[name]))
+        table.add_column(
+            name, justify="right" if numeric else "left", min_width=longest, no_wrap=whole
+        )
+    for row in zip(*(readable[name] for name in part), strict=True):
+        table.add_row(*row)
+    return table
+
+
+def _least_width(
+    console: Console, readable: Mapping[str, Sequence[str]], part: Sequence[str]
+) -> int:
+    """Return how many letters wide a table is at least."""
+    table = _laid(readable, part, box.SIMPLE)
+    return console.measure(table, options=console.options.update_width(10_000)).minimum
 
 
 def print_text(console: Console, text: str | Text) -> None:
@@ -213,36 +227,3 @@ def _is_number(text: str) -> bool:
 def _encodable(text: str, console: Console) -> str:
     codecs.register_error("spelled", _spell)
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
-
-
-def _longest_word(text: str) -> int:
-    return max(map(cell_len, text.split()), default=1)
-
-
-def _longest_line(text: str) -> int:
-    return max(map(cell_len, text.split("\n")))
-
-
-def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
-    """Return what the columns want, less what the widest texts can give for the table to fit.
-
-    Rich does not know how long words are where it shrinks columns, and breaks numbers.
-    """
-    widths = list(most)
-    while sum(widths) > room and widths != list(least):
-        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
-    return widths
-
-
-def _total(widths: Sequence[int]) -> int:
-    return sum(widths) + _FRAME * len(widths) + 1
-
-
-def _parts(least: Sequence[int], room: int) -> list[list[int]]:
-    """Return the columns of each table, so that its longest words fit; the first is in each."""
-    parts = [[0]]
-    for column in range(1, len(least)):
-        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
-            parts.append([0])
-        parts[-1].append(column)
-    return parts
