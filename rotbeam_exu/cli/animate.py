@@ -14,11 +14,10 @@ from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
-from .configuration import configured, motion_of
-from .motion import chosen_times, slower_than_paper
-from .options import Whole
+from .job import refuse_to_replace_unread
+from .motion import chosen_times, motion_of, slower_than_paper
+from .options import Force, Whole, configured
 from .output import new_console, print_text
-from .targets import Force, refuse_to_replace_unread
 
 
 def animate(

@@ -15,8 +15,7 @@ from analytic import AnyBlade
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
-from .configuration import configured, omega_of
-from .options import Amplitudes, Flag, VariantName, Whole
+from .options import Amplitudes, Flag, VariantName, Whole, configured, omega_of
 from .output import Format, print_columns, print_note
 
 Refusal = tuple[str, str]

@@ -16,12 +16,11 @@ from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from ..files.results import writable_folder
-from .configuration import configured
+from .job import refuse_to_replace_unread
 from .motion import chosen_speeds
-from .options import Whole
+from .options import Force, Whole, configured
 from .output import Format, new_console, print_columns, print_written
 from .sections import SectionShape
-from .targets import Force, refuse_to_replace_unread
 
 _GIVEN = SectionShape()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]

@@ -14,23 +14,18 @@ from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
-from .configuration import configured
-from .job import saved
+from .job import refuse_to_replace, saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
-from .options import Results, Workers
+from .options import RESULTS, WORKERS, Results, Workers, configured
 from .output import new_console, print_columns, print_note, print_written
-from .progress import counter
-from .targets import refuse_to_replace, telling_what_is_kept
-
-_WORKERS, _RESULTS = Workers(), Results()
 
 
 def compare(
     *,
     amplitude: float = 0.1,
     config: Path | None = None,
-    workers: Workers = _WORKERS,
-    results: Results = _RESULTS,
+    workers: Workers = WORKERS,
+    results: Results = RESULTS,
 ) -> None:
     """Print all models' errors, and write Figures 14 and 15's data.
 
@@ -53,7 +48,6 @@ def compare(
 
     require_exudyn()
     folder = writable_folder(results.out)
-    console = new_console()
     beam = _uniform(configured(config).beam)
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
@@ -63,8 +57,7 @@ def compare(
     refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
     motion = _even(grid_motion(beam, omegas, ramp_times))
     main = chosen_motion(beam)
-    spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
-    with telling_what_is_kept(lambda: spin_ups), counter(console, "spin-ups") as progress:
+    with workers.counted("spin-ups") as progress:
         options: dict[str, Any] = {
             "omegas": omegas, "ramp_times": ramp_times, "duration": motion.duration,
             "step": motion.step, "jobs": workers.jobs, "cache": workers.cache, "progress": progress,
@@ -83,7 +76,7 @@ def compare(
         written += saved(table.assign_attrs(mine), folder / name)
     _print_models(models, amplitude)
     _print_elements(data["budget_finite_elements"], motion.step)
-    print_written(console, written)
+    print_written(new_console(), written)
 
 
 def _uniform(beam: AnyBlade) -> Beam:

@@ -12,12 +12,10 @@ from analytic import AnyBlade
 from .. import paper
 from ..fem.lazily import require_exudyn
 from ..files.results import whole_file, writable_folder
-from .configuration import configured
+from .job import refuse_to_replace_unread
 from .motion import chosen_speeds, chosen_times, grid_motion
-from .options import Jobs
+from .options import Force, Jobs, Workers, configured
 from .output import new_console, print_text
-from .progress import counter
-from .targets import Force, refuse_to_replace_unread, telling_what_is_kept
 
 
 def explore(
@@ -64,16 +62,13 @@ def explore(
         refuse_to_replace_unread(out, force)
     beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
-    console = new_console()
-    kept = f"finished spin-ups are kept in the cache {cache}" if cache else ""
-    with (
-        telling_what_is_kept(lambda: kept),
-        counter(console, "exact orbits and spin-ups") as progress,
-    ):
+    with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
         page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
         partial.write_text(page, encoding="utf-8")
-    print_text(console, f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
+    print_text(
+        new_console(), f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser"
+    )
 
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:

@@ -11,12 +11,7 @@ from cyclopts import Parameter
 from ..files.results import whole_file, writable_folder
 from ..lazily import xr
 from .job import Job
-from .options import Results, Workers, spelled_as
-from .output import new_console
-from .progress import counter
-from .targets import telling_what_is_kept
-
-_WORKERS, _RESULTS = Workers(), Results()
+from .options import RESULTS, WORKERS, Results, Workers, spelled_as
 
 
 def _styles() -> Iterable[str]:
@@ -32,8 +27,8 @@ StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
 def figure(
     number: str,
     *,
-    workers: Workers = _WORKERS,
-    results: Results = _RESULTS,
+    workers: Workers = WORKERS,
+    results: Results = RESULTS,
     style: StyleName = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
@@ -64,8 +59,7 @@ def figure(
             "and all"
         )
     folder = writable_folder(results.out)
-    kept = f"finished spin-ups are kept in the cache {workers.cache}"
-    with figures.style(style), telling_what_is_kept(lambda: kept):
+    with figures.style(style):
         for n in wanted:
             _made(n, folder, workers, force=results.force)
 
@@ -76,13 +70,9 @@ def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
     from ..paper_figures import PAPER_FIGURES
 
     made = PAPER_FIGURES[n]
-    with counter(new_console(), f"figure {n}") as progress:
-        options = (
-            {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
-            if made.sweeps
-            else {}
-        )
-        data = made.data(**options)
+    with workers.counted(f"figure {n}") as progress:
+        options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
+        data = made.data(**options if made.sweeps else {})
 
     def drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
         axes = made.draw(data)

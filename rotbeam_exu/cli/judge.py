@@ -19,7 +19,7 @@ from ..verification.mistakes.search import mistakes_in
 from ..verification.submission_files.faults import MalformedSubmissionError
 from ..verification.submission_files.reading import digests, read_submission
 from .output import new_console, print_note, print_text, print_written
-from .verdicts import print_judgements
+from .verify import print_judgements
 
 
 def judge(

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed
 
+from ..files.beam_file import RunFile
+
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""
 
@@ -89,6 +91,24 @@ def chosen_motion(
         # The number as printed, where round-off is all that sets them apart.
         step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
     return Motion(spin_up=spin_up, duration=duration, step=step)
+
+
+def motion_of(
+    file: RunFile,
+    *,
+    omega: float | None = None,
+    ramp_time: float | None = None,
+    duration: float | None = None,
+    step: float | None = None,
+) -> Motion:
+    """Return `chosen_motion` of what is given, then of what the file's [motion] holds."""
+    return chosen_motion(
+        file.beam,
+        omega=file.motion.get("omega") if omega is None else omega,
+        ramp_time=file.motion.get("ramp_time") if ramp_time is None else ramp_time,
+        duration=duration,
+        step=step,
+    )
 
 
 def grid_motion(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
@@ -11,12 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
 from cyclopts import Parameter, Token
 
 import analytic
-from analytic import AnyBlade
+from analytic import AnyBlade, Beam
 
 from ..fem.frame import Frame
+from ..files.beam_file import RunFile, load_run_file
+from .job import telling_what_is_kept
 from .motion import Motion
-from .output import choice
-from .targets import Force
+from .output import choice, counter, new_console
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -42,6 +44,9 @@ Jobs = Annotated[int | None, Parameter(converter=whole)]
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
 
+Force = Annotated[bool, Parameter(negative=(), show_default=False)]
+"""Replace files even if they hold what other inputs gave."""
+
 Amplitudes = Annotated[
     list[float],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
@@ -55,6 +60,21 @@ NoFigure = Annotated[
     ),
 ]
 """A switch of the commands that write a figure beside their data."""
+
+
+def configured(config: Path | None) -> RunFile:
+    """Return a run from a TOML file; without one, the paper's beam and nothing else."""
+    return RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+
+
+def omega_of(file: RunFile, omega: float | None) -> float:
+    """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
+    known = file.motion.get("omega") if omega is None else omega
+    if known is None:
+        raise ValueError(
+            "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
+        )
+    return known
 
 
 def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
@@ -151,22 +171,14 @@ class Discretization:
 
     def over(self, numerics: Mapping[str, Any]) -> Numerics:
         """Return what is given here, over what is given in a file, over the paper's."""
-        mine = given(
-            element=self.element, elements=self.elements, step=self.step, duration=self.duration,
-            frame=self.frame,
-        )  # fmt: skip
-        options = dict(map(_name_and_value, self.option or []))
-        chosen = Numerics(**{**numerics, **mine}, option=options)
+        mine = {name: value for name, value in vars(self).items() if value is not None}
+        mine["option"] = dict(map(_name_and_value, self.option or []))
+        chosen = Numerics(**{**numerics, **mine})
         return replace(
             chosen,
             element=_spelled(chosen.element, element_names()),
             frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
         )
-
-
-def given(**options: Any) -> dict[str, Any]:
-    """Return the options that are not None."""
-    return {name: value for name, value in options.items() if value is not None}
 
 
 @Parameter(name="*")
@@ -200,7 +212,18 @@ class Workers:
     """
 
     jobs: Jobs = None
-    cache: Path = Path("results/cache")
+    cache: Path | None = Path("results/cache")
+
+    @contextmanager
+    def counted(self, title: str) -> Iterator[Callable[[int, int], None]]:
+        """Give what counts the pieces done; Ctrl-C says where finished spin-ups are."""
+        kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
+        with telling_what_is_kept(lambda: kept), counter(new_console(), title) as progress:
+            yield progress
+
+
+DISCRETIZATION, RESULTS, WORKERS = Discretization(), Results(), Workers()
+"""Nothing given."""
 
 
 def _name_and_value(text: str) -> tuple[str, object]:

@@ -8,8 +8,10 @@ import io
 import math
 import os
 import sys
+import time
 import unicodedata
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
@@ -17,6 +19,7 @@ from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
+from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -38,6 +41,9 @@ _TITLE = 22
 
 _DIGITS = 7
 """Of a float in a table."""
+
+_LINES = 50
+"""Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
 
 _SPELLED = {
     "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
@@ -129,41 +135,55 @@ def print_columns(
         _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
         for name, cells in columns.items()
     }
+    least, most = (
+        [
+            max(cell_len(piece) for text in (name, *cells) for piece in text.split(at) or [""])
+            for name, cells in readable.items()
+        ]
+        for at in (None, "\n")
+    )
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    first, *others = readable
-    parts, room = [[first]], console.width
-    for name in others:
-        if len(parts[-1]) > 1 and _least_width(console, readable, [*parts[-1], name]) > room:
-            parts.append([first])
-        parts[-1].append(name)
-    for part in parts:
+    room = console.width
+    for part in _parts(least, room):
+        widths = _widths([least[i] for i in part], [most[i] for i in part], room)
+        table = Table(box=frame)
+        cells = [list(readable.values())[i] for i in part]
+        for i, width, column in zip(part, widths, cells, strict=True):
+            numeric = all(map(_is_number, column))
+            title = list(readable)[i]
+            table.add_column(title, width=width, justify="right" if numeric else "left")
+        for row in zip(*cells, strict=True):
+            table.add_row(*row)
         # Two columns at least: a longer line is better than half a number.
-        console.width = max(room, _least_width(console, readable, part))
-        console.print(_laid(readable, part, frame), soft_wrap=False, crop=False)
+        console.width = max(room, _total(widths))
+        console.print(table, soft_wrap=False)
 
 
-def _laid(readable: Mapping[str, Sequence[str]], part: Sequence[str], frame: box.Box) -> Table:
-    """Return a table of some columns, which are broken between words only."""
-    table = Table(box=frame)
-    for name in part:
-        numeric = all(map(_is_number, readable[name]))
-        longest = max(map(cell_len, " ".join([name, *readable[name]]).split()), default=1)
-        whole = not any(" " in text for text in (name, *readable[name]))
-        table.add_column(
-            name, justify="right" if numeric else "left", min_width=longest, no_wrap=whole
-        )
-    for row in zip(*(readable[name] for name in part), strict=True):
-        table.add_row(*row)
-    return table
+def _total(widths: Sequence[int]) -> int:
+    """Return the width of a table: three letters of frame and padding for each column."""
+    return sum(widths) + 3 * len(widths) + 1
 
 
-def _least_width(
-    console: Console, readable: Mapping[str, Sequence[str]], part: Sequence[str]
-) -> int:
-    """Return how many letters wide a table is at least."""
-    table = _laid(readable, part, box.SIMPLE)
-    return console.measure(table, options=console.options.update_width(10_000)).minimum
+def _parts(least: Sequence[int], room: int) -> list[list[int]]:
+    """Return the columns of each table, so that its longest words fit; the first is in each."""
+    parts = [[0]]
+    for column in range(1, len(least)):
+        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
+            parts.append([0])
+        parts[-1].append(column)
+    return parts
+
+
+def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
+    """Return what the columns want, less what the widest texts can give for the table to fit.
+
+    Rich does not know how long words are where it shrinks columns, and breaks numbers.
+    """
+    widths = list(most)
+    while _total(widths) > room and widths != list(least):
+        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
+    return widths
 
 
 def print_text(console: Console, text: str | Text) -> None:
@@ -227,3 +247,39 @@ def _is_number(text: str) -> bool:
 def _encodable(text: str, console: Console) -> str:
     codecs.register_error("spelled", _spell)
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
+
+
+@contextmanager
+def counter(console: Console, title: str) -> Iterator[Callable[[int, int], None]]:
+    """Give what is called with the pieces done and their number.
+
+    Without a terminal its lines go to standard error: results stay alone on standard output.
+    """
+    if not console.is_terminal:
+        yield _plain(title)
+        return
+    with Progress(
+        *Progress.get_default_columns(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn(""),
+        console=console,
+        transient=True,
+    ) as bar:
+        task = bar.add_task(title, total=None)
+
+        def progress(done: int, number: int) -> None:
+            bar.update(task, completed=done, total=number)
+
+        yield progress
+
+
+def _plain(title: str) -> Callable[[int, int], None]:
+    errors, started = new_console(stderr=True), time.monotonic()
+
+    def progress(done: int, number: int) -> None:
+        if done % -(-number // _LINES) and done != number:
+            return
+        errors.print(f"{title}: {done} of {number} done after {time.monotonic() - started:.0f} s")
+
+    return progress

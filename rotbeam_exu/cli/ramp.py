@@ -13,15 +13,12 @@ from analytic.input_checks import positive, whole_number
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..verdict import beam_attributes
-from .configuration import configured, motion_of
 from .job import Job, drawn
-from .motion import chosen_times, refuse_rest
-from .options import Discretization, Element, Results, Whole
-from .output import new_console, print_columns, print_note
-from .progress import counter
+from .motion import chosen_times, motion_of, refuse_rest
+from .options import RESULTS, Discretization, Element, Results, Whole, configured
+from .output import counter, new_console, print_columns, print_note
 
 _LONGEST = 10.0  # of the paper's beam [s]
-_RESULTS = Results()
 
 
 def ramp(
@@ -33,7 +30,7 @@ def ramp(
     element: Element | None = None,
     elements: Whole | None = None,
     config: Path | None = None,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Tell what a spin-up leaves over its ramp time, and where least.
 

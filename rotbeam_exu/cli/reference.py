@@ -10,12 +10,10 @@ import analytic
 from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
-from .configuration import configured, motion_of
 from .job import Job
-from .options import Results, Whole
+from .motion import motion_of
+from .options import RESULTS, Results, Whole, configured
 from .output import new_console, print_line
-
-_RESULTS = Results()
 
 
 def reference(
@@ -26,7 +24,7 @@ def reference(
     samples: Whole = 1501,
     tolerance: float = 1e-8,
     config: Path | None = None,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, make_dataclass
+from dataclasses import MISSING, dataclass, fields, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,16 +10,15 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade, Damping, Gravity
+from analytic import AnyBlade, Damping
 from analytic.arrays import FloatArray
 from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
-from analytic.loads import HarmonicLoad, Load
+from analytic.loads import Load
 
 from ..lazily import xr
-from .configuration import configured, omega_of
 from .job import Job, UnfinishedError, drawn
-from .options import Flag, NoFigure, Results, Whole
+from .options import RESULTS, Flag, NoFigure, Results, Whole, configured, omega_of
 from .output import print_columns
 
 
@@ -28,52 +27,50 @@ def _option(kind: type[Load]) -> str:
     return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
 
 
-_HARMONIC = {_option(kind): kind for kind in kinds_of(HarmonicLoad).values()}
-_Weight = Annotated[
-    bool | float,
-    Parameter(
-        negative=(), show_default=False, metavar="[FLOAT]",
-        help="Weight in a vertical plane of rotation, 9.81 unless given [m/s²].",
-    ),
-]  # fmt: skip
+_KINDS = {f"--{_option(kind)}": kind for kind in kinds_of(Load).values() if kind.varied}
 
 
 class _OneLoad:
-    """What acts on the blade: one of these."""
+    """Options of which one is given: the load's size, or none but that of the kind's default."""
 
-    def one(self) -> HarmonicLoad | Gravity:
+    def one(self) -> Load:
         """Return the load."""
-        asked = {name: getattr(self, name.replace("-", "_")) for name in (*_HARMONIC, "gravity")}
-        given: dict[str, HarmonicLoad | Gravity] = {
-            f"--{name}": kind(amplitude=asked[name])
-            for name, kind in _HARMONIC.items()
-            if asked[name] is not None
+        asked = {f"--{name.replace('_', '-')}": size for name, size in vars(self).items()}
+        given = {
+            name: size for name, size in asked.items() if size is not None and size is not False
         }
-        if (weight := asked["gravity"]) is not False:
-            given["--gravity"] = Gravity() if weight is True else Gravity(weight)
         if len(given) != 1:
-            *others, last = [f"--{name}" for name in asked]
+            *others, last = asked
             raise ValueError(
                 f"give one load, {', '.join(others)} or {last}, got "
                 + (" and ".join(given) or "none")
             )
-        (load,) = given.values()
+        ((name, size),) = given.items()
+        kind: Any = _KINDS[name]
+        load: Load = kind() if size is True else kind(**{fields(kind)[0].name: size})
         if load.size == 0.0:
-            raise ValueError(f"{next(iter(given))} 0 is no load: give its amplitude")
+            raise ValueError(f"{name} 0 is no load: give its amplitude")
         return load
 
 
-def _amplitude(kind: type[HarmonicLoad]) -> tuple[str, Any, None]:
-    first = (kind.__doc__ or "").partition("\n")[0].removesuffix(".")
-    about = Parameter(help=f"{first}; {kind.symbol} [{kind.unit}].")
-    return _option(kind).replace("-", "_"), Annotated[float | None, about], None
+def _size(kind: Any) -> tuple[str, Any, bool | None]:
+    """Return the option of a kind of load, whose size may be left out if it has a default."""
+    about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
+    about += f"; {kind.symbol} [{kind.unit}]"
+    name = _option(kind).replace("-", "_")
+    if size.default is MISSING:
+        return name, Annotated[float | None, Parameter(help=f"{about}.")], None
+    option = Parameter(
+        help=f"{about}, {size.default:g} unless given.",
+        negative=(), show_default=False, metavar="[FLOAT]",
+    )  # fmt: skip
+    return name, Annotated[bool | float, option], False
 
 
 # An option for each kind of load that is known.
 Loads: Any = Parameter(name="*")(
     make_dataclass(
-        "Loads",
-        [*map(_amplitude, _HARMONIC.values()), ("gravity", _Weight, False)],
+        "Loads", map(_size, _KINDS.values()),
         bases=(_OneLoad,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
     )
 )  # fmt: skip
@@ -112,7 +109,7 @@ class Dampings:
         return beam
 
 
-_LOADS, _DAMPINGS, _RESULTS = Loads(), Dampings(), Results()
+_LOADS, _DAMPINGS = Loads(), Dampings()
 
 
 def respond(
@@ -127,7 +124,7 @@ def respond(
     functions: Whole = 10,
     config: Path | None = None,
     no_figure: NoFigure = False,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
 
@@ -165,14 +162,13 @@ def respond(
     load = loads.one()
     file = configured(config)
     beam = dampings.on(file.beam)
-    if isinstance(load, Gravity):
-        if omega is not None:
-            raise ValueError(
-                "under --gravity the rotation speeds are those --from one --to another: leave "
-                "--omega out"
-            )
-    else:
+    if load.varied == "frequency":
         omega = omega_of(file, omega)
+    elif omega is not None:
+        raise ValueError(
+            f"under --{_option(type(load))} the rotation speeds are those --from one --to "
+            "another: leave --omega out"
+        )
     frequencies = _frequencies(first, last, points)
     inputs = {
         **response_inputs(beam, load, omega),
@@ -181,10 +177,11 @@ def respond(
     }  # fmt: skip
 
     def computed() -> analytic.ForcedResponse:
+        how: Any = {"inextensible": inextensible, "functions": functions}
         try:
-            return _response(
-                beam, omega, load, frequencies, inextensible=inextensible, functions=functions
-            )
+            if omega is None:
+                return analytic.gravity_response(beam, frequencies, load.size, **how)
+            return analytic.forced_response(beam, omega, load, frequencies, **how)
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
                 raise
@@ -202,19 +199,6 @@ def respond(
     ).run()
 
 
-def _response(
-    beam: AnyBlade,
-    omega: float | None,
-    load: HarmonicLoad | Gravity,
-    frequencies: FloatArray,
-    **options: Any,
-) -> analytic.ForcedResponse:
-    if isinstance(load, Gravity):
-        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
-    assert omega is not None
-    return analytic.forced_response(beam, omega, load, frequencies, **options)
-
-
 def _frequencies(first: float, last: float, points: int) -> FloatArray:
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
@@ -223,7 +207,7 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
     return np.linspace(first, last, points)
 
 
-def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
+def _name(load: Load, omega: float | None) -> str:
     turning = "" if omega is None else f"omega-{omega:g}-"
     return f"response-{turning}{_option(type(load))}-{load.size:g}"
 

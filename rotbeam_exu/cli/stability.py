@@ -12,13 +12,11 @@ from analytic.exact.plane.orbit_growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
-from .configuration import configured, omega_of
 from .job import Job, drawn
-from .options import Amplitudes, Results, Whole
+from .options import RESULTS, Amplitudes, Results, Whole, configured, omega_of
 from .output import new_console, print_columns, print_text
 from .sections import SectionShape
 
-_RESULTS = Results()
 _GIVEN = SectionShape()
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
@@ -31,7 +29,7 @@ def stability(
     mode: Whole = 1,
     growth: float = LEAST_GROWTH,
     config: Path | None = None,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Tell whether motion in the plane of rotation stays in it.
 

@@ -2,44 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
-from .configuration import configured
 from .job import Job
 from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
-from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_line, print_text
-from .progress import counter
-from .targets import telling_what_is_kept
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
+from .options import (
+    DISCRETIZATION,
+    RESULTS,
+    WORKERS,
+    Discretization,
+    Flag,
+    Results,
+    Workers,
+    configured,
+)  # fmt: skip
+from .output import new_console, print_columns, print_line, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
-
-_DISCRETIZATION, _RESULTS, _WORKERS = Discretization(), Results(), Workers()
 
 
 def sweep(
     *,
     omega: Values = None,
     ramp_time: Values = None,
-    discretization: Discretization = _DISCRETIZATION,
-    workers: Workers = _WORKERS,
-    executor: Annotated[Literal["processes", "dask"], Parameter(converter=choice)] = "processes",
+    discretization: Discretization = DISCRETIZATION,
+    workers: Workers = WORKERS,
     scheduler: str | None = None,
     shard: str = "1/1",
     history: Flag = False,
     config: Path | None = None,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
@@ -52,10 +51,8 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    executor
-        Where the cases run: processes here, or a Dask cluster.
     scheduler
-        Address of the Dask scheduler, as tcp://host:8786.
+        Address of a Dask scheduler, as tcp://host:8786, on whose cluster the cases run.
     shard
         Part k of n of the grid, as 1/4, for job arrays that share a cache.
     history
@@ -71,6 +68,7 @@ def sweep(
     $ rotbeam sweep --config beam.toml --shard 1/24 --jobs 1
     """
     from ..sweeps.grid import sweep as run_sweep
+    from ..sweeps.workers import dask_executor
 
     file = configured(config)
     beam = file.beam
@@ -79,18 +77,14 @@ def sweep(
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
-    if executor == "dask" and scheduler is None:
-        raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
     count = len(omegas) * len(ramp_times)
     one = numerics.case(beam, motion)
 
     def computed() -> xr.Dataset:
         if config is not None:
             print_line(new_console(), "motion", _described(motion, omegas, ramp_times))
-        with (
-            _executor(scheduler if executor == "dask" else None) as pool,
-            _kept_and_counted(workers.cache, count // part[1]) as progress,
-        ):
+        pool, client = (None, None) if scheduler is None else dask_executor(scheduler)
+        with closing(client) if client else nullcontext(), workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
@@ -143,40 +137,6 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
         print_text(new_console(), f"failed at {where}: {sentence}")
     return sum(map(len, failed.values()))
-
-
-@contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor | None]:
-    """Give the executor of a Dask cluster, or None for processes here."""
-    from ..sweeps.workers import dask_executor
-
-    if scheduler is None:
-        yield None
-        return
-    pool, client = dask_executor(scheduler)
-    try:
-        yield pool
-    finally:
-        client.close()
-
-
-@contextmanager
-def _kept_and_counted(cache: Path, cases: int) -> Iterator[Callable[[int, int], None]]:
-    """Show how many spin-ups are done, and say where they are should they not all be."""
-    finished = 0
-
-    def kept() -> str:
-        where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
-        return f"{where}; the same command goes on from there" if finished else ""
-
-    with telling_what_is_kept(kept), counter(new_console(), "spin-ups") as shown:
-
-        def progress(done: int, number: int) -> None:
-            nonlocal finished, cases
-            finished, cases = done, number
-            shown(done, number)
-
-        yield progress
 
 
 def _described(motion: Motion, omegas: list[float], ramp_times: list[float]) -> str:

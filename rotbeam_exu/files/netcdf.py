@@ -129,7 +129,7 @@ def _lost(given: xr.Dataset, kept: xr.Dataset) -> str | None:
         back = kept.variables.get(variable)
         if back is None or (variable in given.coords) != (variable in kept.coords):
             return f"{variable!r} would be lost: rename it"
-        if _kind(array) != _kind(back) or not array.equals(back):
+        if _kind(array) != _kind(back) or not array.equals(back):  # type: ignore[no-untyped-call]
             return (
                 f"{variable!r}, of type {array.dtype}, would come back different: "
                 "give numbers, truth values or text, and no attributes that encode them"

@@ -20,8 +20,8 @@ from . import netcdf
 from .netcdf import plain, same
 
 OUTCOMES = frozenset(
-    {"divergence_speed", "error", "failure", "residual", "settings", "solution", "verdict"}
-    | {"versions", "wall_time"}
+    {"divergence_speed", "error", "failure", "limit", "limit_converged", "residual", "sentence"}
+    | {"settings", "solution", "tongues", "verdict", "versions", "wall_time"}
 )
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 

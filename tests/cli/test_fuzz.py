@@ -38,7 +38,7 @@ COMMANDS = {
     "figure": (("figure", "none", "--out", "{folder}/out"), ("--jobs", "--dpi")),
     "explore": (("explore", "--out", "{folder}/page.pdf"), ("--jobs", "--cache")),
     "verify": (("verify", "--element", "none"), ("--element", "--error", "--cost")),
-    "compare-modes": (("compare-modes", "--points", "2", "--count", "1", "--orders", "1"),
+    "campbell": (("campbell", "--points", "2", "--count", "1", "--orders", "1"),
                       ("--format", "--omega-min", "--points=")),
     "respond": (("respond", "--from", "1", "--to", "2", "--points", "2", "--damping-ratio", "0.1",
                  "--gravity", "--out", "{folder}/out"),

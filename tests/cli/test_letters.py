@@ -56,7 +56,7 @@ def test_a_run_ends_well_in_any_locale(tmp_path, locale):
     "command",
     [
         ("backbone", "--omega", "6"),
-        ("compare-modes", "--points", "2", "--count", "1", "--orders", "1"),
+        ("campbell", "--points", "2", "--count", "1", "--orders", "1"),
         ("table", "5"),
         ("doctor",),
         ("run", "--help"),

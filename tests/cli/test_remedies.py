@@ -129,19 +129,15 @@ def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path
 
 
 @pytest.mark.slow  # seconds of waiting; a sweep by Dask is among the sweep's own tests
-def test_dask_asks_for_its_scheduler_and_then_for_one_that_answers(small_sweep):
+def test_dask_asks_for_a_scheduler_that_answers(small_sweep):
     distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    dask = ("--executor", "dask")
-    code, _, error = small_sweep(*dask)
-    assert code == 2
-    assert "needs --scheduler ADDRESS" in error
-    code, _, error = small_sweep(*dask, "--scheduler", "tcp://127.0.0.1:1")
+    code, _, error = small_sweep("--scheduler", "tcp://127.0.0.1:1")
     assert code != 0
     assert "check its address and that it runs" in error
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, dashboard_address=None
     ) as cluster:
-        assert small_sweep(*dask, "--scheduler", cluster.scheduler_address)[0] == 0
+        assert small_sweep("--scheduler", cluster.scheduler_address)[0] == 0
 
 
 @pytest.mark.slow
@@ -150,7 +146,7 @@ def test_a_sweep_whose_dask_scheduler_ends_goes_on_with_the_next_one(small_sweep
     cluster = distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, dashboard_address=None, protocol="tcp://"
     )
-    dask = ("--executor", "dask", "--scheduler", cluster.scheduler_address)
+    dask = ("--scheduler", cluster.scheduler_address)
     kept = Cache.put
 
     def ending(*arguments):

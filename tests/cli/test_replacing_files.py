@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-import rotbeam_exu.cli.figure as figure_job
 from rotbeam_exu import figures, load, oscillation
 from rotbeam_exu.fem import simulation
 from rotbeam_exu.paper_figures import PAPER_FIGURES
@@ -89,14 +88,13 @@ def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
 
 
 def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
-    def stopped(*_, progress, **__):
-        progress(2, 4)
+    def stopped(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(grid, "sweep", stopped)
     code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
-    assert f"interrupted; 2 of 4 spin-ups are kept in the cache {tmp_path}/c" in error
+    assert f"interrupted; finished spin-ups are kept in the cache {tmp_path}/c" in error
 
     def later(_):
         raise KeyboardInterrupt
@@ -106,7 +104,7 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     assert code == 130
     assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
 
-    monkeypatch.setattr(figure_job, "_made", lambda *_, **__: later(0))
+    monkeypatch.setitem(PAPER_FIGURES, 14, replace(PAPER_FIGURES[14], data=stopped))
     code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error

