@@ -177,7 +177,8 @@ def respond(
     }  # fmt: skip
 
     def computed() -> analytic.ForcedResponse:
-        how: Any = {"inextensible": inextensible, "functions": functions}
+        theory = analytic.Theory(extension=not inextensible)
+        how: Any = {"theory": theory, "functions": functions}
         try:
             if omega is None:
                 return analytic.gravity_response(beam, frequencies, load.size, **how)

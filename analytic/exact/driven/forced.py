@@ -14,6 +14,7 @@ from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Gravity, HarmonicLoad
 from ...methods.driven import DrivenOrbit
 from ...methods.response_curve import ResponseNotFollowedError, response_curve
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import steady_rate
 from ..linear.modes import linear_modes, resolved_model
@@ -31,7 +32,7 @@ def forced_response(
     load: HarmonicLoad,
     frequencies: Sequence[float] | FloatArray,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
     harmonics: int = 4,
 ) -> ForcedResponse:
@@ -53,8 +54,8 @@ def forced_response(
     frequencies : sequence of float
         Drive frequencies ν [rad/s], ascending: the first and the last are the ends of the curve,
         those between are among its points, wherever it passes them.
-    inextensible : bool
-        Leave the axial motion out.
+    theory : Theory
+        Extension, shear and rotary inertia.
     functions, harmonics : int
         Least number of functions for the tangent's angle, and of harmonics.
 
@@ -89,9 +90,9 @@ def forced_response(
     warn_if_rpm(beam, omega)
     if not any(beam.unit.damping):
         _require_no_resonance(beam, omega, asked)
-    model = resolved_model(beam, 1, inextensible, False, functions)
+    model = resolved_model(beam, 1, theory, functions)
     system = DrivenBeam(model, steady_rate(beam, omega, model), unit)
-    return _followed(beam, load, system, asked, harmonics)
+    return _followed(beam, load, theory, system, asked, harmonics)
 
 
 @one_thread
@@ -100,7 +101,7 @@ def gravity_response(
     omegas: Sequence[float] | FloatArray,
     gravity: float = 9.81,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
     harmonics: int = 4,
 ) -> ForcedResponse:
@@ -117,7 +118,7 @@ def gravity_response(
         Rotation speeds [rad/s], ascending and above 0, as `frequencies` of `forced_response`.
     gravity : float
         g [m/s²].
-    inextensible, functions, harmonics
+    theory, functions, harmonics
         As for `forced_response`.
 
     Raises
@@ -136,7 +137,7 @@ def gravity_response(
     load, asked = Gravity(gravity), _ascending("omegas", omegas)
     for omega in asked.tolist():
         rotation_speed(omega, "omegas")
-    model = resolved_model(beam, 1, inextensible, False, functions)
+    model = resolved_model(beam, 1, theory, functions)
     steady_rate(beam, float(asked[-1]), model)
     if not any(beam.unit.damping):
         slow, fast = (linear_modes(beam, w, 1).frequencies[0] / w for w in asked[[0, -1]].tolist())
@@ -147,7 +148,7 @@ def gravity_response(
                 "beam.with_damping(Damping(...))"
             )
     system = DrivenBeam(model, None, unit_load(beam, load))
-    return _followed(beam, load, system, asked, harmonics)
+    return _followed(beam, load, theory, system, asked, harmonics)
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -173,6 +174,7 @@ def _require_no_resonance(beam: AnyBlade, omega: float, asked: FloatArray) -> No
 def _followed(
     beam: AnyBlade,
     load: HarmonicLoad | Gravity,
+    theory: Theory,
     system: DrivenBeam,
     asked: FloatArray,
     harmonics: int,
@@ -183,7 +185,7 @@ def _followed(
         orbits, failed = response_curve(system, parameters, _LARGEST, least), None
     except ResponseNotFollowedError as reason:
         orbits, failed = reason.orbits, reason
-    response = _packed(beam, load, orbits) if orbits else None
+    response = _packed(beam, load, theory, orbits) if orbits else None
     if failed is not None:
         last = f" at {asked[0]:g} rad/s"
         if response is not None:
@@ -198,7 +200,10 @@ def _followed(
 
 
 def _packed(
-    beam: AnyBlade, load: HarmonicLoad | Gravity, orbits: list[DrivenOrbit[DrivenBeam]]
+    beam: AnyBlade,
+    load: HarmonicLoad | Gravity,
+    theory: Theory,
+    orbits: list[DrivenOrbit[DrivenBeam]],
 ) -> ForcedResponse:
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = np.zeros((len(orbits), count + 1), dtype=np.complex128)
@@ -210,6 +215,7 @@ def _packed(
     return ForcedResponse(
         beam=beam,
         load=load,
+        theory=theory,
         omega=per_second * np.array([o.system.speed(o.parameter) for o in orbits]),
         frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
