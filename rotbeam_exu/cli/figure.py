@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from ..files.results import whole_file, writable_folder
+from ..files.results import writable_folder
 from ..lazily import xr
 from .job import Job
 from .options import RESULTS, WORKERS, Results, Workers, spelled_as
@@ -58,31 +57,28 @@ def figure(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
         )
-    folder = writable_folder(results.out)
     with figures.style(style):
         for n in wanted:
-            _made(n, folder, workers, force=results.force)
+            _made(n, workers, results)
 
 
-def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
+def _made(n: int, workers: Workers, results: Results) -> None:
     """Make one figure."""
     from .. import figures
     from ..paper_figures import PAPER_FIGURES
 
     made = PAPER_FIGURES[n]
+    writable_folder(results.out)
     with workers.counted(f"figure {n}") as progress:
         options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
         data = made.data(**options if made.sweeps else {})
 
-    def drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
+    def drawn(_: Any, data: xr.Dataset) -> Any:
         axes = made.draw(data)
-        words = path.with_name(f"{path.name}.txt")
-        with whole_file(words) as partial:
-            partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
-        return *figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, path), words
+        return axes[0] if isinstance(axes, Sequence) else axes
 
     # The data tells its inputs, so files are compared with it after it is computed.
     Job(
-        path=folder / f"figure_{n}", inputs=data, force=force, compute=lambda: data,
-        dataset=lambda data: data, show=lambda *_: None, draw=drawn,
+        path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
+        show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {figures.caption(n, data)}",
     ).run()  # fmt: skip

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ..files.results import differing_inputs, save, save_tables, writable_folder
+from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
 from .output import new_console, print_written
 
@@ -25,15 +25,8 @@ class UnfinishedError(Exception):
     """
 
 
-def drawn(draw: Callable[[Any, xr.Dataset], Any]) -> Callable[[xr.Dataset, Path], Iterable[Path]]:
-    """Return a drawing of a Dataset into files; `draw` is given `figures`, imported late."""
-
-    def files(data: xr.Dataset, path: Path) -> Iterable[Path]:
-        from .. import figures
-
-        return figures.save_figure(draw(figures, data), path)
-
-    return files
+def _itself(data: Any) -> Any:
+    return data
 
 
 def saved(data: xr.Dataset, path: Path, table: xr.Dataset | None = None) -> list[Path]:
@@ -58,23 +51,26 @@ class Job(Generic[R, T]):
     compute
         Computation of the result; it may raise `UnfinishedError` from a `RuntimeError`.
     dataset
-        The result as a Dataset, to save and to draw.
+        The result as a Dataset, to save and to draw; itself, unless given.
     table
         The part of the Dataset that its CSV holds; all of it, unless given.
     show
         Printing of the result; the Dataset is handed over with it.
     draw
-        Drawing of the Dataset into files beside `path`, which it returns; none, unless given.
+        Drawing of the Dataset by `figures`, which is handed over; none, unless given.
+    caption
+        Words about the figure, for a file of text beside it.
     """
 
     path: Path
     inputs: xr.Dataset | Mapping[str, object]
     force: bool
     compute: Callable[[], R]
-    dataset: Callable[[R], xr.Dataset]
-    table: Callable[[xr.Dataset], xr.Dataset] = lambda data: data
+    dataset: Callable[[R], xr.Dataset] = _itself
+    table: Callable[[xr.Dataset], xr.Dataset] = _itself
     show: Callable[[R, xr.Dataset], T]
-    draw: Callable[[xr.Dataset, Path], Iterable[Path]] | None = None
+    draw: Callable[[Any, xr.Dataset], Any] | None = None
+    caption: str = ""
 
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
@@ -90,7 +86,13 @@ class Job(Generic[R, T]):
         with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):
             shown = self.show(result, data)
             if self.draw is not None:
-                written += self.draw(data, self.path)
+                from .. import figures
+
+                written += figures.save_figure(self.draw(figures, data), self.path)
+            if self.caption:
+                written.append(Path(f"{self.path}.txt"))
+                with whole_file(written[-1]) as partial:
+                    partial.write_text(f"{self.caption}\n", encoding="utf-8")
         print_written(new_console(), written)
         return shown
 

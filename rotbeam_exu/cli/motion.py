@@ -93,22 +93,10 @@ def chosen_motion(
     return Motion(spin_up=spin_up, duration=duration, step=step)
 
 
-def motion_of(
-    file: RunFile,
-    *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
-    duration: float | None = None,
-    step: float | None = None,
-) -> Motion:
-    """Return `chosen_motion` of what is given, then of what the file's [motion] holds."""
-    return chosen_motion(
-        file.beam,
-        omega=file.motion.get("omega") if omega is None else omega,
-        ramp_time=file.motion.get("ramp_time") if ramp_time is None else ramp_time,
-        duration=duration,
-        step=step,
-    )
+def motion_of(file: RunFile, **options: float | None) -> Motion:
+    """Return `chosen_motion` of the options given, then of what the file's [motion] holds."""
+    given = {name: value for name, value in options.items() if value is not None}
+    return chosen_motion(file.beam, **{**file.motion, **given})
 
 
 def grid_motion(

@@ -13,7 +13,7 @@ from analytic.input_checks import positive, whole_number
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..verdict import beam_attributes
-from .job import Job, drawn
+from .job import Job
 from .motion import chosen_times, motion_of, refuse_rest
 from .options import RESULTS, Discretization, Element, Results, Whole, configured
 from .output import counter, new_console, print_columns, print_note
@@ -92,7 +92,7 @@ def ramp(
         compute=computed,
         dataset=lambda data: data.assign_attrs(inputs),
         show=lambda data, _: _print(beam, omega, longest, data),
-        draw=drawn(lambda figures, data: figures.residual(data)),
+        draw=lambda figures, data: figures.residual(data),
     ).run()
 
 

@@ -17,7 +17,7 @@ from analytic.input_checks import positive, whole_number
 from analytic.loads import Load
 
 from ..lazily import xr
-from .job import Job, UnfinishedError, drawn
+from .job import Job, UnfinishedError
 from .options import RESULTS, Flag, NoFigure, Results, Whole, configured, omega_of
 from .output import print_columns
 
@@ -196,7 +196,7 @@ def respond(
         dataset=lambda found: comparison.forced_response(found).assign_attrs(inputs),
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         show=lambda found, data: _print(data, str(found)),
-        draw=None if no_figure else drawn(lambda figures, data: figures.forced_response(data)),
+        draw=None if no_figure else lambda figures, data: figures.forced_response(data),
     ).run()
 
 

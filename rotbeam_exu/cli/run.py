@@ -12,7 +12,7 @@ from analytic.warning import warn
 
 from ..lazily import xr
 from ..verdict import SimulationError, energy_drift
-from .job import Job, UnfinishedError, drawn
+from .job import Job, UnfinishedError
 from .motion import motion_of, refuse_rest
 from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results, configured
 from .output import new_console, print_line
@@ -78,8 +78,8 @@ def run(
 
     found = Job(
         path=path, inputs=case.describe(), force=results.force, compute=computed,
-        dataset=lambda data: data, show=shown,
-        draw=None if no_figure else drawn(lambda figures, data: figures.spin_up(data)[0]),
+        show=shown,
+        draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)

@@ -12,7 +12,7 @@ from analytic.exact.plane.orbit_growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
-from .job import Job, drawn
+from .job import Job
 from .options import RESULTS, Amplitudes, Results, Whole, configured, omega_of
 from .output import new_console, print_columns, print_text
 from .sections import SectionShape
@@ -81,7 +81,7 @@ def stability(
         dataset=lambda pair: comparison.planar_stability(*pair).assign_attrs(inputs),
         table=lambda data: data.drop_vars(["multipliers", "part"]),
         show=lambda pair, _: _print(*pair),
-        draw=drawn(lambda figures, data: figures.planar_stability(data)),
+        draw=lambda figures, data: figures.planar_stability(data),
     ).run()
 
 

@@ -100,7 +100,6 @@ def sweep(
         inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
         force=results.force,
         compute=computed,
-        dataset=lambda result: result,
         table=_measured,
         show=_print,
     ).run()
