@@ -15,8 +15,8 @@ from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
 from .job import refuse_to_replace_unread
-from .motion import chosen_times, motion_of, slower_than_paper
-from .options import Force, Whole, configured
+from .motion import chosen_times, configured, motion_of, slower_than_paper
+from .options import Force, Whole
 from .output import new_console, print_text
 
 

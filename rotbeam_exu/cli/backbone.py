@@ -16,7 +16,8 @@ from analytic import AnyBlade
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
-from .options import Amplitudes, Flag, VariantName, Whole, configured, omega_of
+from .motion import configured, omega_of
+from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, print_columns, print_note
 
 Refusal = tuple[str, str]

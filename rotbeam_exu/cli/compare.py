@@ -15,8 +15,8 @@ from ..files.results import writable_folder
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .job import refuse_to_replace, saved
-from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
-from .options import RESULTS, WORKERS, Results, Workers, configured
+from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, configured, grid_motion
+from .options import RESULTS, WORKERS, Results, Workers
 from .output import new_console, print_columns, print_note, print_written
 
 
@@ -81,12 +81,13 @@ def compare(
 
 def _uniform(beam: AnyBlade) -> Beam:
     """Refuse a blade: of it the paper's models have nothing to say."""
-    if not isinstance(beam, Beam):
+    known = beam.uniform
+    if known is None:
         raise ValueError(
             "compare holds the paper's models against the exact beam, and they are for the uniform "
             "beam of [beam] only: for a [blade] take rotbeam backbone --variant FrM --exact"
         )
-    return beam
+    return known
 
 
 def _even(motion: Motion) -> Motion:

@@ -13,8 +13,8 @@ from .. import paper
 from ..fem.lazily import require_exudyn
 from ..files.results import whole_file, writable_folder
 from .job import refuse_to_replace_unread
-from .motion import chosen_speeds, chosen_times, grid_motion
-from .options import Force, Jobs, Workers, configured
+from .motion import chosen_speeds, chosen_times, configured, grid_motion
+from .options import Force, Jobs, Workers
 from .output import new_console, print_text
 
 

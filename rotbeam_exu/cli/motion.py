@@ -1,15 +1,16 @@
-"""The motion and the step of a run, chosen from the beam's own ω_0 where they are not given."""
+"""Beam, motion and step of a run: given, in the file, or chosen by the beam's own ω_0."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed
 
-from ..files.beam_file import RunFile
+from ..files.beam_file import RunFile, load_run_file
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""
@@ -91,6 +92,21 @@ def chosen_motion(
         # The number as printed, where round-off is all that sets them apart.
         step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
     return Motion(spin_up=spin_up, duration=duration, step=step)
+
+
+def configured(config: Path | None) -> RunFile:
+    """Return a run from a TOML file; without one, the paper's beam and nothing else."""
+    return RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+
+
+def omega_of(file: RunFile, omega: float | None) -> float:
+    """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
+    known = file.motion.get("omega") if omega is None else omega
+    if known is None:
+        raise ValueError(
+            "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
+        )
+    return known
 
 
 def motion_of(file: RunFile, **options: float | None) -> Motion:

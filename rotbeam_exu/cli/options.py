@@ -5,17 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
 
 from cyclopts import Parameter, Token
 
 import analytic
-from analytic import AnyBlade, Beam
+from analytic import AnyBlade
+from analytic.description import kinds_of
+from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
-from ..files.beam_file import RunFile, load_run_file
 from .job import telling_what_is_kept
 from .motion import Motion
 from .output import choice, counter, new_console
@@ -36,6 +37,8 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
 
 Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
+
+_OF_FILE = "given"
 
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
@@ -60,21 +63,6 @@ NoFigure = Annotated[
     ),
 ]
 """A switch of the commands that write a figure beside their data."""
-
-
-def configured(config: Path | None) -> RunFile:
-    """Return a run from a TOML file; without one, the paper's beam and nothing else."""
-    return RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
-
-
-def omega_of(file: RunFile, omega: float | None) -> float:
-    """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
-    known = file.motion.get("omega") if omega is None else omega
-    if known is None:
-        raise ValueError(
-            "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
-        )
-    return known
 
 
 def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
@@ -222,7 +210,75 @@ class Workers:
             yield progress
 
 
-DISCRETIZATION, RESULTS, WORKERS = Discretization(), Results(), Workers()
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class SectionOptions:
+    """The section out of the plane.
+
+    Parameters
+    ----------
+    section
+        The section out of the plane: rectangle, ellipse, circle, tube, or given, that of the file.
+    ratio
+        Height in the plane over width, of a rectangle or an ellipse whose material and size follow
+        the beam's EA, EI and mass; without it, the one that has the beam's A and I.
+    poisson_ratio
+        Poisson's ratio, for the torsional stiffness.
+    """
+
+    section: str = _OF_FILE
+    ratio: float | None = None
+    poisson_ratio: float = 0.3
+
+    @property
+    def name(self) -> str:
+        """The shape as part of a file's name."""
+        return self.section if self.ratio is None else f"{self.section}-{self.ratio:g}"
+
+    def of(self, beam: AnyBlade) -> AnyBlade:
+        """Return the beam with the section asked for; with what it has, where none is."""
+        family: Any = SectionShape
+        kinds = {name.lower(): kind for name, kind in kinds_of(family).items()}
+        kind = kinds.get(self.section)
+        if kind is None and self.section != _OF_FILE:
+            raise ValueError(
+                f"--section must be {', '.join(kinds)} or {_OF_FILE}, got {self.section!r}"
+            )
+        sides = kind is not None and "ratio" in (field.name for field in fields(kind))
+        if self.ratio is not None and not sides:
+            raise ValueError(
+                f"--ratio is height over width, and --section {self.section} has none: leave it out"
+            )
+        if kind is None:
+            return beam
+        if sides and self.ratio is None and beam.gyration.area is None:
+            raise ValueError(
+                "a blade has EA and EI, but no area that tells its width: give --ratio, height in "
+                "the plane over width"
+            )
+        if self.ratio is None:
+            return beam.with_shape(kind(poisson_ratio=self.poisson_ratio))
+        # With another material than the beam's, of which the blade knows none.
+        shape = kind(ratio=self.ratio, poisson_ratio=self.poisson_ratio)
+        return beam.blade.with_shape(shape)
+
+    def required_of(self, beam: AnyBlade) -> AnyBlade:
+        """Return the same, refusing a beam of whose section nothing is known out of the plane."""
+        blade = self.of(beam)
+        if blade.section.out_of_plane is None:
+            raise ValueError(
+                "what the section is out of the plane is unknown: give --section rectangle or "
+                "--section tube, or [blade.section.out_of_plane] in --config"
+            )
+        return blade
+
+
+DISCRETIZATION, SECTION, RESULTS, WORKERS = (
+    Discretization(),
+    SectionOptions(),
+    Results(),
+    Workers(),
+)
 """Nothing given."""
 
 

@@ -14,8 +14,8 @@ from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .job import Job
-from .motion import chosen_times, motion_of, refuse_rest
-from .options import RESULTS, Discretization, Element, Results, Whole, configured
+from .motion import chosen_times, configured, motion_of, refuse_rest
+from .options import RESULTS, Discretization, Element, Results, Whole
 from .output import counter, new_console, print_columns, print_note
 
 _LONGEST = 10.0  # of the paper's beam [s]

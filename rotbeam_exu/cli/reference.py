@@ -11,8 +11,8 @@ from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
 from .job import Job
-from .motion import motion_of
-from .options import RESULTS, Results, Whole, configured
+from .motion import configured, motion_of
+from .options import RESULTS, Results, Whole
 from .output import new_console, print_line
 
 

@@ -18,7 +18,8 @@ from analytic.loads import Load
 
 from ..lazily import xr
 from .job import Job, UnfinishedError
-from .options import RESULTS, Flag, NoFigure, Results, Whole, configured, omega_of
+from .motion import configured, omega_of
+from .options import RESULTS, Flag, NoFigure, Results, Whole
 from .output import print_columns
 
 

@@ -13,8 +13,8 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..verdict import SimulationError, energy_drift
 from .job import Job, UnfinishedError
-from .motion import motion_of, refuse_rest
-from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results, configured
+from .motion import configured, motion_of, refuse_rest
+from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
 from .output import new_console, print_line
 
 if TYPE_CHECKING:

@@ -13,18 +13,17 @@ from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
 from .job import Job
-from .options import RESULTS, Amplitudes, Results, Whole, configured, omega_of
+from .motion import configured, omega_of
+from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
 from .output import new_console, print_columns, print_text
-from .sections import SectionShape
 
-_GIVEN = SectionShape()
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 
 def stability(
     *,
     omega: float | None = None,
-    shape: SectionShape = _GIVEN,
+    shape: SectionOptions = SECTION,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     growth: float = LEAST_GROWTH,

@@ -12,17 +12,8 @@ from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
 from .job import Job
-from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
-from .options import (
-    DISCRETIZATION,
-    RESULTS,
-    WORKERS,
-    Discretization,
-    Flag,
-    Results,
-    Workers,
-    configured,
-)  # fmt: skip
+from .motion import Motion, chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
+from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
 from .output import new_console, print_columns, print_line, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]

@@ -17,8 +17,8 @@ from analytic.input_checks import positive
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .motion import Motion, motion_of, slower_than_paper
-from .options import Flag, configured, element_names, spelled_as
+from .motion import Motion, configured, motion_of, slower_than_paper
+from .options import Flag, element_names, spelled_as
 from .output import counter, new_console, print_columns, print_note, print_text
 
 if TYPE_CHECKING:

@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
+from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
+from analytic.section_shapes import SectionShape
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
@@ -56,7 +58,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
-    and polar_inertia [kg m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
+    and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
+    lengths [m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
     bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not of point
     masses, each zero where it is not given.
 
@@ -163,32 +166,49 @@ def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
         raise ValueError(text if text.startswith(str(source)) else f"{source}: {text}") from error
 
 
-def _beam(table: dict[str, Any], source: Path) -> Beam:
+def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
     by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
-    _require_keys(table, "[beam]", source, _STIFFNESS if by_stiffness else _MATERIAL)
-    return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
+    wanted = _STIFFNESS if by_stiffness else _MATERIAL
+    _require_keys(table, "[beam]", source, wanted, () if by_stiffness else ("shape",))
+    if by_stiffness:
+        return Beam.from_stiffness(**table)
+    return _shaped(Beam(**{name: table[name] for name in wanted}), table.get("shape"))
 
 
-def _blade(table: dict[str, Any], source: Path) -> Blade:
+def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
     _require_keys(
         table, "[blade]", source, ("length", "section"),
         ("hub_radius", "setting_angle", "point_mass", "damping"),
     )  # fmt: skip
-    parts = dict(table)
-    masses = parts.pop("point_mass", [])
+    _require_keys(
+        table["section"], "[blade.section]", source, _STIFFNESS[1:],
+        ("rotary_inertia", "out_of_plane", "shape"),
+    )  # fmt: skip
+    section, parts = dict(table["section"]), dict(table)
+    shape, masses = section.pop("shape", None), parts.pop("point_mass", [])
     if not isinstance(masses, list):
         raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
-    section = table["section"]
-    if isinstance(section, dict) and "out_of_plane" in section:
-        beyond = section["out_of_plane"]
+    if "out_of_plane" in section:
         title = "[blade.section.out_of_plane]"
-        section = {**section, "out_of_plane": _part(OutOfPlane, beyond, title, source)}
-    parts["section"] = _part(Section, section, "[blade.section]", source)
+        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
+        if shape is not None:
+            raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
+    parts["section"] = Section(**section)
     parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
     parts["point_masses"] = tuple(
         _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )
-    return Blade(**parts)
+    return _shaped(Blade(**parts), shape)
+
+
+def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
+    """Return the beam with the shape of a table, or itself without one."""
+    if shape is None:
+        return beam
+    if not isinstance(shape, dict):
+        raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
+    family: Any = SectionShape
+    return beam.with_shape(from_description(shape, family))
 
 
 def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:

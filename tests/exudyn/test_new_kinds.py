@@ -14,6 +14,7 @@ from analytic import (
     Beam,
     Damping,
     DistributedForce,
+    Rectangle,
     SmoothRamp,
     SpeedRipple,
     SpinUp,
@@ -21,6 +22,7 @@ from analytic import (
     Table,
     Theory,
     TipForce,
+    Tube,
     exact_residual,
     forced_response,
     residual_amplitude,
@@ -30,10 +32,11 @@ from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled
 from analytic.ramps import SpeedChange
-from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate
+from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate, simulate_3d
 from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable
+from rotbeam_exu.fem.space.elements import SpaceCable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.verdict import beam_attributes, beam_of, loads_of, motion_attributes, motion_of
 
@@ -176,6 +179,13 @@ def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(be
     assert np.abs(exact - calm).max() > 0.1 * largest
     with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
         forced_response(beam, 6.0, wind, [3.6, 3.7])
+
+
+def test_a_run_in_space_says_so(tmp_path):
+    tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
+    run = simulate_3d(tube, MOTION, element="cable", elements=2, duration=2.5, step=5e-3, kick=0.0)
+    path = save(run, tmp_path / "space.nc")
+    assert type(Case.described(load(path).attrs).model) is SpaceCable
 
 
 def test_a_new_load_is_an_option_of_the_command(tmp_path):
@@ -336,7 +346,10 @@ def test_two_kinds_cannot_have_one_name():
     "blade",
     [
         Beam.reference(),
-        Beam.reference().rectangle().with_tip_mass(0.1, 0.2).with_damping(Damping(axial=1e-3)),
+        Beam.reference()
+        .with_shape(Rectangle())
+        .with_tip_mass(0.1, 0.2)
+        .with_damping(Damping(axial=1e-3)),
         replace(Beam.reference().blade, setting_angle=1.0),
         Beam.reference().with_section_out_of_plane(1.0, np.inf),
     ],

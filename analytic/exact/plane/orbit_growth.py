@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
-from ...blade import Blade
 from ...input_checks import rotation_speed
 from ...methods.harmonic_balance import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.space import out_of_plane_of, require_out_of_plane
+from ..beam.space import require_out_of_plane
 from ..beam.steady import BeamOrbit
 from ..free.branch import AmplitudeNotReachedError, branch_of
 from ..linear.modes import resolved_model
@@ -55,8 +53,8 @@ def planar_orbits(
 
     Sections that differ out of the plane share them.
     """
-    if isinstance(blade, Blade):
-        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
+    if blade.section.out_of_plane is not None:
+        blade = blade.in_its_plane()
     return _orbits(blade, omega, mode, theory)
 
 
@@ -106,13 +104,13 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
 
     Examples
     --------
-    >>> from analytic import Beam, planar_note
-    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
+    >>> from analytic import Beam, Rectangle, planar_note
+    >>> planar_note(Beam.reference().with_shape(Rectangle()), 4.0, amplitude=0.05)
     ''
     """
     require_blade(blade)
     unit = blade.unit
-    if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
+    if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
         return ""
     if not 0.0 < amplitude < 1.0:
         return ""
