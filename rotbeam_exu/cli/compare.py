@@ -17,7 +17,7 @@ from ..verdict import beam_attributes
 from .job import refuse_to_replace, saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, configured, grid_motion
 from .options import RESULTS, WORKERS, Results, Workers
-from .output import new_console, print_columns, print_note, print_written
+from .output import formatted, new_console, print_columns, print_note, print_written
 
 
 def compare(
@@ -108,7 +108,7 @@ def _print_models(models: xr.Dataset, amplitude: float) -> None:
         for model in here["model"].to_numpy():
             one = here.sel(model=model)
             errors = [*one["error"].to_numpy(), one["total"].item()]
-            rows[str(model)] = [_signed(error) for error in errors]
+            rows[str(model)] = formatted(errors, "+.1e")
         print_columns(
             rows,
             "table",
@@ -123,7 +123,7 @@ def _print_elements(elements: xr.Dataset, step: float) -> None:
             "ω [rad/s]": frame["omega"].tolist(),
             "T [s]": frame["ramp_time"].tolist(),
             **{
-                str(source): [_signed(error) for error in frame[source]]
+                str(source): formatted(frame[source], "+.1e")
                 for source in elements["source"].to_numpy()
             },
         },
@@ -134,7 +134,3 @@ def _print_elements(elements: xr.Dataset, step: float) -> None:
     )
     if np.isnan(elements["error"]).any():
         print_note("-: the amplitude is above 0.6, where the budget ends")
-
-
-def _signed(error: float) -> str:
-    return "-" if np.isnan(error) else f"{error:+.1e}"

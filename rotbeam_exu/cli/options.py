@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Self, get_args
 
 from cyclopts import Parameter, Token
 
@@ -91,44 +91,6 @@ VariantName = Annotated[str, Parameter(converter=spelled_as(lambda: analytic.VAR
 """Name of a variant; what is none is refused by `reduced_model`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Numerics:
-    """How a run is computed; step and duration may be left to `chosen_motion`."""
-
-    element: str = "cable"
-    option: Mapping[str, object] = field(default_factory=dict)
-    elements: int = 16
-    step: float | None = None
-    duration: float | None = None
-    frame: Frame = "inertial"
-
-    @property
-    def name(self) -> str:
-        """Formulation, options and mesh as part of a file's name."""
-        options = [f"{name}-{value}" for name, value in self.option.items()]
-        return "-".join([self.element, *options, str(self.elements)])
-
-    @property
-    def title(self) -> str:
-        """Formulation and options for a reader."""
-        return ", ".join([self.element, *(f"{k}={v}" for k, v in self.option.items())])
-
-    def case(self, beam: AnyBlade, motion: Motion) -> Case:
-        """Return the case of a motion, whose step and duration are chosen."""
-        from ..fem.case import Case
-        from ..fem.elements import formulation
-
-        return Case(
-            beam=beam,
-            spin_up=motion.spin_up,
-            element=formulation(self.element, self.option),
-            elements=self.elements,
-            duration=motion.duration,
-            step=motion.step,
-            frame=self.frame,
-        )
-
-
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Discretization:
@@ -157,16 +119,43 @@ class Discretization:
     duration: float | None = None
     frame: Annotated[Frame | None, Parameter(converter=choice)] = None
 
-    def over(self, numerics: Mapping[str, Any]) -> Numerics:
-        """Return what is given here, over what is given in a file, over the paper's."""
+    def over(self, numerics: Mapping[str, Any]) -> Self:
+        """Return what is given here, over what is given in a file, over the paper's.
+
+        Step and duration may be left to `chosen_motion`.
+        """
         mine = {name: value for name, value in vars(self).items() if value is not None}
-        mine["option"] = dict(map(_name_and_value, self.option or []))
-        chosen = Numerics(**{**numerics, **mine})
-        return replace(
-            chosen,
-            element=_spelled(chosen.element, element_names()),
-            frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
-        )
+        chosen = {"element": "cable", "elements": 16, "frame": "inertial", **numerics, **mine}
+        chosen["element"] = _spelled(chosen["element"], element_names())
+        chosen["frame"] = _spelled(chosen["frame"], get_args(Frame))
+        return replace(self, **chosen)
+
+    @property
+    def options(self) -> dict[str, object]:
+        """Options of the formulation by name."""
+        return dict(map(_name_and_value, self.option or []))
+
+    @property
+    def name(self) -> str:
+        """Formulation, options and mesh as part of a file's name."""
+        options = [f"{name}-{value}" for name, value in self.options.items()]
+        return "-".join([f"{self.element}", *options, f"{self.elements}"])
+
+    @property
+    def title(self) -> str:
+        """Formulation and options for a reader."""
+        return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
+
+    def case(self, beam: AnyBlade, motion: Motion) -> Case:
+        """Return the case of a motion, whose step and duration are chosen."""
+        from ..fem.case import Case
+        from ..fem.elements import formulation
+
+        mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
+        return Case(
+            beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
+            element=formulation(f"{self.element}", self.options), **mesh,
+        )  # fmt: skip
 
 
 @Parameter(name="*")

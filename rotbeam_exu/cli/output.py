@@ -186,6 +186,11 @@ def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
     return widths
 
 
+def formatted(values: Iterable[float], form: str) -> list[str]:
+    """Return numbers as text, and a dash where there is none."""
+    return ["-" if math.isnan(value) else format(float(value), form) for value in values]
+
+
 def print_text(console: Console, text: str | Text) -> None:
     """Print a sentence: broken between words on a terminal, in one line for what reads a file."""
     console.print(text, soft_wrap=not console.is_terminal)

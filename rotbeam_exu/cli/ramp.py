@@ -16,7 +16,7 @@ from ..verdict import beam_attributes
 from .job import Job
 from .motion import chosen_times, configured, motion_of, refuse_rest
 from .options import RESULTS, Discretization, Element, Results, Whole
-from .output import counter, new_console, print_columns, print_note
+from .output import counter, formatted, new_console, print_columns, print_note
 
 _LONGEST = 10.0  # of the paper's beam [s]
 
@@ -59,21 +59,20 @@ def ramp(
     $ rotbeam ramp --omega 6 --longest 10
     """
     from .. import comparison
-    from ..fem.elements import formulation
 
     file = configured(config)
     beam = file.beam
-    omega = motion_of(file, omega=omega).spin_up.omega
-    mesh = Discretization(element=element, elements=elements).over(file.numerics)
-    element, elements = mesh.element, mesh.elements
+    motion = motion_of(file, omega=omega)
+    omega = motion.spin_up.omega
+    case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)
     refuse_rest(omega)
     longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
     for name, count in (("points", points), ("finite-element-points", finite_element_points)):
         whole_number(name, count, least=0)
     inputs = {
         **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
-        "finite_element_points": finite_element_points, "element": formulation(element).name,
-        "elements": elements,
+        "finite_element_points": finite_element_points, "element": case.model.name,
+        "elements": case.elements,
     }  # fmt: skip
     if finite_element_points:
         _require_exudyn()
@@ -81,8 +80,9 @@ def ramp(
     def computed() -> xr.Dataset:
         with counter(new_console(), "transients") as progress:
             return comparison.residual(
-                beam, omega, longest=longest, points=points, element=element, elements=elements,
-                finite_element_points=finite_element_points, progress=progress,
+                beam, omega, longest=longest, points=points, element=case.model.name,
+                elements=case.elements, finite_element_points=finite_element_points,
+                progress=progress,
             )  # fmt: skip
 
     Job(
@@ -108,37 +108,30 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
     """Print the quiet ramps, then the points."""
     one = SpinUp(omega=omega, ramp_time=longest)
     quiet = data["quiet_ramp_time"].to_numpy()
+    left = analytic.residual_amplitude
     print_columns(
         {
-            "T [s]": [f"{T:.4f}" for T in quiet],
-            "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [
-                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
-            ],
+            "T [s]": formatted(quiet, ".4f"),
+            "left/L": formatted(data["quiet"], ".2e"),
+            "closed form": formatted(left(beam, one, quiet), ".2e"),
         },
         "table",
         title="Quiet ramp times of Eq. 1",
     )
-    exact = dict(zip(data["exact_ramp_time"].to_numpy(), data["exact"].to_numpy(), strict=True))
-    elements = dict(
-        zip(
-            data["finite_element_ramp_time"].to_numpy(),
-            data["finite_element"].to_numpy(),
-            strict=True,
-        )
+    exact, elements = (
+        dict(zip(data[f"{name}_ramp_time"].to_numpy(), data[name].to_numpy(), strict=True))
+        for name in ("exact", "finite_element")
     )
     times = np.array(sorted({*exact, *elements}))
     if not times.size:
         return
     print_columns(
         {
-            "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
-            "with the backbone": [
-                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
-            ],
-            "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
-            "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],
+            "T [s]": formatted(times, ".4f"),
+            "closed form": formatted(left(beam, one, times), "#.4g"),
+            "with the backbone": formatted(left(beam, one, times, corrected=True), "#.4g"),
+            "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
+            "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
         "table",
         title=f"Amplitude left over L, ω = {omega:g} rad/s",

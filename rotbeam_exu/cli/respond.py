@@ -20,7 +20,7 @@ from ..lazily import xr
 from .job import Job, UnfinishedError
 from .motion import configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
-from .output import print_columns
+from .output import formatted, print_columns
 
 
 def _option(kind: type[Load]) -> str:
@@ -217,15 +217,14 @@ def _name(load: Load, omega: float | None) -> str:
 def _print(data: xr.Dataset, title: str) -> None:
     marks = data["mark"].to_numpy()
     (shown,) = np.nonzero(marks)
+    frequency = data["frequency"].attrs["long_name"].split()[-1]
     stable = np.where(data["stable"].to_numpy(), "yes", "no")
     print_columns(
         {
             "": marks[shown].tolist(),
-            data["frequency"].attrs["long_name"].split()[-1] + " [rad/s]": [
-                f"{nu:.6f}" for nu in data["frequency"].to_numpy()[shown]
-            ],
-            "|q|/L": [f"{a:.6g}" for a in data["amplitude"].to_numpy()[shown]],
-            "lag [rad]": [f"{phase:.4f}" for phase in data["phase"].to_numpy()[shown]],
+            f"{frequency} [rad/s]": formatted(data["frequency"][shown], ".6f"),
+            "|q|/L": formatted(data["amplitude"][shown], ".6g"),
+            "lag [rad]": formatted(data["phase"][shown], ".4f"),
             # A fold is the limit of both.
             "stable": [
                 f"{stable[i - 1]} | {stable[i + 1]}" if marks[i] == "fold" else stable[i]

@@ -15,7 +15,7 @@ from ..verdict import beam_attributes
 from .job import Job
 from .motion import configured, omega_of
 from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
-from .output import new_console, print_columns, print_text
+from .output import formatted, new_console, print_columns, print_text
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
@@ -87,17 +87,15 @@ def stability(
 def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:
     console = new_console()
     print_text(console, f"{limit}.")
+    rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
     print_columns(
         {
-            "|q|/L": [f"{a:g}" for a in found.amplitude],
+            "|q|/L": formatted(found.amplitude, "g"),
             "growth [1/s]": [
-                "-" if rate == 0.0 else f"{rate:.4g}{'' if sure else '!'}"
-                for rate, sure in zip(found.growth_rate, found.converged, strict=True)
+                f"{text}{'' if sure else '!'}"
+                for text, sure in zip(formatted(rate, ".4g"), found.converged, strict=True)
             ],
-            "e-fold [periods]": [
-                "-" if rate == 0.0 else f"{frequency / (2.0 * math.pi * rate):.3g}"
-                for rate, frequency in zip(found.growth_rate, found.frequency, strict=True)
-            ],
+            "e-fold [periods]": formatted(found.frequency / (2.0 * math.pi * rate), ".3g"),
             "how": list(found.kind),
             "what": [" and ".join(modes) for modes in found.modes],
         },
@@ -105,17 +103,13 @@ def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> N
     )
     if not np.all(found.converged):
         print_text(console, "! not confirmed within 1 % by more functions and steps")
-    _print_tongues(limit)
-
-
-def _print_tongues(limit: analytic.StabilityLimit) -> None:
     if not limit.tongues:
         return
     print_columns(
         {
-            "from |q|/L": [f"{tongue.low:.4g}" for tongue in limit.tongues],
-            "to": [f"{tongue.high:.4g}" for tongue in limit.tongues],
-            "growth per radian": [f"{tongue.growth:.2g}" for tongue in limit.tongues],
+            "from |q|/L": formatted((tongue.low for tongue in limit.tongues), ".4g"),
+            "to": formatted((tongue.high for tongue in limit.tongues), ".4g"),
+            "growth per radian": formatted((tongue.growth for tongue in limit.tongues), ".2g"),
             "how": [tongue.kind for tongue in limit.tongues],
             "what": [" and ".join(tongue.modes) for tongue in limit.tongues],
         },

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,7 +13,7 @@ from ..lazily import xr
 from .job import Job
 from .motion import Motion, chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
 from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
-from .output import new_console, print_columns, print_line, print_text
+from .output import formatted, new_console, print_columns, print_line, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -25,7 +24,6 @@ def sweep(
     ramp_time: Values = None,
     discretization: Discretization = DISCRETIZATION,
     workers: Workers = WORKERS,
-    scheduler: str | None = None,
     shard: str = "1/1",
     history: Flag = False,
     config: Path | None = None,
@@ -42,8 +40,6 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    scheduler
-        Address of a Dask scheduler, as tcp://host:8786, on whose cluster the cases run.
     shard
         Part k of n of the grid, as 1/4, for job arrays that share a cache.
     history
@@ -59,7 +55,6 @@ def sweep(
     $ rotbeam sweep --config beam.toml --shard 1/24 --jobs 1
     """
     from ..sweeps.grid import sweep as run_sweep
-    from ..sweeps.workers import dask_executor
 
     file = configured(config)
     beam = file.beam
@@ -74,13 +69,12 @@ def sweep(
     def computed() -> xr.Dataset:
         if config is not None:
             print_line(new_console(), "motion", _described(motion, omegas, ramp_times))
-        pool, client = (None, None) if scheduler is None else dask_executor(scheduler)
-        with closing(client) if client else nullcontext(), workers.counted("spin-ups") as progress:
+        with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
-                executor=pool, jobs=workers.jobs, cache=workers.cache, progress=progress,
-                on_error="record", shard=part, history=history,
+                jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
+                shard=part, history=history,
             )  # fmt: skip
 
     name = f"sweep-{numerics.name}"
@@ -148,7 +142,7 @@ def _print_result(measured: xr.Dataset) -> None:
         "T [s]": rows["ramp_time"],
         "amplitude a/L": rows["amplitude"],
         "ω_NL [rad/s]": rows["frequency"],
-        "±": [f"{error:.1e}".replace("nan", "-") for error in rows["frequency_error"]],
+        "±": formatted(rows["frequency_error"], ".1e"),
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "verdict": rows["verdict"],
     }

@@ -1,8 +1,7 @@
-"""Where cases run: processes of our own, or a Dask cluster."""
+"""Processes that work for us: they leave Ctrl-C to their parent and do not outlive it."""
 
 from __future__ import annotations
 
-import logging
 import multiprocessing
 import os
 import signal
@@ -10,11 +9,8 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
-from typing import Any
 
 from analytic.input_checks import whole_number
-
-_PATIENCE = 5.0  # s
 
 
 @contextmanager
@@ -58,36 +54,3 @@ def _obey_parent() -> None:
             os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
-
-
-def dask_executor(scheduler: str) -> tuple[Executor, Any]:
-    """Return an executor on a Dask cluster, and the client to close after use.
-
-    Parameters
-    ----------
-    scheduler : str
-        Address of the scheduler, as "tcp://host:8786".
-
-    Raises
-    ------
-    ImportError
-        If Dask is not installed.
-    OSError
-        If the scheduler does not answer within five seconds.
-    """
-    try:
-        from distributed import Client  # noqa: PLC0415  (an extra)
-    except ImportError as error:
-        raise ImportError(
-            "Dask is not installed; install the extra: pip install '.[cluster]' in a clone"
-        ) from error
-    try:
-        client: Any = Client(scheduler, timeout=_PATIENCE)
-    except (OSError, ValueError) as error:
-        raise OSError(
-            f"the scheduler {scheduler} does not answer within {_PATIENCE:g} s: check its address "
-            "and that it runs"
-        ) from error
-    # Of a scheduler that ends it logs a traceback; the sweep says it in a sentence.
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
-    return client.get_executor(), client

@@ -5,7 +5,6 @@ import re
 import pytest
 
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.sweeps.cache import Cache
 
 QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 
@@ -126,37 +125,3 @@ def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path
     assert code != 0
     assert "taken: File exists; choose another" in error
     assert call(*short, tmp_path / "free")[0] == 0
-
-
-@pytest.mark.slow  # seconds of waiting; a sweep by Dask is among the sweep's own tests
-def test_dask_asks_for_a_scheduler_that_answers(small_sweep):
-    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    code, _, error = small_sweep("--scheduler", "tcp://127.0.0.1:1")
-    assert code != 0
-    assert "check its address and that it runs" in error
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None
-    ) as cluster:
-        assert small_sweep("--scheduler", cluster.scheduler_address)[0] == 0
-
-
-@pytest.mark.slow
-def test_a_sweep_whose_dask_scheduler_ends_goes_on_with_the_next_one(small_sweep, monkeypatch):
-    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    cluster = distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None, protocol="tcp://"
-    )
-    dask = ("--scheduler", cluster.scheduler_address)
-    kept = Cache.put
-
-    def ending(*arguments):
-        kept(*arguments)
-        cluster.close()
-
-    monkeypatch.setattr(Cache, "put", ending)
-    code, _, error = small_sweep(*dask)
-    assert code == 1
-    assert "with 1 of 2 cases to do; run again to resume from the cache" in error
-    assert "Traceback" not in error
-    monkeypatch.undo()
-    assert small_sweep()[0] == 0
