@@ -12,7 +12,7 @@ QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 def run(call, tmp_path, **options):
     arguments = {**QUICK, **{f"--{k.replace('_', '-')}": str(v) for k, v in options.items()}}
     flat = [text for pair in arguments.items() for text in pair]
-    return call("run", "--out", tmp_path / "out", "--force", *flat)
+    return call("run", "--no-figure", "--out", tmp_path / "out", "--force", *flat)
 
 
 def test_a_speed_in_another_unit_is_given_in_radians(call, tmp_path):
@@ -77,7 +77,7 @@ def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(
 
 
 def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
-    short = ("run", "--elements", "1", "--duration", "8")
+    short = ("run", "--elements", "1", "--duration", "8", "--no-figure")
     assert call(*short, "--step", "0.01", "--out", tmp_path)[0] == 0
     code, _, error = call(*short, "--step", "0.02", "--out", tmp_path)
     assert code == 2
@@ -120,7 +120,7 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
 
 def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):
     (tmp_path / "taken").write_text("a file")
-    short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--out")
+    short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure", "--out")
     code, _, error = call(*short, tmp_path / "taken")
     assert code != 0
     assert "taken: File exists; choose another" in error

@@ -17,7 +17,7 @@ BEAM = (
 
 def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
     assert call("run", *SHORT, "--out", tmp_path)[0] == 0
-    assert call("run", *SHORT, "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, "--no-figure", "--out", tmp_path)[0] == 0
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
     with monkeypatch.context() as patch:
@@ -40,7 +40,8 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             assert "--force" in error
             assert len(error.strip().splitlines()) == 1
     assert all(path.read_bytes() == text for path, text in before.items())
-    assert call("run", *SHORT, "--frame", "rotating", "--out", tmp_path, "--force")[0] == 0
+    other = ("--frame", "rotating", "--no-figure", "--force")
+    assert call("run", *SHORT, *other, "--out", tmp_path)[0] == 0
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
@@ -66,7 +67,7 @@ def test_a_failed_run_is_kept_and_marked(call, tmp_path):
         assert run.attrs["verdict"].startswith("failed: ")
         assert run.attrs["duration"] == duration
     # And where nothing failed, nothing is in the way.
-    good = ("--step", "0.01", "--duration", "10")
+    good = ("--step", "0.01", "--duration", "10", "--no-figure")
     assert call("run", "--elements", "2", "--ramp-time", "2.5", *good, "--out", tmp_path)[0] == 0
 
 

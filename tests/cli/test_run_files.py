@@ -101,8 +101,9 @@ def test_an_element_or_a_frame_that_is_none_is_refused(call, config, tmp_path):
 
 def test_the_summary_of_a_run(call, tmp_path):
     code, out, err = call(
-        "run", "--elements", "8", "--step", "0.01", "--duration", "8", "--out", tmp_path
-    )
+        "run", "--elements", "8", "--step", "0.01", "--duration", "8", "--no-figure",
+        "--out", tmp_path,
+    )  # fmt: skip
     assert code == 0
     assert re.search(r"^verdict +checks passed$", out, re.MULTILINE)
     assert "the estimator's, without mesh and step" in out
