@@ -15,20 +15,28 @@ from analytic.input_checks import positive, whole_number
 
 from ..files.results import whole_file, writable_folder
 from .job import refuse_to_replace_unread
-from .motion import chosen_times, configured, motion_of, slower_than_paper
+from .motion import (
+    Config,
+    RampTime,
+    SteadySpeed,
+    chosen_times,
+    configured,
+    motion_of,
+    slower_than_paper,
+)  # fmt: skip
 from .options import Force, Whole
 from .output import new_console, print_text
 
 
 def animate(
     *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
     duration: float | None = None,
     rate: Whole = 20,
     slow_motion: float | None = None,
     beside: Literal["linear"] | None = None,
-    config: Path | None = None,
+    config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Force = False,
 ) -> None:
@@ -41,10 +49,6 @@ def animate(
 
     Parameters
     ----------
-    omega
-        Steady angular velocity [rad/s]; without it that of the file's [motion], or the paper's.
-    ramp_time
-        Time from rest to the steady angular velocity, T in Eq. 1 [s].
     duration
         End of the motion [s].
     rate
@@ -54,9 +58,6 @@ def animate(
     beside
         Show what a model that is linear in one floating frame makes of it beside the exact beam:
         above the first natural frequency at rest it flies apart.
-    config
-        TOML file with the beam, and if it likes with [motion], and duration in [numerics]; without
-        it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force
@@ -105,7 +106,6 @@ def animate(
                 progress=lambda n: bar.update(task, completed=n),
             )
     print_text(
-        console,
         f"written {target}, {target.stat().st_size / 1e6:.1f} MB, "
         f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
         + ("" if slower == 1.0 else f", {slower:g} times slower"),

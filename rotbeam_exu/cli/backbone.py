@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from analytic import AnyBlade
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
-from .motion import configured, omega_of
+from .motion import Config, Omega, configured, omega_of
 from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, print_columns, print_note
 
@@ -32,14 +31,14 @@ _FIFTH = "; FrM5 has Eq. 63 with -κ (a/L)⁴"
 
 def backbone(
     *,
-    omega: float | None = None,
+    omega: Omega = None,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: VariantName | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
     mode: Whole = 1,
     functions: Whole = 16,
-    config: Path | None = None,
+    config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the frequency over the amplitude, reduced and exact.
@@ -49,8 +48,6 @@ def backbone(
 
     Parameters
     ----------
-    omega
-        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes over the length, one or several.
     variant
@@ -63,8 +60,6 @@ def backbone(
         Mode from which the exact backbone grows; beyond 1 it comes alone, without the models.
     functions
         Functions that resolve the exact beam along its length, at least.
-    config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
     form
         A table for the reader, or CSV with all digits.
 

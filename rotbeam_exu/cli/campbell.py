@@ -19,7 +19,7 @@ from ..files.results import writable_folder
 from .job import refuse_to_replace_unread
 from .motion import chosen_speeds, configured
 from .options import SECTION, Force, SectionOptions, Whole
-from .output import Format, new_console, print_columns, print_written
+from .output import Format, print_columns, print_written
 
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
@@ -94,7 +94,7 @@ def campbell(
         from .. import figures
 
         written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
-        print_written(new_console(stderr=format == "csv"), written)
+        print_written(written, stderr=format == "csv")
 
 
 def _families(beam: AnyBlade) -> list[Plane]:

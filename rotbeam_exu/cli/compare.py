@@ -17,7 +17,7 @@ from ..verdict import beam_attributes
 from .job import refuse_to_replace, saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, configured, grid_motion
 from .options import RESULTS, WORKERS, Results, Workers
-from .output import formatted, new_console, print_columns, print_note, print_written
+from .output import formatted, print_columns, print_note, print_written
 
 
 def compare(
@@ -76,7 +76,7 @@ def compare(
         written += saved(table.assign_attrs(mine), folder / name)
     _print_models(models, amplitude)
     _print_elements(data["budget_finite_elements"], motion.step)
-    print_written(new_console(), written)
+    print_written(written)
 
 
 def _uniform(beam: AnyBlade) -> Beam:

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from rich.text import Text
 
-from .output import harmless, new_console, print_text
+from .output import harmless, print_text
 
 _STOPPING = [
     getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)
@@ -95,16 +95,14 @@ class Messages:
     """
 
     def __init__(self) -> None:
-        self._console = new_console(stderr=True)
         self._said: dict[str, str] = {}
         self._more: Counter[str] = Counter()
         self._texts: set[str] = set()
 
     def say(self, title: str, style: str, text: str) -> None:
         """Print a sentence in one line after its title."""
-        print_text(
-            self._console, Text.assemble((title, style), " ", harmless(" ".join(text.split())))
-        )
+        text = harmless(" ".join(text.split()))
+        print_text(Text.assemble((title, style), " ", text), stderr=True)
 
     def warn(self, message: Warning | str, *_: object) -> None:
         """Print a warning, or count it: what `warnings.showwarning` takes."""

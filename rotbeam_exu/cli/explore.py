@@ -15,7 +15,7 @@ from ..files.results import whole_file, writable_folder
 from .job import refuse_to_replace_unread
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
 from .options import Force, Jobs, Workers
-from .output import new_console, print_text
+from .output import print_text
 
 
 def explore(
@@ -66,9 +66,7 @@ def explore(
         page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
         partial.write_text(page, encoding="utf-8")
-    print_text(
-        new_console(), f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser"
-    )
+    print_text(f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:

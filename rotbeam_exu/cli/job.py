@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
-from .output import new_console, print_written
+from .output import print_written
 
 R = TypeVar("R")
 T = TypeVar("T")
@@ -93,7 +93,7 @@ class Job(Generic[R, T]):
                 written.append(Path(f"{self.path}.txt"))
                 with whole_file(written[-1]) as partial:
                     partial.write_text(f"{self.caption}\n", encoding="utf-8")
-        print_written(new_console(), written)
+        print_written(written)
         return shown
 
     def _kept(self, end: UnfinishedError) -> str:

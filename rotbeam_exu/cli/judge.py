@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
+from typing import Any
 
 from ..files.results import whole_file, writable_folder
 from ..report.document import SCHEMA, document
@@ -18,7 +19,7 @@ from ..verification.mistakes.mistake import Mistake
 from ..verification.mistakes.search import mistakes_in
 from ..verification.submission_files.faults import MalformedSubmissionError
 from ..verification.submission_files.reading import digests, read_submission
-from .output import new_console, print_note, print_text, print_written
+from .output import print_note, print_text, print_written
 from .verify import print_judgements
 
 
@@ -97,26 +98,24 @@ def _may_write(target: Path, ending: str) -> None:
 def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
-    print_written(new_console(), [target])
+    print_written([target])
 
 
 def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
     """Return what was found of some cases; all were judged, for L has a share in the others."""
-    return replace(
-        found,
-        findings={name: one for name, one in found.findings.items() if name in chosen},
-        orders={name: one for name, one in found.orders.items() if name in chosen},
-        histories={name: one for name, one in found.histories.items() if name in chosen},
-        sources={name: one for name, one in found.sources.items() if name in chosen},
-    )
+    tables = {name: getattr(found, name) for name in ("findings", "orders", "histories", "sources")}
+    kept: dict[str, Any] = {
+        name: {case: one for case, one in table.items() if case in chosen}
+        for name, table in tables.items()
+    }
+    return replace(found, **kept)
 
 
 def _print_faults(error: MalformedSubmissionError) -> None:
-    console = new_console(stderr=True)
     for fault in error.faults:
-        print_text(console, str(fault))
+        print_text(str(fault), stderr=True)
     count = len(error.faults)
-    console.print(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged")
+    print_text(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True)
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:

@@ -6,11 +6,41 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed
 
 from ..files.beam_file import RunFile, load_run_file
+
+Config = Annotated[
+    Path | None,
+    Parameter(
+        help="TOML file with the beam or blade, and if it likes with [motion] and [numerics], of "
+        "which a command takes what it has no option for; without it, the paper's beam."
+    ),
+]
+"""The option --config; `configured` reads it."""
+
+Omega = Annotated[
+    float | None,
+    Parameter(help="Rotation speed [rad/s]; needed, unless [motion] of the file has it."),
+]
+"""A speed that is not guessed: see `omega_of`."""
+
+SteadySpeed = Annotated[
+    float | None,
+    Parameter(help="Steady angular velocity [rad/s]; 6 for the paper's beam, unless given."),
+]
+"""Speed after the ramp."""
+
+RampTime = Annotated[
+    float | None,
+    Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
+]
+"""Ramp time."""
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""

@@ -19,7 +19,7 @@ from analytic.section_shapes import SectionShape
 from ..fem.frame import Frame
 from .job import telling_what_is_kept
 from .motion import Motion
-from .output import choice, counter, new_console
+from .output import choice, counter
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -195,7 +195,7 @@ class Workers:
     def counted(self, title: str) -> Iterator[Callable[[int, int], None]]:
         """Give what counts the pieces done; Ctrl-C says where finished spin-ups are."""
         kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
-        with telling_what_is_kept(lambda: kept), counter(new_console(), title) as progress:
+        with telling_what_is_kept(lambda: kept), counter(title) as progress:
             yield progress
 
 

@@ -191,8 +191,9 @@ def formatted(values: Iterable[float], form: str) -> list[str]:
     return ["-" if math.isnan(value) else format(float(value), form) for value in values]
 
 
-def print_text(console: Console, text: str | Text) -> None:
+def print_text(text: str | Text, *, stderr: bool = False) -> None:
     """Print a sentence: broken between words on a terminal, in one line for what reads a file."""
+    console = new_console(stderr=stderr)
     console.print(text, soft_wrap=not console.is_terminal)
 
 
@@ -201,8 +202,9 @@ def print_note(text: str) -> None:
     new_console().print(text, soft_wrap=False)
 
 
-def print_line(console: Console, title: str, text: str) -> None:
+def print_line(title: str, text: str) -> None:
     """Print a title and its text beside it, on a terminal in as many lines as it takes."""
+    console = new_console()
     if not console.is_terminal:
         console.print(f"{title:<{_TITLE}}{text}")
         return
@@ -213,10 +215,10 @@ def print_line(console: Console, title: str, text: str) -> None:
     console.print(grid, soft_wrap=False)
 
 
-def print_written(console: Console, paths: Iterable[Path]) -> None:
+def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
     """Print what was written, one path a line."""
     for path in paths:
-        console.print(f"written {path}")
+        new_console(stderr=stderr).print(f"written {path}")
 
 
 def _cells(column: Sequence[str | float]) -> list[str]:
@@ -255,11 +257,12 @@ def _encodable(text: str, console: Console) -> str:
 
 
 @contextmanager
-def counter(console: Console, title: str) -> Iterator[Callable[[int, int], None]]:
+def counter(title: str) -> Iterator[Callable[[int, int], None]]:
     """Give what is called with the pieces done and their number.
 
     Without a terminal its lines go to standard error: results stay alone on standard output.
     """
+    console = new_console()
     if not console.is_terminal:
         yield _plain(title)
         return

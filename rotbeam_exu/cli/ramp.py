@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import analytic
@@ -14,22 +12,22 @@ from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..verdict import beam_attributes
 from .job import Job
-from .motion import chosen_times, configured, motion_of, refuse_rest
+from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, refuse_rest
 from .options import RESULTS, Discretization, Element, Results, Whole
-from .output import counter, formatted, new_console, print_columns, print_note
+from .output import counter, formatted, print_columns, print_note
 
 _LONGEST = 10.0  # of the paper's beam [s]
 
 
 def ramp(
     *,
-    omega: float | None = None,
+    omega: SteadySpeed = None,
     longest: float | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
     element: Element | None = None,
     elements: Whole | None = None,
-    config: Path | None = None,
+    config: Config = None,
     results: Results = RESULTS,
 ) -> None:
     """Tell what a spin-up leaves over its ramp time, and where least.
@@ -38,8 +36,6 @@ def ramp(
 
     Parameters
     ----------
-    omega
-        Speed after the ramp [rad/s], unless [motion] of the file has it; 6 for the paper's beam.
     longest
         Longest ramp time [s]; 10 for the paper's beam.
     points
@@ -50,9 +46,6 @@ def ramp(
         Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
     elements
         Number of elements, 16 unless given.
-    config
-        TOML file with the beam or blade, and if it likes with omega in [motion], and element and
-        elements in [numerics]; without it, the paper's beam.
 
     Examples
     --------
@@ -78,7 +71,7 @@ def ramp(
         _require_exudyn()
 
     def computed() -> xr.Dataset:
-        with counter(new_console(), "transients") as progress:
+        with counter("transients") as progress:
             return comparison.residual(
                 beam, omega, longest=longest, points=points, element=case.model.name,
                 elements=case.elements, finite_element_points=finite_element_points,

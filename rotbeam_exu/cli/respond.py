@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields, make_dataclass
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from analytic.loads import Load
 
 from ..lazily import xr
 from .job import Job, UnfinishedError
-from .motion import configured, omega_of
+from .motion import Config, configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
 from .output import formatted, print_columns
 
@@ -123,7 +122,7 @@ def respond(
     points: Whole = 41,
     inextensible: Flag = False,
     functions: Whole = 10,
-    config: Path | None = None,
+    config: Config = None,
     no_figure: NoFigure = False,
     results: Results = RESULTS,
 ) -> None:
@@ -148,9 +147,6 @@ def respond(
         Leave the axial motion out.
     functions
         Functions that resolve the beam along its length, at least.
-    config
-        TOML file with the beam or blade, and if it likes with [motion]; without it, the paper's
-        beam.
 
     Examples
     --------

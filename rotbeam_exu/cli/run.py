@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.progress import Progress
 
 from analytic.warning import warn
@@ -13,7 +12,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..verdict import SimulationError, energy_drift
 from .job import Job, UnfinishedError
-from .motion import configured, motion_of, refuse_rest
+from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
 from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
 from .output import new_console, print_line
 
@@ -25,10 +24,10 @@ if TYPE_CHECKING:
 
 def run(
     *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
     discretization: Discretization = DISCRETIZATION,
-    config: Path | None = None,
+    config: Config = None,
     no_figure: NoFigure = False,
     results: Results = RESULTS,
 ) -> None:
@@ -36,15 +35,6 @@ def run(
 
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
     another beam speed, times and step follow its ω_0.
-
-    Parameters
-    ----------
-    omega
-        Steady angular velocity [rad/s].
-    ramp_time
-        Time from rest to the steady angular velocity, T in Eq. 1 [s].
-    config
-        TOML file with the beam, and if it likes with [motion] and [numerics]; options come first.
 
     Examples
     --------
@@ -54,7 +44,7 @@ def run(
     """
     from ..verification.assessment import assess
 
-    console, file = new_console(), configured(config)
+    file = configured(config)
     numerics = discretization.over(file.numerics)
     motion = motion_of(
         file, omega=omega, ramp_time=ramp_time, duration=numerics.duration, step=numerics.step
@@ -66,14 +56,14 @@ def run(
     def computed() -> xr.Dataset:
         if config is not None:
             where = "(where not given, the paper's, scaled by ω_0)"
-            print_line(console, "motion", f"{motion} {where}")
-        return _computed(case, console)
+            print_line("motion", f"{motion} {where}")
+        return _computed(case)
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
         found = assess(case, steady)
         for title, text in (*_inputs(case, numerics.title), *_results(data, steady, found)):
-            print_line(console, title, text)
+            print_line(title, text)
         return found
 
     found = Job(
@@ -95,9 +85,10 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
-def _computed(case: Case, console: Console) -> xr.Dataset:
+def _computed(case: Case) -> xr.Dataset:
     from ..fem.simulation import run_case
 
+    console = new_console()
     try:
         with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task("spinning up", total=1.0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -13,21 +12,21 @@ from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes
 from .job import Job
-from .motion import configured, omega_of
+from .motion import Config, Omega, configured, omega_of
 from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
-from .output import formatted, new_console, print_columns, print_text
+from .output import formatted, print_columns, print_text
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 
 def stability(
     *,
-    omega: float | None = None,
+    omega: Omega = None,
     shape: SectionOptions = SECTION,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     growth: float = LEAST_GROWTH,
-    config: Path | None = None,
+    config: Config = None,
     results: Results = RESULTS,
 ) -> None:
     """Tell whether motion in the plane of rotation stays in it.
@@ -37,8 +36,6 @@ def stability(
 
     Parameters
     ----------
-    omega
-        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes of the planar orbits over the length, one or several; the limit is looked for up
         to the largest.
@@ -46,8 +43,6 @@ def stability(
         In-plane mode from which the orbits grow.
     growth
         Growth out of the plane per radian of the orbit above which all orbits are beyond the limit.
-    config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
 
     Examples
     --------
@@ -85,8 +80,7 @@ def stability(
 
 
 def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:
-    console = new_console()
-    print_text(console, f"{limit}.")
+    print_text(f"{limit}.")
     rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
     print_columns(
         {
@@ -102,7 +96,7 @@ def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> N
         "table",
     )
     if not np.all(found.converged):
-        print_text(console, "! not confirmed within 1 % by more functions and steps")
+        print_text("! not confirmed within 1 % by more functions and steps")
     if not limit.tongues:
         return
     print_columns(

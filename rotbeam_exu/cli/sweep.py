@@ -13,7 +13,7 @@ from ..lazily import xr
 from .job import Job
 from .motion import Motion, chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
 from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
-from .output import formatted, new_console, print_columns, print_line, print_text
+from .output import formatted, print_columns, print_line, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -68,7 +68,7 @@ def sweep(
 
     def computed() -> xr.Dataset:
         if config is not None:
-            print_line(new_console(), "motion", _described(motion, omegas, ramp_times))
+            print_line("motion", _described(motion, omegas, ramp_times))
         with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
@@ -119,7 +119,7 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     failed = failures(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        print_text(new_console(), f"failed at {where}: {sentence}")
+        print_text(f"failed at {where}: {sentence}")
     return sum(map(len, failed.values()))
 
 

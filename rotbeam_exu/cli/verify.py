@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -17,9 +16,9 @@ from analytic.input_checks import positive
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .motion import Motion, configured, motion_of, slower_than_paper
+from .motion import Config, Motion, configured, motion_of, slower_than_paper
 from .options import Flag, element_names, spelled_as
-from .output import counter, new_console, print_columns, print_note, print_text
+from .output import counter, print_columns, print_note, print_text
 
 if TYPE_CHECKING:
     from ..verification.peers import Entry
@@ -44,7 +43,7 @@ def verify(
     element: list[Judged] | None = None,
     cost: Flag = False,
     error: float = 1e-2,
-    config: Path | None = None,
+    config: Config = None,
 ) -> None:
     """Judge elements, and other codes at hand, by what they tend to.
 
@@ -61,9 +60,6 @@ def verify(
         Print the cost at equal error instead.
     error
         That error, of q(t) over max|q|.
-    config
-        TOML file with the beam, and if it likes with [motion] and with step and duration in
-        [numerics]; without it, the paper's beam. What is not given follows its ω_0.
 
     Examples
     --------
@@ -126,7 +122,6 @@ def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motio
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
     print_text(
-        new_console(),
         "Each cell: error and wall time of one run, one after the other in this process; the last "
         "column interpolates time over error logarithmically.",
     )
@@ -138,7 +133,7 @@ def _named(motion: Motion) -> str:
 
 def _tracked(entries: tuple[Entry, ...]) -> Iterator[Entry]:
     """Yield each entry, and count it when the next one is asked for."""
-    with counter(new_console(), "verifying") as progress:
+    with counter("verifying") as progress:
         for done, entry in enumerate(entries, start=1):
             yield entry
             progress(done, len(entries))
