@@ -13,8 +13,8 @@ from rich.progress import Progress
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import whole_file, writable_folder
-from .job import refuse_to_replace_unread
+from ..files.results import whole_file
+from .job import require_writable
 from .motion import (
     Config,
     RampTime,
@@ -83,12 +83,11 @@ def animate(
     _require_film(duration, rate, slower)
     name = f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
-    writable_folder(target.parent)
 
     from ..figures import animation
 
     animation.check_format(target)
-    refuse_to_replace_unread(target, force)
+    require_writable(target, force)
     console = new_console()
     times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:

@@ -15,8 +15,7 @@ from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from ..files.results import writable_folder
-from .job import refuse_to_replace_unread
+from .job import require_writable
 from .motion import chosen_speeds, configured
 from .options import SECTION, Force, SectionOptions, Whole
 from .output import Format, print_columns, print_written
@@ -85,9 +84,9 @@ def campbell(
     beam = shape.of(configured(config).beam)
     highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
     speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)
-    path = None if out is None else writable_folder(out) / f"campbell-{shape.name}"
+    path = None if out is None else out / f"campbell-{shape.name}"
     if path is not None:
-        refuse_to_replace_unread(path.with_name(f"{path.name}.png"), force)
+        require_writable(Path(f"{path}.png"), force)
     diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
     _print(diagram, format)
     if path is not None:

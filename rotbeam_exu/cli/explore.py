@@ -11,8 +11,8 @@ from analytic import AnyBlade
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import whole_file, writable_folder
-from .job import refuse_to_replace_unread
+from ..files.results import whole_file
+from .job import require_writable
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
 from .options import Force, Jobs, Workers
 from .output import print_text
@@ -56,10 +56,8 @@ def explore(
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
         raise ValueError(f"cannot write {out.name!r}: the ending must be .html")
-    writable_folder(out.parent)
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
-    if not _is_explorer(out):
-        refuse_to_replace_unread(out, force)
+    require_writable(out, force, b"<title>Rotating beam explorer")
     beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
@@ -86,7 +84,3 @@ def _scaled(beam: AnyBlade) -> dict[str, Any]:
         "duration": motion.duration,
         "step": motion.step,
     }
-
-
-def _is_explorer(page: Path) -> bool:
-    return page.is_file() and b"<title>Rotating beam explorer" in page.read_bytes()[:4096]

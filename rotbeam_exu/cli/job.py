@@ -140,9 +140,14 @@ def refuse_to_replace(
         raise FileExistsError(f"{target} {what}; choose another folder with --out, or --force")
 
 
-def refuse_to_replace_unread(target: Path, force: bool) -> None:
-    """Refuse, unless forced, a target that is there and does not tell what it was made of."""
-    if target.exists() and not force:
+def require_writable(target: Path, force: bool, ours: bytes = b"") -> None:
+    """Refuse, unless forced, a file that is there and does not hold `ours` at its beginning.
+
+    Such a file does not tell what it was made of. Its folder is made, if it can be written.
+    """
+    writable_folder(target.parent)
+    known = ours and target.is_file() and ours in target.read_bytes()[:4096]
+    if target.exists() and not known and not force:
         raise FileExistsError(
             f"{target} is there, and does not tell what it was made from; choose another name "
             "with --out, or --force"

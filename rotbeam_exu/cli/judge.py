@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from json import dumps
 from pathlib import Path
-from typing import Any
 
 from ..files.results import whole_file, writable_folder
 from ..report.document import SCHEMA, document
 from ..report.page import TITLE, report_page
 from ..report.record import Record
-from ..verification.cases import CASES, VERSION
-from ..verification.judgement import Judgement, judged
+from ..verification.cases import VERSION
+from ..verification.judgement import judged
 from ..verification.mistakes.mistake import Mistake
 from ..verification.mistakes.search import mistakes_in
 from ..verification.submission_files.faults import MalformedSubmissionError
@@ -29,7 +27,6 @@ def judge(
     *,
     report: Path | None = None,
     json: Path | None = None,
-    case: list[str] | None = None,
 ) -> None:
     """Judge the files that any code handed in, by what it tends to.
 
@@ -44,14 +41,11 @@ def judge(
         Write the report, one HTML page.
     json
         Write all findings as JSON.
-    case
-        Tell of this case alone; may be given again.
 
     Examples
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
     """
-    chosen = _known_cases(case)
     for target, ending in ((report, ".html"), (json, ".json")):
         if target is not None:
             _may_write(target, ending)
@@ -60,9 +54,8 @@ def judge(
     except MalformedSubmissionError as error:
         _print_faults(error)
         sys.exit(2)
-    whole = judged(submission)
-    mistakes = [one for one in mistakes_in(submission, whole) if one.case in chosen]
-    found = _only(whole, chosen)
+    found = judged(submission)
+    mistakes = mistakes_in(submission, found)
     _print_mistakes(mistakes)
     print_judgements([found], f"benchmark {VERSION}")
     for source in dict.fromkeys(found.sources.values()):
@@ -76,13 +69,6 @@ def judge(
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
     sys.exit(0 if found.passed else 1)
-
-
-def _known_cases(case: Sequence[str] | None) -> tuple[str, ...]:
-    for name in case or ():
-        if name not in CASES:
-            raise ValueError(f"unknown case {name!r}; known are {', '.join(CASES)}")
-    return tuple(case or CASES)
 
 
 def _may_write(target: Path, ending: str) -> None:
@@ -99,16 +85,6 @@ def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
     print_written([target])
-
-
-def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
-    """Return what was found of some cases; all were judged, for L has a share in the others."""
-    tables = {name: getattr(found, name) for name in ("findings", "orders", "histories", "sources")}
-    kept: dict[str, Any] = {
-        name: {case: one for case, one in table.items() if case in chosen}
-        for name, table in tables.items()
-    }
-    return replace(found, **kept)
 
 
 def _print_faults(error: MalformedSubmissionError) -> None:

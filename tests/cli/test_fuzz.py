@@ -31,7 +31,7 @@ COMMANDS = {
                   "--rpm", "--speed")),
     "sweep": (("sweep", *RUN[1:], "--omega", "6", "--ramp-time", "3", "--jobs", "1", "--cache",
                "{folder}/cache"),
-              ("--ramp-time", "--shard", "--executor", "--option", "--element", "--frame")),
+              ("--ramp-time", "--shard", "--option", "--element", "--frame")),
     "backbone": (("backbone", "--omega", "6", "--amplitude", "0.1"),
                  ("--omega", "--variant", "--amplitude", "--format", "--config")),
     "table": (("table",), ("", "--format")),
