@@ -66,13 +66,12 @@ def test_help_imports_nothing_slow_and_what_only_prints_no_xarray(tmp_path):
 THEORY = {
     "table 3": "Table 3",
     "backbone --omega 6 --all-variants --exact --amplitude 0.1": "exact",
-    "campbell --points 3 --count 2 -o out": "written",
+    "campbell --points 3 --count 2": "Crossings",
     "ramp --omega 2 --longest 4 --points 1 --finite-element-points 0 -o out": "written",
     "stability --omega 6 --section tube --amplitude 0.02 -o out": "written",
     "reference --samples 11 --duration 4 --tolerance 1e-3 -o out": "written",
-    "respond --tip-force 1e-3 --omega 6 --damping-ratio 0.1 --from 3 --to 3.1 --points 2 -o out": (
-        "written"
-    ),
+    "respond --tip-force 1e-3 --omega 6 --damping-ratio 0.1 --from 3 --to 3.1 --points 2 "
+    "--no-figure -o out": "written",
     "animate --duration 0.1 --rate 10 -o out/film.gif": "written",
     "figure 8 -o out": "written",
     "kit out/kit": "files in",
