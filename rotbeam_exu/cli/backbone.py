@@ -203,4 +203,4 @@ def _print_coefficients(
         del columns["κ"]
     whose = models[0].variant.name if len(models) == 1 else f"{len(models)} models"
     speed = models[0].speed_ratio
-    print_columns(columns, "table", title=f"{whose} at ω = {omega:g} rad/s (Ω = {speed:.4g})")
+    print_columns(columns, title=f"{whose} at ω = {omega:g} rad/s (Ω = {speed:.4g})")

@@ -111,7 +111,6 @@ def _print_models(models: xr.Dataset, amplitude: float) -> None:
             rows[str(model)] = formatted(errors, "+.1e")
         print_columns(
             rows,
-            "table",
             title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
         )
 
@@ -127,7 +126,6 @@ def _print_elements(elements: xr.Dataset, step: float) -> None:
                 for source in elements["source"].to_numpy()
             },
         },
-        "table",
         title=(
             f"16 elements, {1e3 * step:g} ms: distance from the exact ω_NL/ω_n at its amplitude"
         ),

@@ -262,12 +262,8 @@ class SectionOptions:
         return blade
 
 
-DISCRETIZATION, SECTION, RESULTS, WORKERS = (
-    Discretization(),
-    SectionOptions(),
-    Results(),
-    Workers(),
-)
+DISCRETIZATION, RESULTS = Discretization(), Results()
+SECTION, WORKERS = SectionOptions(), Workers()
 """Nothing given."""
 
 

@@ -113,7 +113,8 @@ def _in_ascii(letter: str) -> str:
 
 def print_columns(
     columns: Mapping[str, Sequence[str | float]],
-    form: Format,
+    form: Format = "table",
+    *,
     title: str = "",
     frame: box.Box = box.HEAVY_HEAD,
     header: bool = True,

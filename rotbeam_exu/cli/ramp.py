@@ -108,7 +108,6 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
             "left/L": formatted(data["quiet"], ".2e"),
             "closed form": formatted(left(beam, one, quiet), ".2e"),
         },
-        "table",
         title="Quiet ramp times of Eq. 1",
     )
     exact, elements = (
@@ -126,7 +125,6 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
             "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
             "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
-        "table",
         title=f"Amplitude left over L, ω = {omega:g} rad/s",
     )
     print_note(

@@ -227,6 +227,5 @@ def _print(data: xr.Dataset, title: str) -> None:
                 for i in shown
             ],
         },
-        "table",
         title=title,
     )

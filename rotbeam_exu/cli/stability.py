@@ -93,7 +93,6 @@ def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> N
             "how": list(found.kind),
             "what": [" and ".join(modes) for modes in found.modes],
         },
-        "table",
     )
     if not np.all(found.converged):
         print_text("! not confirmed within 1 % by more functions and steps")
@@ -107,6 +106,5 @@ def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> N
             "how": [tongue.kind for tongue in limit.tongues],
             "what": [" and ".join(tongue.modes) for tongue in limit.tongues],
         },
-        "table",
         title="Tongues" + (" below the limit" if math.isfinite(limit.amplitude) else ""),
     )

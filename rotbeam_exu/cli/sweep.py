@@ -146,7 +146,7 @@ def _print_result(measured: xr.Dataset) -> None:
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "verdict": rows["verdict"],
     }
-    print_columns({title: list(values) for title, values in columns.items()}, "table")
+    print_columns({title: list(values) for title, values in columns.items()})
 
 
 def _shard(text: str) -> tuple[int, int]:

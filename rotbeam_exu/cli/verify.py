@@ -181,7 +181,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
 
 
 def _print(columns: dict[str, list[str]], title: str) -> None:
-    print_columns(columns, "table", title=title, frame=box.SIMPLE)
+    print_columns(columns, title=title, frame=box.SIMPLE)
 
 
 def _limit(found: Finding | None) -> str:
