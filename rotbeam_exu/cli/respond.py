@@ -27,7 +27,17 @@ def _option(kind: type[Load]) -> str:
     return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
 
 
-_KINDS = {f"--{_option(kind)}": kind for kind in kinds_of(Load).values() if kind.varied}
+def _has_default(kind: Any) -> bool:
+    """Return whether the size of a load may be left out."""
+    return fields(kind)[0].default is not MISSING
+
+
+_KINDS = {
+    f"--{_option(kind)}": kind
+    for kind in sorted(kinds_of(Load).values(), key=_has_default)
+    if kind.varied
+}
+"""Loads that have a response, by their options; those that need no size come last."""
 
 
 class _OneLoad:
@@ -58,7 +68,7 @@ def _size(kind: Any) -> tuple[str, Any, bool | None]:
     about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
     about += f"; {kind.symbol} [{kind.unit}]"
     name = _option(kind).replace("-", "_")
-    if size.default is MISSING:
+    if not _has_default(kind):
         return name, Annotated[float | None, Parameter(help=f"{about}.")], None
     option = Parameter(
         help=f"{about}, {size.default:g} unless given.",
