@@ -199,6 +199,21 @@ class Workers:
             yield progress
 
 
+def _shapes() -> dict[str, Any]:
+    """Return the kinds of section that are known, by the option's value."""
+    family: Any = SectionShape
+    return {name.lower(): kind for name, kind in kinds_of(family).items()}
+
+
+_Section = Annotated[
+    str,
+    Parameter(
+        help=f"The section out of the plane: {', '.join(_shapes())}, or {_OF_FILE}, that of the "
+        "file."
+    ),
+]
+
+
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class SectionOptions:
@@ -206,8 +221,6 @@ class SectionOptions:
 
     Parameters
     ----------
-    section
-        The section out of the plane: rectangle, ellipse, circle, tube, or given, that of the file.
     ratio
         Height in the plane over width, of a rectangle or an ellipse whose material and size follow
         the beam's EA, EI and mass; without it, the one that has the beam's A and I.
@@ -215,7 +228,7 @@ class SectionOptions:
         Poisson's ratio, for the torsional stiffness.
     """
 
-    section: str = _OF_FILE
+    section: _Section = _OF_FILE
     ratio: float | None = None
     poisson_ratio: float = 0.3
 
@@ -226,8 +239,7 @@ class SectionOptions:
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for; with what it has, where none is."""
-        family: Any = SectionShape
-        kinds = {name.lower(): kind for name, kind in kinds_of(family).items()}
+        kinds = _shapes()
         kind = kinds.get(self.section)
         if kind is None and self.section != _OF_FILE:
             raise ValueError(
