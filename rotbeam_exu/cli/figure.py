@@ -48,11 +48,10 @@ def figure(
     $ rotbeam figure 14 --jobs 2 -o paper
     """
     from .. import figures
-    from ..paper_figures import PAPER_FIGURES
 
-    every = list(PAPER_FIGURES)
+    every = list(figures.PAPER_FIGURES)
     wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
-    if not wanted or wanted[0] not in PAPER_FIGURES:
+    if not wanted or wanted[0] not in every:
         raise ValueError(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
@@ -65,9 +64,8 @@ def figure(
 def _made(n: int, workers: Workers, results: Results) -> None:
     """Make one figure."""
     from .. import figures
-    from ..paper_figures import PAPER_FIGURES
 
-    made = PAPER_FIGURES[n]
+    made = figures.PAPER_FIGURES[n]
     writable_folder(results.out)
     with workers.counted(f"figure {n}") as progress:
         options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
@@ -80,5 +78,5 @@ def _made(n: int, workers: Workers, results: Results) -> None:
     # The data tells its inputs, so files are compared with it after it is computed.
     Job(
         path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
-        show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {figures.caption(n, data)}",
+        show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {made.caption(data)}",
     ).run()  # fmt: skip

@@ -8,9 +8,8 @@ from json import dumps
 from pathlib import Path
 
 from ..files.results import whole_file, writable_folder
-from ..report.document import SCHEMA, document
+from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
-from ..report.record import Record
 from ..verification.cases import VERSION
 from ..verification.judgement import judged
 from ..verification.mistakes.mistake import Mistake

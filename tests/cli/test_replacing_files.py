@@ -6,7 +6,6 @@ import pytest
 
 from rotbeam_exu import figures, load, oscillation
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.paper_figures import PAPER_FIGURES
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
@@ -105,7 +104,8 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     assert code == 130
     assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
 
-    monkeypatch.setitem(PAPER_FIGURES, 14, replace(PAPER_FIGURES[14], data=stopped))
+    fourteen = replace(figures.PAPER_FIGURES[14], data=stopped)
+    monkeypatch.setitem(figures.PAPER_FIGURES, 14, fourteen)
     code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
@@ -132,7 +132,7 @@ def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(figures, drawing, stopped)
-    monkeypatch.setitem(PAPER_FIGURES, 8, replace(PAPER_FIGURES[8], draw=stopped))
+    monkeypatch.setitem(figures.PAPER_FIGURES, 8, replace(figures.PAPER_FIGURES[8], draw=stopped))
     code, _, error = call(*command.split(), "--out", tmp_path)
     assert code == 130
     assert f"kept: {tmp_path}/{name}.nc, {tmp_path}/{name}" in error

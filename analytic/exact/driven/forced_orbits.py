@@ -15,7 +15,7 @@ from ...input_checks import finite_array, finite_number
 from ...loads import Gravity, HarmonicLoad
 from ...methods.driven import DrivenOrbit
 from ...methods.floquet import Multipliers, floquet_multipliers
-from ...plotting import axes_or_new
+from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ..beam.state import BeamState, orbit_state
 from ..free.backbone import Backbone
@@ -187,6 +187,8 @@ class ForcedResponse:
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
 
+        Between the points is a cubic that is monotone where they are.
+
         Parameters
         ----------
         ax : Axes, optional
@@ -200,20 +202,9 @@ class ForcedResponse:
             The frequency is the drive's, under gravity the rotation speed.
         """
         ax = axes_or_new(ax)
-        # At a fold, where a multiplier is 1, both parts end.
         fold = np.array(self.marks) == "fold"
-        calm = self.stable | fold
-        firm = calm[1:] & calm[:-1]
-        stable, unstable = (
-            np.where(np.append(part, False) | np.append(False, part), self.amplitude, np.nan)
-            for part in (firm, ~firm)
-        )
-        (solid,) = ax.plot(self.frequency, stable, **{"label": str(self.load), **line})
-        dashed = {**line, "color": solid.get_color(), "ls": "--", "label": "_unstable"}
-        ax.plot(self.frequency, unstable, **dashed)
-        ax.plot(
-            self.frequency[fold], self.amplitude[fold], "o", color=solid.get_color(), mfc="white"
-        )
+        line = {"label": str(self.load), **line}
+        draw_response(ax, self.frequency, self.amplitude, self.stable, fold, **line)
         gravity = isinstance(self.load, Gravity)
         ax.set(
             xlabel="rotation speed ω [rad/s]" if gravity else "drive frequency ν [rad/s]",

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_blade
+from ...beam import AnyBlade, require_planar
 from ...input_checks import rotation_speed
 from ...methods.harmonic_balance import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
@@ -108,7 +108,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     >>> planar_note(Beam.reference().with_shape(Rectangle()), 4.0, amplitude=0.05)
     ''
     """
-    require_blade(blade)
+    require_planar(blade)
     unit = blade.unit
     if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
         return ""
