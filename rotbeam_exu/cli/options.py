@@ -201,8 +201,7 @@ class Workers:
 
 def _shapes() -> dict[str, Any]:
     """Return the kinds of section that are known, by the option's value."""
-    family: Any = SectionShape
-    return {name.lower(): kind for name, kind in kinds_of(family).items()}
+    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 
 
 _Section = Annotated[

@@ -13,8 +13,7 @@ from analytic.beam import require_planar
 from analytic.description import Described, describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
-from analytic.motion import Rotation
-from analytic.ramps import AnyRamp, fastest, require_ramp
+from analytic.motion import Rotation, SpeedChange
 
 from ..resolution import checked_steps
 from ..verdict import (
@@ -36,7 +35,7 @@ class Case:
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp, Table or SteadyRotation
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
     element : str or Formulation
         A name becomes the formulation.
     elements, duration, step, frame, loads
@@ -49,7 +48,7 @@ class Case:
     """
 
     beam: AnyBlade
-    spin_up: AnyRamp | SteadyRotation
+    spin_up: SpeedChange | SteadyRotation
     element: str | Formulation = "cable"
     elements: int = 16
     duration: float = 15.0
@@ -58,9 +57,9 @@ class Case:
     loads: Sequence[Load] = ()
 
     def __post_init__(self) -> None:
-        if not isinstance(self.spin_up, AnyRamp | SteadyRotation):
+        if not isinstance(self.spin_up, SpeedChange | SteadyRotation):
             raise TypeError(
-                "spin_up must be a SpinUp, a SmoothRamp, a Table, another SpeedChange or a "
+                "spin_up must be a SpinUp, a FourierRamp, a SpeedTable, another SpeedChange or a "
                 f"SteadyRotation, got {self.spin_up!r}; a ripple of it is one of the loads"
             )
         for name, value in (
@@ -72,8 +71,6 @@ class Case:
         ):
             object.__setattr__(self, name, value)
         require_planar(self.beam)
-        if not isinstance(self.spin_up, SteadyRotation):
-            require_ramp(self.spin_up)
         require_frame(self.beam, self.frame)
         require_modeled(self.beam, self.model)
         _ = self.steps_and_sampling
@@ -114,7 +111,7 @@ class Case:
     @property
     def fastest(self) -> float:
         """Highest angular velocity [rad/s]."""
-        return fastest(self.spin_up)
+        return self.spin_up.fastest
 
     @property
     def ramp_time(self) -> float:

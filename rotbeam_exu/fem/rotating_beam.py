@@ -82,7 +82,7 @@ def add_rotating_beam(
     mbs : exudyn.MainSystem
     beam : Beam or Blade
         In the units of the system, SI as a rule.
-    rotation : SpinUp, SmoothRamp, Table or SteadyRotation
+    rotation : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Angle of the clamp over time.
     element, elements, frame, loads
         As in `simulate`; loads in the units of the system.

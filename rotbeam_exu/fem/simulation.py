@@ -16,8 +16,7 @@ from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.beam.state import stretched_state
 from analytic.loads import Load
-from analytic.motion import Rotation
-from analytic.ramps import AnyRamp
+from analytic.motion import Rotation, SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
@@ -38,7 +37,7 @@ from .units import Units
 
 def simulate(
     beam: AnyBlade,
-    spin_up: AnyRamp | SteadyRotation,
+    spin_up: SpeedChange | SteadyRotation,
     *,
     element: str | Formulation = "cable",
     elements: int = 16,
@@ -59,7 +58,7 @@ def simulate(
     ----------
     beam : Beam or Blade
         The beam.
-    spin_up : SpinUp, SmoothRamp, Table or SteadyRotation
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
         speed from the start.
     element : str or Formulation

@@ -207,8 +207,7 @@ def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
         return beam
     if not isinstance(shape, dict):
         raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    family: Any = SectionShape
-    return beam.with_shape(from_description(shape, family))
+    return beam.with_shape(from_description(shape, SectionShape))
 
 
 def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:

@@ -18,9 +18,7 @@ PLAIN = {
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
         "rotbeam_exu.SimulationError"
     ),
-    "former names, whose page leads to the new one": (
-        "analytic.critical_speed rotbeam_exu.critical_speed"
-    ),
+    "former names, whose page leads to the new one": ("rotbeam_exu.critical_speed"),
     "a type, a list of names, a protocol": (
         "analytic.AnyBlade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
     ),

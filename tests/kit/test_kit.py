@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import Blade, Damping, Gravity, PointMass, Section, SmoothRamp, SpinUp, TipForce
+from analytic import Blade, Damping, FourierRamp, Gravity, PointMass, Section, SpinUp, TipForce
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification import kit as room
 from rotbeam_exu.verification import problem_statement
@@ -97,7 +97,7 @@ FORCE = TipForce(amplitude=0.1, frequency=3.0)
         ({"blade": S1.blade.with_damping(Damping(external=0.1))}, "damping.external"),
         ({"blade": S1.blade.with_taper(0.1, 0.1)}, "section.axial_stiffness, section.bending_"),
         ({"loads": (Gravity(2.0), FORCE)}, "loads"),
-        ({"motion": SmoothRamp(start=1.0, omega=6.0, ramp_time=3.0)}, "motion"),
+        ({"motion": FourierRamp(start=1.0, omega=6.0, ramp_time=3.0)}, "motion"),
     ],
 )
 def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):

@@ -18,12 +18,12 @@ FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "methods", "plotting"},
-        {"profiles", "motion", "damping", "out_of_plane"},
-        {"line"},
+        {"profiles", "motion", "damping"},
+        {"line", "section"},
         {"point_mass"},
-        {"unit_blade", "section", "section_shapes", "loads", "ramps"},
-        {"shape_functions"},
-        {"blade"},
+        {"unit_blade", "loads", "ramps"},
+        {"shape_functions", "section_shapes"},
+        {"blade", "blade_functions"},
         {"beam"},
         {"theory"},
         {"reduced", "exact"},  # neither knows the other

@@ -13,11 +13,11 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..arrays import FloatArray
-from ..lazily import linalg
-from ..profiles import evaluated
-from ..shape_functions import ShapeFunctions, shape_functions
-from ..unit_blade import UnitBlade
+from .arrays import FloatArray
+from .lazily import linalg
+from .profiles import evaluated
+from .shape_functions import ShapeFunctions, shape_functions
+from .unit_blade import UnitBlade
 
 
 class FirstMode(NamedTuple):
