@@ -5,7 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from analytic.methods.arclength import NoWayOnError, advanced, corrected, crossing, located
+from analytic.methods.arclength import advanced, corrected, crossing, located
+from analytic.methods.newton import NoOrbitError
 
 
 class Circle:
@@ -78,5 +79,5 @@ def test_where_there_is_no_curve_it_says_so():
         def residual(self, z):
             return np.array([z @ z + 1.0])
 
-    with pytest.raises(NoWayOnError, match="does not converge"):
+    with pytest.raises(NoOrbitError, match="does not converge"):
         corrected(Nowhere(), np.array([0.5, 0.5]), np.array([0.0, 1.0]))

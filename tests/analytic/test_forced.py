@@ -100,7 +100,7 @@ def test_between_the_folds_the_middle_response_is_unstable(
 
 def by_library(orbit):
     """What DOP853 makes of the orbit's start in a period, both (2n,)."""
-    system, n, w = orbit.system, orbit.system.size, orbit.parameter
+    system, n, w = orbit.system, orbit.system.size, orbit.frequency
     bending = system.model.bending  # the inextensible beam's one axial coordinate is zero
 
     def rates(t, state):
@@ -118,7 +118,7 @@ def by_library(orbit):
 
 def by_collocation(orbit):
     """The same by Radau's method of order 15, which takes the stiff modes in its stride."""
-    system, w, method, steps = orbit.system, orbit.parameter, radau(8), 60
+    system, w, method, steps = orbit.system, orbit.frequency, radau(8), 60
     q, q_dot, q_ddot = (part[0] for part in orbit.coordinates(np.zeros(1)))
     start, h = np.concatenate((q, q_dot)), 2.0 * np.pi / w / steps
     acceleration = np.tile(q_ddot, (8, 1))
@@ -126,8 +126,8 @@ def by_collocation(orbit):
         phase = 2.0 * np.pi * (step + method.nodes) / steps
         acceleration = method.step(
             h, q, q_dot, acceleration,
-            residual=partial(system.residual, phase=phase, parameter=w),
-            tangent=partial(system.tangent, phase=phase, parameter=w),
+            residual=partial(system.residual, phase=phase, frequency=w),
+            tangent=partial(system.tangent, phase=phase, frequency=w),
         )  # fmt: skip
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]

@@ -216,7 +216,7 @@ class OutOfPlaneMotion:
 
     Attributes
     ----------
-    orbit : PeriodicOrbit
+    orbit : Orbit
     space : Space
     """
 

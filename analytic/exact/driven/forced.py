@@ -12,8 +12,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Gravity, HarmonicLoad
-from ...methods.driven import DrivenOrbit
-from ...methods.response_curve import ResponseNotFollowedError, response_curve
+from ...methods.orbit_curve import Marked, ResponseNotFollowedError, response_curve
 from ...threads import one_thread
 from ..beam.steady import steady_rate
 from ..linear.modes import linear_modes, resolved_model
@@ -178,12 +177,12 @@ def _followed(
     harmonics: int,
 ) -> ForcedResponse:
     least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
-    parameters = asked / beam.frequency_scale
+    frequencies = asked / beam.frequency_scale
     try:
-        orbits, failed = response_curve(system, parameters, _LARGEST, least), None
+        found, failed = response_curve(system, frequencies, _LARGEST, least), None
     except ResponseNotFollowedError as reason:
-        orbits, failed = reason.orbits, reason
-    response = _packed(beam, load, orbits) if orbits else None
+        found, failed = reason.found, reason
+    response = _packed(beam, load, found) if found else None
     if failed is not None:
         last = f" at {asked[0]:g} rad/s"
         if response is not None:
@@ -197,23 +196,19 @@ def _followed(
     return response
 
 
-def _packed(
-    beam: AnyBlade, load: HarmonicLoad | Gravity, orbits: list[DrivenOrbit[DrivenBeam]]
-) -> ForcedResponse:
+def _packed(beam: AnyBlade, load: HarmonicLoad | Gravity, found: list[Marked]) -> ForcedResponse:
+    orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
-    harmonics = np.zeros((len(orbits), count + 1), dtype=np.complex128)
-    for row, orbit in zip(harmonics, orbits, strict=True):
-        parts, H = orbit.gauge_harmonics, orbit.harmonics
-        row[: H + 1] = parts[: H + 1]
-        row[1 : H + 1] -= 1j * parts[H + 1 :]
+    harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     per_second = beam.frequency_scale
     return ForcedResponse(
         beam=beam,
         load=load,
-        omega=per_second * np.array([o.system.speed(o.parameter) for o in orbits]),
+        omega=per_second * np.array([o.system.speed(o.frequency) for o in orbits]),
         frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        harmonics=harmonics,
+        harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),
-        _orbits=tuple(orbits),
+        marks=marks,
+        _orbits=orbits,
     )

@@ -13,8 +13,8 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, undamped
 from ...input_checks import finite_array, finite_number
 from ...loads import Gravity, HarmonicLoad
-from ...methods.driven import DrivenOrbit
 from ...methods.floquet import Multipliers, floquet_multipliers
+from ...methods.orbit import Orbit
 from ...plotting import axes_or_new
 from ..beam.state import BeamState, orbit_state
 from ..free.backbone import Backbone
@@ -69,6 +69,9 @@ class ForcedResponse:
         q/L = Re Σ h_k exp(ikφ); h_0 is the mean.
     residual : ndarray (points,)
         Largest residual of the equations of motion, relative to the motion.
+    marks : tuple of str
+        Mark of each point: "asked" for, a "fold" where the curve turns around, a "peak" where the
+        amplitude is greatest or least, a "branch point" where another curve crosses; else "".
 
     Examples
     --------
@@ -88,7 +91,8 @@ class ForcedResponse:
     amplitude: FloatArray
     harmonics: ComplexArray = field(repr=False)
     residual: FloatArray = field(repr=False)
-    _orbits: tuple[DrivenOrbit[DrivenBeam], ...] = field(repr=False)
+    marks: tuple[str, ...] = field(repr=False)
+    _orbits: tuple[Orbit[DrivenBeam], ...] = field(repr=False)
 
     @property
     def phase(self) -> FloatArray:
@@ -97,15 +101,6 @@ class ForcedResponse:
         The load goes with cos νt; the weight across the blade with -cos θ.
         """
         return np.asarray(-np.angle(self.harmonics[:, 1]))
-
-    @property
-    def marks(self) -> tuple[str, ...]:
-        """What is special about each point, (points,).
-
-        "asked" for, a "fold" where the curve turns around, a "peak" where the amplitude is greatest
-        or least, a "branch point" where another curve crosses; else empty.
-        """
-        return tuple(orbit.mark for orbit in self._orbits)
 
     def _marked(self, mark: str) -> tuple[ResponsePoint, ...]:
         return tuple(

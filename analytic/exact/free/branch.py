@@ -15,7 +15,8 @@ from ...methods.continuation import (
     linear_orbit,
     meets_the_equations,
 )
-from ...methods.harmonic_balance import LastTangent, NoOrbitError, solve
+from ...methods.harmonic_balance import LastTangent, solve
+from ...methods.newton import NoOrbitError
 from ..beam.continuum import Continuum
 from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import solve_modes

@@ -14,7 +14,7 @@ from ...beam import AnyBlade, require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.continuation import Care
 from ...methods.floquet import Multipliers, floquet_multipliers
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...threads import one_thread
 from ..beam.state import BeamState, orbit_state
 from ..beam.steady import BeamOrbit

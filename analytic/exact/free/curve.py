@@ -18,7 +18,8 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
-from ...methods.harmonic_balance import NoOrbitError, frequency_change
+from ...methods.harmonic_balance import frequency_change
+from ...methods.newton import NoOrbitError
 from ...threads import one_thread
 from ...warning import warn
 from ..beam.discretization import finer_model
@@ -191,7 +192,7 @@ def _of_orbits(branch: Branch, amplitudes: FloatArray) -> FloatArray:
     """Return ω_NL/ω_n and the first harmonic over the peak of orbits, (orbits, 2)."""
     linear = float(branch.modes[branch.mode - 1])
     orbits = [branch.path.laid(a) for a in amplitudes.tolist()]
-    return np.array([[o.frequency / linear, o.gauge_harmonics[0] / o.amplitude] for o in orbits])
+    return np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
 
 
 def _rate(series: Chebyshev) -> float:

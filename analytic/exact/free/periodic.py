@@ -12,7 +12,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...methods.continuation import FREQUENCY_BOUND
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...threads import one_thread
 from ..beam.discretization import finer_model
 from ..beam.steady import BeamOrbit
@@ -178,7 +178,7 @@ def _backbone(branch: Branch, orbits: Sequence[BeamOrbit]) -> Backbone:
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         lambda_omega=float((4.0 * near - far) / 3.0),
         lambda_omega_error=float(abs(near - far) / 3.0),
-        harmonics=np.array([np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]),
+        harmonics=np.array([np.pad(o.gauge_sines, (0, count - o.harmonics)) for o in orbits]),
         frequency_error=np.array([orbit.frequency_error for orbit in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),
         jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),

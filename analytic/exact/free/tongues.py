@@ -5,18 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
 from ...arrays import FloatArray
-from ...methods.arclength import NoWayOnError, corrected, crossing, located
-from ...methods.free import FreeCurve
-from ...methods.orbit_curve import At
+from ...methods.arclength import corrected
+from ...methods.continuation import refined
+from ...methods.newton import NoOrbitError
+from ...methods.orbit_curve import At, OrbitCurve
 from ..beam.steady import BeamOrbit, SteadyBeam
 from .internal_resonance import Resonance
 
 _STEP, _LONGEST = 0.02, 0.2  # of the arclength in a tongue
 _TONGUE_POINTS = 14
+_FREQUENCY_SCALE = 0.05  # relative change of Ω that counts as much as a unit of the coordinates
+_ROUGHLY = 1e-4  # drift of the invariant up to which a fold is still told, beyond all harmonics
 _FELT = 1e-3  # size of a harmonic, over the first, whose resonance is looked into
 _TAKES_OVER = 3.0  # growth of that harmonic by which a tongue is told from the path
 
@@ -25,7 +29,7 @@ _TAKES_OVER = 3.0  # growth of that harmonic by which a tongue is told from the 
 class Crossing:
     """Where another branch crosses, and the way it goes."""
 
-    curve: FreeCurve[SteadyBeam]
+    curve: OrbitCurve[SteadyBeam]
     z: FloatArray
     off: FloatArray
 
@@ -85,44 +89,45 @@ def follow(
 
     So many points at most, and not beyond the amplitude `up_to`.
     """
-    curve = FreeCurve(last, last.frequency)
+    curve = OrbitCurve(last, last.frequency, _FREQUENCY_SCALE * last.frequency, _better_resolved)
     start = curve.unknowns(last)
-    piece, step = Piece([last], None, []), _STEP
+    piece = Piece([last], None, [])
     # As far as it is resolved.
-    with suppress(NoWayOnError):
+    with suppress(NoOrbitError):
         at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
-        while len(piece.orbits) < points and piece.orbits[-1].amplitude < up_to:
-            at, there, step = at.advanced(step, _LONGEST)
+        for here, there in at.followed(_STEP, _LONGEST):
             if goes_on(there.orbit):
                 return None
             piece.orbits.append(there.orbit)
             if piece.fold is None:
-                piece.fold = _turning_point(at, there)
-            elif (met := crossing(at.curve, at.point, there.point)) is not None:
+                peak = here.peak(there)
+                piece.fold = None if peak is None else here.curve.orbit(peak.z)
+            elif (met := here.crossing(there)) is not None:
                 # Short of the fold the sign of the determinant only tells that a narrow tongue was
                 # stepped over.
-                piece.crossings.append(Crossing(at.curve, *met))
-            at = there
+                piece.crossings.append(Crossing(here.curve, *met))
+            if len(piece.orbits) >= points or there.orbit.amplitude >= up_to:
+                break
     return piece if len(piece.orbits) > 2 else None
 
 
 def leave(here: Crossing, sign: float) -> list[BeamOrbit]:
     """Return the orbits on one side of the branch that crosses, as far as it is resolved."""
     found: list[BeamOrbit] = []
-    with suppress(NoWayOnError):
+    with suppress(NoOrbitError):
         guess = here.z + sign * _STEP * here.off
         there = At(here.curve, corrected(here.curve, guess, sign * here.off)).resolved()
-        found, step = [there.orbit], _STEP
-        while len(found) < _TONGUE_POINTS:
-            _, there, step = there.advanced(step, _LONGEST)
-            found.append(there.orbit)
+        found = [there.orbit]
+        ahead = there.followed(_STEP, _LONGEST)
+        found += [there.orbit for _, there in islice(ahead, _TONGUE_POINTS - 1)]
     return found
 
 
-def _turning_point(
-    at: At[FreeCurve[SteadyBeam]], there: At[FreeCurve[SteadyBeam]]
-) -> BeamOrbit | None:
-    """Return the orbit between two at which the amplitude is stationary, if there is one."""
-    curve = at.curve
-    point = located(curve, at.point, there.point, lambda p: curve.climb(p.z, p.tangent))
-    return None if point is None else curve.orbit(point.z)
+def _better_resolved(orbit: BeamOrbit) -> BeamOrbit | None:
+    """Return the orbit on more harmonics or functions, None if it needs none."""
+    try:
+        return refined(orbit)
+    except NoOrbitError:
+        if orbit.invariant_drift < _ROUGHLY:
+            return None
+        raise

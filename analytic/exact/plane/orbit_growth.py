@@ -12,7 +12,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
 from ...blade import Blade
 from ...input_checks import rotation_speed
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...threads import one_thread
 from ..beam.space import out_of_plane_of, require_out_of_plane
 from ..beam.steady import BeamOrbit

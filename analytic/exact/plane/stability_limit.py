@@ -9,7 +9,7 @@ from itertools import groupby
 
 from ...beam import AnyBlade, require_undamped
 from ...input_checks import flag, peak_deflection, positive, rotation_speed, whole_number
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from .growth import Growth
