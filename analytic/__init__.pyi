@@ -58,4 +58,5 @@ from .spin_up.quiet import QuietRamps as QuietRamps
 from .spin_up.quiet import exact_residual as exact_residual
 from .spin_up.quiet import quiet_ramp_times as quiet_ramp_times
 from .spin_up.residual import residual_amplitude as residual_amplitude
+from .theory import Theory as Theory
 from .warning import RotbeamWarning as RotbeamWarning

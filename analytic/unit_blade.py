@@ -126,12 +126,12 @@ class UnitBlade:
         lumped = np.array([mass for _, mass, _ in self.masses])
         return np.append(x, at), np.append(weights * evaluated(self.mass, x), lumped)
 
-    def turning(self, count: int, uniform: float = 0.0) -> tuple[FloatArray, FloatArray]:
-        """Return the measure dj against rotation, as `inertia`; `uniform` is of every section."""
+    def turning(self, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return the measure dj against rotation, as `inertia`."""
         x, weights = self.quadrature(count)
         at = np.array([position for position, _, _ in self.masses])
         lumped = np.array([inertia for _, _, inertia in self.masses])
-        dj = weights * (uniform + evaluated(self.rotary, x))
+        dj = weights * evaluated(self.rotary, x)
         return np.append(x, at), np.append(dj, lumped)
 
 

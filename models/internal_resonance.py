@@ -10,11 +10,11 @@ crossings, the dots with harmonic:mode, are too weak to be seen.
 
 import matplotlib.pyplot as plt
 
-from analytic import Beam, backbone_branch
+from analytic import Beam, Theory, backbone_branch
 from rotbeam_exu import figures
 
 plt.style.use(figures.STYLE)
-branch = backbone_branch(Beam.reference(), omega=2.0, up_to=0.8, inextensible=True)
+branch = backbone_branch(Beam.reference(), omega=2.0, up_to=0.8, theory=Theory(extension=False))
 print(branch)
 
 _, ax = plt.subplots(figsize=(6.0, 4.2))

@@ -46,7 +46,7 @@ class Period:
 
     def __init__(self, harmonics: int, half: bool, count: int) -> None:
         self.spacing = (1.0 if half else 2.0) * np.pi / count
-        self.phase: FloatArray = self.spacing * (np.arange(count) + 0.5)
+        self.phase = np.asarray(self.spacing * (np.arange(count) + 0.5), dtype=np.float64)
         self.waves = waves(self.phase, harmonics)
         self.onto = 2.0 / count * self.waves[0].T
         self.onto[0] *= 0.5

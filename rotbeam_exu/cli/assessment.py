@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import analytic
+
 from ..fem.case import Case
 from ..fem.elements import formulation
 from ..fem.linearization import natural_frequencies
@@ -169,7 +171,7 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
     theory = theory_of(formulation(case.element))
     exact_frequency, why_not = None, ""
     try:
-        orbit = theory.orbits(case.beam, case.omega, [steady.amplitude])
+        orbit = analytic.periodic_orbits(case.beam, case.omega, [steady.amplitude], theory=theory)
         exact_frequency = float(orbit.frequency[0])
     except (RuntimeError, ValueError) as error:
         why_not = str(error)
@@ -187,7 +189,9 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
         theory=theory.name,
         omega_n=omega_n,
         refined_omega_n=refined,
-        exact_omega_n=theory.first_frequency(case.beam, case.omega),
+        exact_omega_n=float(
+            analytic.linear_modes(case.beam, case.omega, 1, theory=theory).frequencies[0]
+        ),
         amplitude=steady.amplitude,
         frequency=steady.frequency,
         exact_frequency=exact_frequency,

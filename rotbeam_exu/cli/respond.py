@@ -183,8 +183,9 @@ def respond(
     def computed() -> analytic.ForcedResponse:
         try:
             return _response(
-                beam, omega, load, frequencies, inextensible=inextensible, functions=functions
-            )
+                beam, omega, load, frequencies,
+                theory=analytic.Theory(extension=not inextensible), functions=functions,
+            )  # fmt: skip
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
                 raise

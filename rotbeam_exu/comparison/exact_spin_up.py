@@ -35,7 +35,8 @@ def exact_spin_up(response: SpinUpResponse) -> xr.Dataset:
         "tip_y": (response.tip[:, 1], "m", "tip position y, inertial frame"),
         "angle": (rotation.angle(response.time), "rad", "rotation angle θ"),
     }
-    sections = {"rotary_inertia": int(response.rotary_inertia), "shear_share": response.shear_share}
+    theory = response.theory
+    sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     return xr.Dataset(
         {
             name: ("time", values, {"units": unit, "long_name": long_name})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from analytic import AnyBlade, SpinUp, SteadyRotation
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
 from ..fem.elements.section import shear_share
@@ -12,7 +13,6 @@ from ..fem.linearization import mesh_frequencies
 from ..fem.simulation import simulate
 from ..lazily import xr
 from .peers import PEERS, Entry, StateOf, installed, peer
-from .theory import BERNOULLI_EULER, Theory
 
 _SECOND = 2.0
 _ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: _SECOND}
@@ -87,7 +87,7 @@ def theory_of(model: Formulation) -> Theory:
     if not isinstance(model, Exact | Ancf3):
         return BERNOULLI_EULER
     share = shear_share(model.poisson_ratio, model.shear_correction)
-    return Theory(rotary_inertia=True, shear_share=share)
+    return Theory(rotary_inertia=True, shear=share)
 
 
 def _declared_order(model: Formulation) -> float | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from analytic import AnyBlade
+from analytic import AnyBlade, Theory
 
 from .backbone import backbone
 from .cases import CASES, Asked, Case
@@ -16,7 +16,6 @@ from .outcomes import Finding, Order, Outcome, worst_of
 from .references import Reference
 from .references import reference as shipped_or_computed
 from .submission import Declaration, Submission
-from .theory import Theory
 
 THRESHOLDS = {
     "linear frequency": 2e-4,

@@ -9,14 +9,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import AnyBlade
+from analytic import AnyBlade, linear_modes, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import CASES, Asked, Case
 from .sampled import sampled_history, spline
 from .shipped import FILE, Shipped, shipped
-from .theory import BERNOULLI_EULER, Theory
 
 COMPUTED_BOUND = 1e-9
 """Relative error of computed frequencies: to it they settle."""
@@ -153,7 +153,9 @@ def _computed(theory: Theory) -> str:
 def _first_frequency(theory: Theory, blade: AnyBlade, speed: float) -> float:
     data = _shipped_of(theory)
     here = None if data is None else data.first_frequency(blade, speed)
-    return theory.first_frequency(blade, speed) if here is None else here
+    return (
+        float(linear_modes(blade, speed, 1, theory=theory).frequencies[0]) if here is None else here
+    )
 
 
 @lru_cache(maxsize=256)
@@ -167,6 +169,6 @@ def _frequencies_at(
     missing = sorted(set(amplitudes) - set(found))
     if missing:
         # One backbone, for orbits are found from their neighbors.
-        frequencies = theory.orbits(blade, speed, missing).frequency.tolist()
+        frequencies = periodic_orbits(blade, speed, missing, theory=theory).frequency.tolist()
         found |= dict(zip(missing, frequencies, strict=True))
     return tuple(found[a] for a in amplitudes)

@@ -15,10 +15,11 @@ from pathlib import Path
 import numpy as np
 from rich.progress import track
 
-from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, linear_modes, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER
 
 from ..lazily import xr
 from . import shipped
@@ -33,7 +34,6 @@ from .shipped import (
     shipped_backbones,
     shipped_histories,
 )
-from .theory import BERNOULLI_EULER
 
 SPACING = 5e-3
 """Of the shipped samples [s]."""
@@ -52,7 +52,7 @@ def dataset(commit: str) -> xr.Dataset:
     places = shipped_backbones()
     curves = {name: backbone(*places[name]) for name in track(list(places), "backbones")}
     linear = CASES["L"]
-    frequencies = [BERNOULLI_EULER.first_frequency(linear.blade, w) for w in linear.speeds]
+    frequencies = [float(linear_modes(linear.blade, w, 1).frequencies[0]) for w in linear.speeds]
     errors = [error for *_, error in curves.values()]
     first = next(iter(found.values()))
     described = {

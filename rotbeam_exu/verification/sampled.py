@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic import SpinUp
+from analytic import SpinUp, Theory, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from .cases import Case
-from .theory import Theory
 
 _BEYOND = 20  # samples beyond the end, for a last step that is longer
 
@@ -68,10 +67,12 @@ def sampled_history(
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if isinstance(case.motion, SpinUp):
-        found = theory.history(case.blade, case.motion, time, tolerance=tolerance, loads=case.loads)
+        found = spin_up_response(
+            case.blade, case.motion, time, tolerance=tolerance, loads=case.loads, theory=theory
+        )
         q, error = found.q, found.error
     else:
-        orbit = theory.orbits(case.blade, case.motion.omega, case.amplitudes)
+        orbit = periodic_orbits(case.blade, case.motion.omega, case.amplitudes, theory=theory)
         q, error = case.blade.length * orbit.response(time, 0), float(orbit.residual.max())
     between = spline(time[::2], q[::2])(time[1::2]) - q[1::2]
     error += float(np.abs(between).max() / np.abs(q).max())

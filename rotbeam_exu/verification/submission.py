@@ -6,8 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 from analytic.arrays import FloatArray
-
-from .theory import BERNOULLI_EULER, Theory
+from analytic.theory import BERNOULLI_EULER, Theory
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,6 +5,7 @@ import pytest
 
 from analytic import (
     AmplitudeNotReachedError,
+    Theory,
     backbone_curve,
     periodic_orbits,
     reduced_model,
@@ -13,6 +14,7 @@ from analytic.exact.free.branch import branch_of
 from analytic.exact.free.curve import care_for, fitted_curve
 from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
+from analytic.theory import BERNOULLI_EULER
 
 SPEEDS = (0.0, 4.0, 6.0, 8.0)
 ALL = "ignore:internal resonance:analytic.input_checks.RotbeamWarning"
@@ -40,7 +42,7 @@ def test_orbits_it_was_not_made_from_lie_on_it(beam, curves, omega):
 
 @pytest.mark.parametrize("omega", SPEEDS)
 def test_its_slope_at_rest_is_the_perturbation_theory(beam, omega):
-    curve = backbone_curve(beam, omega, up_to=0.4, inextensible=True)
+    curve = backbone_curve(beam, omega, up_to=0.4, theory=Theory(extension=False))
     model = reduced_model(beam, omega, "FrM5")
     # Derivatives at the end of a series lose the square and the fourth power of its length.
     assert curve.lambda_omega == pytest.approx(model.lambda_omega, abs=2e-8)
@@ -127,6 +129,6 @@ def test_amplitudes_beyond_it_are_refused(curves):
 
 
 def test_so_few_coefficients_that_no_range_is_left(beam):
-    branch = branch_of(beam, 8.0, 1, resolved_model(beam, 1, False, False, 16), care_for(1e-9))
+    branch = branch_of(beam, 8.0, 1, resolved_model(beam, 1, BERNOULLI_EULER, 16), care_for(1e-9))
     with pytest.raises(AmplitudeNotReachedError, match="ask for more of them"):
         fitted_curve(branch, 0.6, 5, 1e-14)

@@ -12,6 +12,7 @@ from analytic import (
     PointMass,
     Section,
     SpinUp,
+    Theory,
     campbell,
     linear_modes,
     periodic_orbits,
@@ -29,7 +30,9 @@ FLAP = 0.5 * math.pi
 
 
 def lag(blade, *speeds):
-    return [linear_modes(blade, w, 1, inextensible=True).frequencies[0] for w in speeds]
+    return [
+        linear_modes(blade, w, 1, theory=Theory(extension=False)).frequencies[0] for w in speeds
+    ]
 
 
 # Converged to the digits printed by another code, which shares nothing with this one.
@@ -49,7 +52,9 @@ def test_lag_frequencies_to_all_printed_digits(blade, speeds, frequencies):
 
 
 def test_published_frequencies_of_a_tip_mass_at_rest():
-    found = linear_modes(UNIT.with_tip_mass(1.0), 0.0, 5, inextensible=True).frequencies
+    found = linear_modes(
+        UNIT.with_tip_mass(1.0), 0.0, 5, theory=Theory(extension=False)
+    ).frequencies
     published = [1.557298, 16.25009, 50.89584, 105.1983, 179.2320]
     assert found == pytest.approx(published, rel=5e-7)
 
@@ -69,7 +74,9 @@ def test_flap_squared_is_lag_squared_and_the_speed_squared(blade):
     """What the rotation adds to the frequency of flap and lag differs by w̄² only."""
     w = 6.0
     in_plane, out = (
-        linear_modes(blade.with_setting_angle(psi), w, 3, inextensible=True).frequencies
+        linear_modes(
+            blade.with_setting_angle(psi), w, 3, theory=Theory(extension=False)
+        ).frequencies
         for psi in (0.0, FLAP)
     )
     # The digits that `linear_modes` settles, of the largest square.
@@ -80,7 +87,8 @@ def test_a_turning_inertia_is_not_softened_by_the_rotation():
     """So that flap² - lag² is below w̄², by the share of the inertia in the mode's mass."""
     blade, w = UNIT.with_tip_mass(0.5, 0.1), 0.1
     in_plane, out = (
-        linear_modes(blade.with_setting_angle(psi), w, 1, inextensible=True) for psi in (0.0, FLAP)
+        linear_modes(blade.with_setting_angle(psi), w, 1, theory=Theory(extension=False))
+        for psi in (0.0, FLAP)
     )
     x, weights = gauss_points(20)
     moving = weights @ in_plane.shapes(x)[:, 0] ** 2 + 0.5
@@ -95,7 +103,7 @@ def test_a_turning_inertia_is_not_softened_by_the_rotation():
 @pytest.mark.parametrize("psi", [0.0, 0.7, FLAP])
 def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
     unit = HUB_AND_ALL.with_setting_angle(psi).unit
-    model = Continuum(1e-3, 6, 4, blade=unit, shear_share=shear_share)
+    model = Continuum(1e-3, 6, 4, blade=unit, shear=shear_share)
     rng = np.random.default_rng(0)
     state = [0.3 * rng.standard_normal((2, model.size)) for _ in range(3)]
     rate, rate_dot = np.array([1.3, 0.7]), np.array([0.4, -0.2])
@@ -119,7 +127,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
 def test_a_free_motion_conserves_the_jacobi_integral(psi, shear_share):
     """The residual is that of the energies: its power, 0 then, is the rate of the integral."""
     blade = HUB_AND_ALL.with_setting_angle(psi).unit
-    model = Continuum(1e-2, 5, 3, blade=blade, shear_share=shear_share)
+    model = Continuum(1e-2, 5, 3, blade=blade, shear=shear_share)
     rng = np.random.default_rng(1)
     q, q_dot, q_ddot = (0.2 * rng.standard_normal((1, model.size)) for _ in range(3))
     w, h = 1.7, 1e-5
@@ -137,7 +145,9 @@ def test_a_free_motion_conserves_the_jacobi_integral(psi, shear_share):
     [(2.0, 7.7624, 3), (5.0, 4.0914, 3), (1.0, 4.6543, 4), (0.5, 7.7636, 4), (0.5, 3.5392, 5)],
 )
 def test_where_the_second_mode_meets_a_harmonic_of_the_first(hub, w, ratio):
-    first, second = linear_modes(UNIT.with_hub_radius(hub), w, 2, inextensible=True).frequencies
+    first, second = linear_modes(
+        UNIT.with_hub_radius(hub), w, 2, theory=Theory(extension=False)
+    ).frequencies
     assert second / first == pytest.approx(ratio, abs=2e-5)
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Blade, Section, linear_modes, reduced_model
+from analytic import Blade, Section, reduced_model
 from analytic.input_checks import RotbeamWarning
 
 UNIT = Blade(
@@ -28,10 +28,6 @@ HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2,
         (lambda: UNIT.with_taper(1.0), "axial_stiffness vanishes at x = 1 m"),
         (lambda: UNIT.with_taper(height=1.5), "vanishes at x = 0\\.6"),
         (lambda: reduced_model(HUB_AND_ALL, 1.0, "FrE"), "a hub and point masses and a variable"),
-        (
-            lambda: linear_modes(HUB_AND_ALL, 1.0, rotary_inertia=True),
-            "give Section\\(rotary_inertia",
-        ),
     ],
 )  # fmt: skip
 def test_bad_blades_are_refused(make, sentence):

@@ -5,7 +5,7 @@ import warnings
 
 import pytest
 
-from analytic import Blade, Section, periodic_orbits, reduced_model
+from analytic import Blade, Section, Theory, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 
 UNIT = Blade(
@@ -47,7 +47,7 @@ def test_softening_of_every_blade_to_all_printed_digits(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # of resonances, at larger amplitudes
         frm, frc = (reduced_model(blade, w, name) for name in ("FrM", "FrC"))
-        orbits = periodic_orbits(blade, w, [0.1, 0.2, 0.3, 0.4], inextensible=True)
+        orbits = periodic_orbits(blade, w, [0.1, 0.2, 0.3, 0.4], theory=Theory(extension=False))
     assert frm.omega_n == pytest.approx(omega_n, rel=1e-7 / 2.0)
     assert frm.lambda_omega == pytest.approx(coefficient, abs=1e-8)
     assert frc.lambda_omega == pytest.approx(alone, abs=1e-6)
@@ -69,7 +69,7 @@ def test_softening_half_way_between_lag_and_flap():
     found = reduced_model(blade, 4.0, "FrM")
     assert found.omega_n == pytest.approx(4.8158323, rel=1e-8)
     assert found.lambda_omega == pytest.approx(0.0964149, abs=5e-8)
-    exact = periodic_orbits(blade, 4.0, [0.05], inextensible=True)
+    exact = periodic_orbits(blade, 4.0, [0.05], theory=Theory(extension=False))
     assert exact.lambda_omega == pytest.approx(0.0964149, abs=1e-6)
 
 
@@ -80,7 +80,7 @@ def test_a_hub_makes_the_extension_count():
     section = Section(axial_stiffness=1.0 / mu, bending_stiffness=1.0, mass_per_length=1.0)
     blade = Blade(length=1.0, section=section, hub_radius=5.0)
     stretched, not_stretched = (
-        periodic_orbits(blade, 10.0, [0.05], inextensible=rigid).lambda_omega
+        periodic_orbits(blade, 10.0, [0.05], theory=Theory(extension=not rigid)).lambda_omega
         for rigid in (False, True)
     )
     assert stretched - not_stretched == pytest.approx(3.1e-4, abs=0.05e-4)  # to its two digits
@@ -116,6 +116,6 @@ def test_frm_knows_the_inertia_of_the_sections(w):
                       rotary_inertia=0.01)  # fmt: skip
     blade = Blade(length=1.0, section=section, hub_radius=0.5).with_taper(0.1, 0.3)
     model = reduced_model(blade, w, "FrM")
-    exact = periodic_orbits(blade, w, [0.05], inextensible=True)
+    exact = periodic_orbits(blade, w, [0.05], theory=Theory(extension=False))
     assert model.omega_n == pytest.approx(exact.omega_n, rel=1e-12)
     assert model.lambda_omega == pytest.approx(exact.lambda_omega, abs=1e-6)

@@ -5,11 +5,12 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import Beam, Damping, backbone_branch, periodic_orbits
+from analytic import Beam, Damping, Theory, backbone_branch, periodic_orbits
 from analytic.exact.free.branch import branch_of
 from analytic.exact.free.internal_resonance import frequency_ratios
 from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
+from analytic.theory import BERNOULLI_EULER
 
 
 def orbits(beam, omega, amplitudes, **options):
@@ -29,12 +30,12 @@ def inextensible(request):
 @pytest.fixture(scope="module")
 def around_a_tongue(beam, inextensible):
     """Below, beyond and within the tongue of 6:1, at 2 rad/s."""
-    return orbits(beam, 2.0, [0.63, 0.7, 0.64], inextensible=inextensible)
+    return orbits(beam, 2.0, [0.63, 0.7, 0.64], theory=Theory(extension=not inextensible))
 
 
 def test_the_answer_does_not_depend_on_the_list(beam, inextensible, around_a_tongue):
     found = [
-        orbits(beam, 2.0, asked, inextensible=inextensible).frequency[-1]
+        orbits(beam, 2.0, asked, theory=Theory(extension=not inextensible)).frequency[-1]
         for asked in ([0.6, 0.7], [0.7])
     ]
     assert found == pytest.approx([around_a_tongue.frequency[1]] * 2, rel=1e-12)
@@ -50,7 +51,7 @@ def test_across_a_resonance_its_harmonic_turns_around(around_a_tongue):
 
 
 def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
-    branch = branch_of(beam, 2.0, 1, resolved_model(beam, 1, False, False, 16))
+    branch = branch_of(beam, 2.0, 1, resolved_model(beam, 1, BERNOULLI_EULER, 16))
     small = [branch.path.at(a) for a in (0.05, 0.1, 0.15)]
     modes, ratios = frequency_ratios(small, branch.modes, 1)
     assert modes == [2, 3, 4, 5]
@@ -64,7 +65,9 @@ def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
 @pytest.fixture(scope="module")
 def branch():
     # The fold of twelve functions is this one to 1e-10.
-    return backbone_branch(Beam.reference(), 2.0, up_to=0.68, inextensible=True, functions=8)
+    return backbone_branch(
+        Beam.reference(), 2.0, up_to=0.68, theory=Theory(extension=False), functions=8
+    )
 
 
 def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):

@@ -6,6 +6,7 @@ from scipy.linalg import eigh
 
 from analytic import (
     Beam,
+    Theory,
     Variant,
     linear_modes,
     periodic_orbits,
@@ -105,7 +106,7 @@ def test_frm_goes_far_beyond_the_power_series(w_bar):
         length=1.0, axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0
     )
     model = reduced_model(beam, w_bar, "FrM")
-    orbits = periodic_orbits(beam, w_bar, [0.05], inextensible=True)
+    orbits = periodic_orbits(beam, w_bar, [0.05], theory=Theory(extension=False))
     assert model.omega_n == pytest.approx(orbits.omega_n, rel=1e-10)
     # What a shift of 4e-5 leaves of an orbit's frequency, settled to 1e-12 or so.
     assert model.lambda_omega == pytest.approx(orbits.lambda_omega, abs=1e-8)
@@ -119,7 +120,9 @@ def test_many_point_masses_do_not_let_functions_confirm_themselves(beam, w_bar):
     for k in range(1, 13):
         blade = blade.with_point_mass(0.02 * beam.mass, k * beam.length / 12.0)
     omega = w_bar * beam.frequency_scale
-    exact = linear_modes(blade, omega, 1, inextensible=True, functions=100).frequencies[0]
+    exact = linear_modes(
+        blade, omega, 1, theory=Theory(extension=False), functions=100
+    ).frequencies[0]
     # 36 functions, three on each panel, are 4e-4 and 12 % off.
     assert reduced_model(blade, omega, "FrM").omega_n == pytest.approx(exact, rel=1e-9)
 

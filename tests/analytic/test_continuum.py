@@ -1,5 +1,7 @@
 """The equations of motion of the exact beam against the energies in displacements."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.polynomial import Legendre
@@ -7,12 +9,13 @@ from numpy.polynomial import Legendre
 from analytic import periodic_orbits
 from analytic.exact.beam.discretization import continuum
 from analytic.quadrature import axial_basis, gauss_points
+from analytic.unit_blade import UNIFORM
 
 
 @pytest.mark.parametrize("shear_share", [None, 0.3])
 @pytest.mark.parametrize("derivative", ["stiffness", "damping", "mass"])
 def test_tangent_is_the_derivative_of_the_residual(derivative, shear_share):
-    model = continuum(1e-2, 6, 5, 1e-2, shear_share=shear_share)
+    model = continuum(1e-2, 6, 5, replace(UNIFORM, rotary=1e-2), shear_share)
     rng = np.random.default_rng(1)
     state = [0.4 * rng.normal(size=(3, model.size)) for _ in range(3)]
     which = ["stiffness", "damping", "mass"].index(derivative)

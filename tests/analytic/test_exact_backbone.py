@@ -11,6 +11,7 @@ from analytic import (
     Beam,
     Blade,
     Section,
+    Theory,
     linear_modes,
     periodic_orbits,
 )
@@ -21,6 +22,7 @@ from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
+from analytic.theory import BERNOULLI_EULER
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -131,7 +133,7 @@ def test_near_a_resonance_no_orbit_depends_on_the_functions():
     for functions in (20, 24):
         try:
             orbits = periodic_orbits(
-                blade, 8.0, [0.35, 0.4], inextensible=True, functions=functions
+                blade, 8.0, [0.35, 0.4], theory=Theory(extension=False), functions=functions
             )
         except AmplitudeNotReachedError as beyond:
             orbits = beyond.backbone
@@ -159,7 +161,7 @@ def test_lambda_omega_is_that_of_perturbation_theory(beam, omega):
     theory = perturbed_lambda(omega / beam.frequency_scale)
     assert exact.lambda_omega == pytest.approx(theory, abs=2e-5)
     # Without extension nothing is left but the extrapolation to a = 0.
-    inextensible = periodic_orbits(beam, omega, [0.05], inextensible=True)
+    inextensible = periodic_orbits(beam, omega, [0.05], theory=Theory(extension=False))
     assert inextensible.lambda_omega == pytest.approx(theory, abs=2e-8)
 
 
@@ -176,9 +178,9 @@ def test_the_difference_from_perturbation_theory_is_extensibility(beam, fitted_o
 
 
 def test_lambda_omega_at_rest(beam):
-    first = periodic_orbits(beam, 0.0, [0.05], inextensible=True)
+    first = periodic_orbits(beam, 0.0, [0.05], theory=Theory(extension=False))
     assert first.lambda_omega == pytest.approx(-0.0193835, abs=1e-7)
-    second = periodic_orbits(beam, 0.0, [0.02], mode=2, inextensible=True)
+    second = periodic_orbits(beam, 0.0, [0.02], mode=2, theory=Theory(extension=False))
     assert second.lambda_omega == pytest.approx(6.45441, abs=1e-5)
 
 
@@ -287,7 +289,7 @@ def test_amplitudes_in_any_order(beam):
 def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=30))
     with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
-        periodic_orbits(beam, 4.0, [0.2], mode=3, inextensible=True)
+        periodic_orbits(beam, 4.0, [0.2], mode=3, theory=Theory(extension=False))
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
@@ -323,7 +325,7 @@ def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch)
     monkeypatch.setattr(
         harmonic_balance, "jacobian", lambda orbit: factored.append(orbit) or at(orbit)
     )
-    model = resolved_model(beam, 1, False, False, 16)
+    model = resolved_model(beam, 1, BERNOULLI_EULER, 16)
     path = branch_of(beam, 6.0, 1, model).path
     near, far = path.laid(0.2), path.laid(0.25)
     tangent = LastTangent()
@@ -337,7 +339,7 @@ def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch)
 
 
 def test_a_tangent_that_leads_astray_is_made_anew(beam):
-    model = resolved_model(beam, 1, False, False, 16)
+    model = resolved_model(beam, 1, BERNOULLI_EULER, 16)
     orbit = branch_of(beam, 6.0, 1, model).path.laid(0.2)
     tangent = LastTangent()
     tangent.factor(orbit)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from analytic import Beam, linear_modes
+from analytic import Beam, Theory, linear_modes
 from analytic.exact.beam.discretization import continuum
 from analytic.exact.beam.steady import SteadyBeam
 from analytic.exact.linear.modes import solve_modes
@@ -23,7 +23,7 @@ EXTENSIBLE = {2.0: 3.03488474, 4.0: 3.34561553, 6.0: 3.73040139, 8.0: 4.12389509
 
 @pytest.mark.parametrize("rate", INEXTENSIBLE)
 def test_inextensible_modes_are_the_published_ones(beam, rate):
-    modes = linear_modes(beam, rate * beam.frequency_scale, inextensible=True)
+    modes = linear_modes(beam, rate * beam.frequency_scale, theory=Theory(extension=False))
     # The numbers carry ten digits, the last ones rounded.
     assert modes.frequencies / beam.frequency_scale == pytest.approx(INEXTENSIBLE[rate], abs=1e-8)
 
@@ -38,7 +38,7 @@ def test_inextensible_modes_agree_with_the_equation_in_the_deflection(beam, rate
     stiffness += phi.slope.T @ (tension[:, None] * phi.slope)
     # The inverse problem gives the lowest frequencies most exactly.
     inverse = linalg.eigh(mass, stiffness, eigvals_only=True)[::-1]
-    modes = linear_modes(beam, rate * beam.frequency_scale, 3, inextensible=True)
+    modes = linear_modes(beam, rate * beam.frequency_scale, 3, theory=Theory(extension=False))
     assert modes.frequencies / beam.frequency_scale == pytest.approx(
         1.0 / np.sqrt(inverse[:3]), rel=1e-9
     )
@@ -108,7 +108,7 @@ def test_rotary_inertia_lowers_frequencies_by_the_rayleigh_quotient(beam):
         length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
     )
     plain = linear_modes(thick, 0.0, 1)
-    heavy = linear_modes(thick, 0.0, 1, rotary_inertia=True)
+    heavy = linear_modes(thick, 0.0, 1, theory=Theory(rotary_inertia=True))
     x, weights = gauss_points(20)
     h = 1e-5
     shape = plain.shapes(x)[:, 0]

@@ -4,7 +4,7 @@ import warnings
 
 import pytest
 
-from analytic import VARIANTS, Beam, periodic_orbits, reduced_model
+from analytic import VARIANTS, Beam, Theory, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.speeds import softening_speed
 
@@ -33,7 +33,9 @@ def test_a_stocky_beam_is_named_with_the_two_numbers():
 def test_the_extension_adds_four_to_five_times_the_slenderness(w_bar):
     mu = 1e-4
     exact, stiff = (
-        periodic_orbits(unit_beam(mu), w_bar, [0.05], functions=20, inextensible=without)
+        periodic_orbits(
+            unit_beam(mu), w_bar, [0.05], functions=20, theory=Theory(extension=not without)
+        )
         for without in (False, True)
     )
     assert 3.8 < (exact.lambda_omega - stiff.lambda_omega) / mu < 5.4

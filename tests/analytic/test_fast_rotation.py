@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from analytic import Beam, campbell, linear_modes, periodic_orbits
+from analytic import Beam, Theory, campbell, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 from analytic.quadrature import gauss_points, transverse_basis
 
@@ -34,7 +34,7 @@ def deflection_frequencies(rate, count=160):
 
 @pytest.mark.parametrize("rate", [150.0, 1000.0, 1500.0])
 def test_inextensible_modes_have_settled(rate):
-    found = linear_modes(unit_beam(1e-10), rate, inextensible=True).frequencies
+    found = linear_modes(unit_beam(1e-10), rate, theory=Theory(extension=False)).frequencies
     # Twenty functions are 2.7e-4, 34 % and 58 % off in the first.
     assert found == pytest.approx(deflection_frequencies(rate), rel=1e-8)
 
@@ -46,13 +46,13 @@ def test_extensible_modes_have_settled(rate):
     finer = linear_modes(beam, rate, functions=2 * found.model.bending)
     assert found.frequencies == pytest.approx(finer.frequencies, rel=1e-9)
     # Softer than without extension by about μw̄² of the frequency.
-    stiff = linear_modes(beam, rate, inextensible=True).frequencies[0]
+    stiff = linear_modes(beam, rate, theory=Theory(extension=False)).frequencies[0]
     assert 1.0 - found.frequencies[0] / stiff == pytest.approx(1e-10 * rate**2, rel=0.05)
 
 
 @pytest.mark.parametrize("count", [10, 20])
 def test_high_modes_at_rest_have_settled(beam, count):
-    found = linear_modes(beam, 0.0, count, inextensible=True, functions=2 * count)
+    found = linear_modes(beam, 0.0, count, theory=Theory(extension=False), functions=2 * count)
     # cos β cosh β = -1 has β = (k - ½)π to round-off.
     beta = (count - 0.5) * np.pi
     assert found.frequencies[-1] / beam.frequency_scale == pytest.approx(beta**2, rel=1e-9)
@@ -79,7 +79,7 @@ def test_a_crossing_is_found_in_any_unit_of_time():
 
 def test_beyond_the_most_functions_it_says_how_far_it_holds():
     with pytest.raises(ValueError, match=r"w_bar = .* = 1e\+05, have not settled .* rotate slower"):
-        linear_modes(unit_beam(1e-12), 1e5, 1, inextensible=True, functions=200)
+        linear_modes(unit_beam(1e-12), 1e5, 1, theory=Theory(extension=False), functions=200)
 
 
 def test_too_many_functions_are_refused_at_once(beam):

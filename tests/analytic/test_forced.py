@@ -14,6 +14,7 @@ from analytic import (
     Gravity,
     ResponseNotReachedError,
     SpeedRipple,
+    Theory,
     TipForce,
     forced_response,
     gravity_response,
@@ -39,7 +40,7 @@ def loaded():
     omega_n = 3.66791071 * SCALE
     return forced_response(
         by_mass(0.004), 2.0, DistributedForce(amplitude=0.0045 * FORCE),
-        omega_n * np.array([0.985, 1.0015, 1.015]), inextensible=True,
+        omega_n * np.array([0.985, 1.0015, 1.015]), theory=Theory(extension=False),
     )  # fmt: skip
 
 
@@ -49,7 +50,7 @@ def rippled():
     omega_n = 4.50886824 * SCALE
     return forced_response(
         by_mass(0.008), 6.0, SpeedRipple(amplitude=0.003 * SCALE),
-        omega_n * np.array([0.985, 0.997, 1.015]), inextensible=True,
+        omega_n * np.array([0.985, 0.997, 1.015]), theory=Theory(extension=False),
     )  # fmt: skip
 
 
@@ -142,7 +143,7 @@ def test_a_period_later_an_integrator_that_knows_no_fourier_series_is_back(integ
     nu = 0.997 * 4.50886824 * SCALE
     response = forced_response(
         by_mass(0.008), 6.0, SpeedRipple(amplitude=0.003 * SCALE), [0.99 * nu, nu, 1.004 * nu],
-        inextensible=True, functions=6, harmonics=15,
+        theory=Theory(extension=False), functions=6, harmonics=15,
     )  # fmt: skip
     for i in response.at(nu)[:2]:
         start, ended = integrated(response._orbits[i])
@@ -156,21 +157,21 @@ def test_a_period_later_an_integrator_that_knows_no_fourier_series_is_back(integ
 def test_the_beam_under_its_weight(w, amplitude):
     gravity = 1.791 * FORCE / BEAM.mass_per_length
     speeds = SCALE * np.unique([0.9 * w, w, 1.05 * w])
-    found = gravity_response(by_mass(1.5), speeds, gravity, inextensible=True)
+    found = gravity_response(by_mass(1.5), speeds, gravity, theory=Theory(extension=False))
     assert found.amplitude[found.at(w * SCALE)] == pytest.approx([amplitude], abs=1e-6)
     assert found.omega == pytest.approx(found.frequency)
 
 
 def test_a_small_load_gives_the_linear_response():
     """One mode's receptance: at resonance F/(c ω_n M) in size and a quarter turn behind."""
-    modes = linear_modes(BEAM, 6.0, inextensible=True)
+    modes = linear_modes(BEAM, 6.0, theory=Theory(extension=False))
     omega_n = float(modes.frequencies[0])
     x = np.linspace(0.0, BEAM.length, 401)
     mass = BEAM.mass_per_length * np.trapezoid(modes.shapes(x)[:, 0] ** 2, x)
     force, c = 1e-4, 0.02
     found = forced_response(
         by_mass(c), 6.0, TipForce(amplitude=force), omega_n * np.array([0.8, 1.0, 1.2]),
-        inextensible=True,
+        theory=Theory(extension=False),
     )  # fmt: skip
     (i,) = found.at(omega_n)
     wanted = force / (c * SCALE * omega_n * mass) / BEAM.length
@@ -182,15 +183,17 @@ def test_a_small_load_gives_the_linear_response():
 
 
 def test_as_damping_and_load_vanish_the_peak_runs_onto_the_backbone():
-    omega_n = linear_modes(BEAM, 6.0, inextensible=True).frequencies[0]
+    omega_n = linear_modes(BEAM, 6.0, theory=Theory(extension=False)).frequencies[0]
     distances = []
     for share in (1.0, 0.5, 0.25):
         response = forced_response(
             by_mass(0.008 * share), 6.0, SpeedRipple(amplitude=0.003 * share * SCALE),
-            omega_n * np.array([0.99, 1.005]), inextensible=True,
+            omega_n * np.array([0.99, 1.005]), theory=Theory(extension=False),
         )  # fmt: skip
         (peak,) = response.peaks
-        free = periodic_orbits(BEAM, 6.0, [peak.amplitude], inextensible=True).frequency[0]
+        free = periodic_orbits(
+            BEAM, 6.0, [peak.amplitude], theory=Theory(extension=False)
+        ).frequency[0]
         distances.append(abs(peak.frequency / free - 1.0))
     # At least of first order in the damping, and far within the resonance's width.
     assert distances[0] < 1e-3 * 0.008 / 4.5
@@ -204,7 +207,7 @@ def test_leading_order_is_a_few_percent_high(loaded, rippled):
     x, weights = 0.5 * (x + 1.0), 0.5 * weights
     ratios = []
     for response, omega, c in ((loaded, 2.0, 0.004), (rippled, 6.0, 0.008)):
-        modes = linear_modes(BEAM, omega, inextensible=True)
+        modes = linear_modes(BEAM, omega, theory=Theory(extension=False))
         w_n, phi = modes.frequencies[0] / SCALE, modes.shapes(x * BEAM.length)[:, 0]
         drive = 0.0045 * phi if response is loaded else 0.003 * w_n * x * phi
         peak = (weights @ drive) / (weights @ phi**2) / (c * w_n)
@@ -268,6 +271,8 @@ def test_a_load_without_resonance_needs_no_damping():
 def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
     with warnings.catch_warnings(), pytest.raises(ResponseNotReachedError) as caught:
         warnings.simplefilter("error")
-        forced_response(by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0], inextensible=True)
+        forced_response(
+            by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0], theory=Theory(extension=False)
+        )
     assert caught.value.response is None or caught.value.response.amplitude.max() > 0.5
     assert "take more damping" in str(caught.value)

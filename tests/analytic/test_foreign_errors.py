@@ -16,6 +16,7 @@ from analytic import (
     RotbeamWarning,
     Section,
     SpinUp,
+    Theory,
     TipForce,
     Variant,
     backbone_branch,
@@ -47,7 +48,6 @@ OTHERS = {
     "omega": 6.0, "spin_up": SLOW, "motion": SLOW, "times": [1.0], "amplitudes": [0.1],
     "load": PUSH, "frequencies": [3.6, 3.7], "duration": 2.0, "omegas": [2.0, 4.0],
     "amplitude": 0.1, "ramp_times": [3.0], "ratios": [2.0, 3.0], "substructures": 2,
-    "shear_share": 0.3,
 }  # fmt: skip
 OF_A_BEAM = [
     (package, name)
@@ -76,18 +76,8 @@ def test_there_are_as_many_as_there_are():
 
 
 FLAGS = {
-    "linear_modes": lambda f: linear_modes(BEAM, 6.0, inextensible=f),
-    "its inertia": lambda f: linear_modes(BEAM, 6.0, rotary_inertia=f),
-    "inertia in flap": lambda f: linear_modes(STRIP, 6.0, plane="flap", rotary_inertia=f),
-    "periodic_orbits": lambda f: periodic_orbits(BEAM, 6.0, [0.1], inextensible=f),
-    "their inertia": lambda f: periodic_orbits(BEAM, 6.0, [0.1], rotary_inertia=f),
-    "backbone_curve": lambda f: backbone_curve(BEAM, 6.0, inextensible=f),
-    "backbone_branch": lambda f: backbone_branch(BEAM, 6.0, inextensible=f),
-    "forced_response": lambda f: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], inextensible=f),
-    "gravity_response": lambda f: gravity_response(DAMPED, [3.6, 3.7], inextensible=f),
-    "planar_stability": lambda f: planar_stability(STRIP, 6.0, 0.1, inextensible=f),
-    "stability_limit": lambda f: stability_limit(STRIP, 6.0, inextensible=f),
-    "spin_up_response": lambda f: spin_up_response(BEAM, SLOW, [1.0], rotary_inertia=f),
+    "extension": lambda f: Theory(extension=f),
+    "rotary inertia": lambda f: Theory(rotary_inertia=f),
     "linear_response": lambda f: linear_response(BEAM, SLOW, [1.0], foreshortening=f),
     "residual_amplitude": lambda f: residual_amplitude(BEAM, SLOW, corrected=f),
     "Variant": lambda f: Variant(name="mine", shape="rotating", axial="consistent", coriolis=f),
@@ -104,8 +94,28 @@ def test_a_flag_is_true_or_false(name, wrong):
 
 
 def test_numpys_flags_are_flags():
-    given = linear_modes(BEAM, 6.0, inextensible=np.True_).frequencies
-    assert np.array_equal(given, linear_modes(BEAM, 6.0, inextensible=True).frequencies)
+    assert Theory(extension=np.False_) == Theory(extension=False)
+
+
+THEORIES = {
+    "linear_modes": lambda one: linear_modes(BEAM, 6.0, theory=one),
+    "flap": lambda one: linear_modes(STRIP, 6.0, plane="flap", theory=one),
+    "periodic_orbits": lambda one: periodic_orbits(BEAM, 6.0, [0.1], theory=one),
+    "backbone_curve": lambda one: backbone_curve(BEAM, 6.0, theory=one),
+    "backbone_branch": lambda one: backbone_branch(BEAM, 6.0, theory=one),
+    "forced_response": lambda one: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], theory=one),
+    "gravity_response": lambda one: gravity_response(DAMPED, [3.6, 3.7], theory=one),
+    "planar_stability": lambda one: planar_stability(STRIP, 6.0, 0.1, theory=one),
+    "stability_limit": lambda one: stability_limit(STRIP, 6.0, theory=one),
+    "spin_up_response": lambda one: spin_up_response(BEAM, SLOW, [1.0], theory=one),
+}
+
+
+@pytest.mark.parametrize("name", THEORIES)
+@pytest.mark.parametrize("wrong", [None, "Timoshenko", 0.3, Theory])
+def test_a_theory_is_a_theory(name, wrong):
+    with pytest.raises(TypeError, match=r"theory must be a Theory, got .* as Theory\(ext"):
+        THEORIES[name](wrong)
 
 
 @pytest.mark.parametrize(

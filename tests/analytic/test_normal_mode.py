@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Variant, periodic_orbits, reduced_model
+from analytic import Theory, Variant, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.methods.power_series import product, turn
 from analytic.reduced.any_blade import blade_oscillator
@@ -56,7 +56,7 @@ def test_the_error_of_the_shift_falls_with_the_next_power(beam, setting):
     blade = beam.with_hub_radius(0.1 * beam.length).with_setting_angle(setting)
     a = np.array([0.1, 0.2])
     model = reduced_model(blade, 4.0, "FrM5")
-    exact = periodic_orbits(blade, 4.0, a, inextensible=True)
+    exact = periodic_orbits(blade, 4.0, a, theory=Theory(extension=False))
     peak, first = exact.amplitude, exact.first_harmonic
     for kappa, at in ((model.kappa_of_peak, peak), (model.kappa, first)):
         error = 1.0 - model.lambda_omega * at**2 - kappa * at**4 - exact.frequency / exact.omega_n
@@ -70,7 +70,7 @@ def test_the_error_of_the_shift_falls_with_the_next_power(beam, setting):
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 @pytest.mark.parametrize("omega", [2.0, 4.0, 6.0, 8.0])
 def test_the_error_of_the_shift_where_it_is_used(beam, omega):
-    exact = periodic_orbits(beam, omega, [0.4, 0.6], inextensible=True)
+    exact = periodic_orbits(beam, omega, [0.4, 0.6], theory=Theory(extension=False))
     shift = 1.0 - exact.frequency / exact.omega_n
     model = reduced_model(beam, omega, "FrM5")
     of_peak = model.lambda_omega * exact.amplitude**2 + model.kappa_of_peak * exact.amplitude**4
@@ -92,7 +92,7 @@ def test_the_tip_has_the_other_modes_harmonics(beam, omega, h3):
         model = reduced_model(beam, omega, name)
         # Of the exact beam as a → 0, by another code, to the digits that it gives.
         assert model.lambda_x == pytest.approx(h3, abs=6e-5)
-    exact = periodic_orbits(beam, omega, [0.05, 0.1], inextensible=True)
+    exact = periodic_orbits(beam, omega, [0.05, 0.1], theory=Theory(extension=False))
     # To a → 0 by extrapolation in a²; a⁴ is left.
     second, third = (
         np.array([4.0 / 3.0, -1.0 / 3.0])
@@ -105,7 +105,7 @@ def test_the_tip_has_the_other_modes_harmonics(beam, omega, h3):
 
 def test_the_response_is_the_exact_tip_to_fourth_order(beam):
     model, a = reduced_model(beam, 6.0, "FrM5"), np.array([0.1, 0.2])
-    exact = periodic_orbits(beam, 6.0, a, inextensible=True)
+    exact = periodic_orbits(beam, 6.0, a, theory=Theory(extension=False))
     misses = []
     for i, first in enumerate(exact.first_harmonic):
         # Both from where the first harmonic has its crest, at phase ψ = 0.
@@ -118,7 +118,7 @@ def test_the_response_is_the_exact_tip_to_fourth_order(beam):
 
 
 def test_peak_and_first_harmonic_are_each_others_inverse(beam):
-    exact = periodic_orbits(beam, 6.0, [0.1, 0.2, 0.4], inextensible=True)
+    exact = periodic_orbits(beam, 6.0, [0.1, 0.2, 0.4], theory=Theory(extension=False))
     model = reduced_model(beam, 6.0, "FrM")
     np.testing.assert_allclose(model.peak(model.first_harmonic(exact.amplitude)), exact.amplitude)
     # Fifth order is left.

@@ -10,6 +10,7 @@ from analytic import (
     Blade,
     Section,
     SpinUp,
+    Theory,
     linear_modes,
     periodic_orbits,
     reduced_model,
@@ -61,7 +62,7 @@ def shot(pieces, jumps):
 def test_a_mass_inside_the_span_is_met_to_all_digits(mass, inertia):
     exact = shot([(0.37, 1.0), (0.63, 1.0)], [(mass, inertia), (0.0, 0.0)])
     blade = UNIT.with_point_mass(mass, 0.37, inertia)
-    found = linear_modes(blade, 0.0, len(exact), inextensible=True).frequencies
+    found = linear_modes(blade, 0.0, len(exact), theory=Theory(extension=False)).frequencies
     assert found == pytest.approx(exact, rel=1e-9)
     assert blade.omega_0 == pytest.approx(exact[0], rel=1e-12)
     assert reduced_model(blade, 0.0, "FrM").omega_n == pytest.approx(exact[0], rel=1e-10)
@@ -76,7 +77,7 @@ def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():
         ends = ((0.0, 1.0), (0.5 - 0.5 * width, 1.0), (0.5 + 0.5 * width, 0.4), (1.0, 0.4))
         section = Section(axial_stiffness=1e9, mass_per_length=1.0, bending_stiffness=ends)
         stepped = Blade(length=1.0, section=section)
-        found = linear_modes(stepped, 0.0, 3, inextensible=True).frequencies
+        found = linear_modes(stepped, 0.0, 3, theory=Theory(extension=False)).frequencies
         errors.append(np.abs(found / exact[:3] - 1.0).max())
     # The slope's compliance is off by the order of its width.
     assert errors[0] < 2e-3
@@ -106,7 +107,7 @@ def test_stations_of_a_uniform_blade_change_nothing():
 def test_softening_with_a_mass_inside_is_that_of_the_orbits():
     blade = UNIT.with_point_mass(0.3, 0.6).with_hub_radius(0.5)
     frm = reduced_model(blade, 3.0, "FrM")
-    exact = periodic_orbits(blade, 3.0, [0.02], inextensible=True)
+    exact = periodic_orbits(blade, 3.0, [0.02], theory=Theory(extension=False))
     assert frm.lambda_omega == pytest.approx(exact.lambda_omega, abs=1e-6)
 
 

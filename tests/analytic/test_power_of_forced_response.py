@@ -11,6 +11,7 @@ from analytic import (
     Damping,
     DistributedForce,
     SpeedRipple,
+    Theory,
     TipForce,
     forced_response,
     linear_modes,
@@ -56,10 +57,10 @@ def power(states, omega, nu, load, ripple=0.0):
 )
 def test_damping_takes_what_the_load_gives(omega, c, load):
     d = c * BEAM.mass_per_length * SCALE
-    omega_n = linear_modes(BEAM, omega, 1, inextensible=True).frequencies[0]
+    omega_n = linear_modes(BEAM, omega, 1, theory=Theory(extension=False)).frequencies[0]
     response = forced_response(
         BEAM.with_damping(Damping(external=d)), omega, load, omega_n * np.array([0.985, 1.015]),
-        inextensible=True,
+        theory=Theory(extension=False),
     )  # fmt: skip
     i = int(np.argmax(response.amplitude))
     ripple = load.amplitude if isinstance(load, SpeedRipple) else 0.0
@@ -71,7 +72,7 @@ def test_damping_takes_what_the_load_gives(omega, c, load):
         assert given.real == pytest.approx(d * (along + across), rel=1e-4)
     # On the free orbit of the peak's amplitude as well, to the square of the damping.
     (peak,) = response.peaks
-    free = periodic_orbits(BEAM, omega, [peak.amplitude], inextensible=True)
+    free = periodic_orbits(BEAM, omega, [peak.amplitude], theory=Theory(extension=False))
     along, across, given = power(
         lambda phase, x=X: free.state(0, x, phase=phase), omega, free.frequency[0], load
     )

@@ -20,6 +20,7 @@ from analytic import (
     SpinUp,
     SteadyRotation,
     Table,
+    Theory,
     TipForce,
     backbone_branch,
     backbone_curve,
@@ -52,7 +53,7 @@ ANSWERS = {
     "linear_modes": lambda n: linear_modes(BEAM, n(6), 2).frequencies,
     "flap": lambda n: linear_modes(STRIP, n(6), 2, plane="flap").frequencies,
     "torsion": lambda n: linear_modes(STRIP, n(6), 2, plane="torsion").frequencies,
-    "shear": lambda n: linear_modes(BEAM, n(6), 2, shear_share=n(0.25)).frequencies,
+    "shear": lambda n: linear_modes(BEAM, n(6), 2, theory=Theory(shear=n(0.25))).frequencies,
     "damping_ratios": lambda n: damping_ratios(DAMPED, n(6), 2),
     "campbell": lambda n: campbell(BEAM, [n(0), n(6)], 1, 2).frequencies,
     "unstretched": lambda n: unstretched_frequencies(BEAM, n(6), 2),
@@ -61,7 +62,7 @@ ANSWERS = {
         n(0.125)
     ),
     "backbone_branch": lambda n: backbone_branch(
-        BEAM, n(6), n(0.125), inextensible=True, functions=8
+        BEAM, n(6), n(0.125), theory=Theory(extension=False), functions=8
     ).frequency,
     "reduced_model": lambda n: reduced_model(BEAM, n(6), "FrM").frequency(n(0.125)),
     "its exact frequency": lambda n: reduced_model(BEAM, n(6), "FrE").exact_frequency(n(0.125)),

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam, SpinUp, campbell, linear_modes, periodic_orbits, spin_up_response
+from analytic import Beam, SpinUp, Theory, campbell, linear_modes, periodic_orbits, spin_up_response
 from analytic.input_checks import RotbeamWarning
 
 exponents = st.floats(min_value=-4.0, max_value=4.0)
@@ -87,7 +87,7 @@ def attempted(function, *arguments, **options):
 def test_right_or_refused_in_a_sentence(slenderness, rate, amplitude, inextensible):
     """No division by zero, no warning of numpy; pytest makes errors of warnings."""
     beam = beam_in_units(slenderness)
-    options = {"inextensible": inextensible}
+    options = {"theory": Theory(extension=not inextensible)}
     modes, refusal = attempted(linear_modes, beam, rate, 1, **options)
     if modes is None:
         assert "rotate slower" in refusal

@@ -12,6 +12,7 @@ from analytic import (
     Blade,
     OutOfPlane,
     Section,
+    Theory,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -22,6 +23,7 @@ from analytic.exact.beam.steady import SteadyBeam, steady_rotation
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.profiles import evaluated
 from analytic.quadrature import axial_basis, gauss_points
+from analytic.theory import BERNOULLI_EULER
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -29,10 +31,13 @@ SLENDER = OutOfPlane(bending_ratio=0.01, torsion_ratio=RIGID)
 ROUND = OutOfPlane(bending_ratio=1.0, torsion_ratio=RIGID)
 
 
-def growth(section, w_bar, a, *, inextensible=True, functions=12, steps=STEPS):
+SLENDER_LIMIT = Theory(extension=False)
+
+
+def growth(section, w_bar, a, *, theory=SLENDER_LIMIT, functions=12, steps=STEPS):
     blade = BEAM.with_out_of_plane(section)
     (orbit,) = periodic_orbits(
-        blade, w_bar * blade.frequency_scale, a, inextensible=inextensible
+        blade, w_bar * blade.frequency_scale, a, theory=theory
     ).nondimensional
     return grown(blade, orbit, functions, steps)
 
@@ -78,7 +83,7 @@ def test_about_the_steady_state_it_has_the_flap_modes(blade, digits):
     """Those of a blade that is turned by a right angle, by other equations: in ϑ and e, not w."""
     blade, omega = blade.with_section_out_of_plane(0.3, 0.2), 5.0 * blade.frequency_scale
     space = Space(blade, 18)
-    model = blade_continuum(blade.unit, blade.slenderness, 24, 16, 0.0)
+    model = blade_continuum(blade, BERNOULLI_EULER, 24, 16)
     steady = steady_rotation(blade, omega, model)
     still = np.zeros((1, steady.size))
     (K,) = space.stiffness(steady, steady.equilibrium[None], still, still)
@@ -91,9 +96,9 @@ def test_about_the_steady_state_it_has_the_flap_modes(blade, digits):
 
 @pytest.mark.parametrize("rate", [0.0, 2.0, 8.0])
 def test_flap_squared_is_lag_squared_and_the_speed_squared(beam, rate):
-    lag = linear_modes(beam, rate, inextensible=True).frequencies
+    lag = linear_modes(beam, rate, theory=Theory(extension=False)).frequencies
     flap = linear_modes(
-        beam.tube(0.015, 0.77e-3), rate, plane="flap", inextensible=True
+        beam.tube(0.015, 0.77e-3), rate, plane="flap", theory=Theory(extension=False)
     ).frequencies
     assert np.sqrt(lag**2 + rate**2) == pytest.approx(flap, rel=1e-8)
 
@@ -190,7 +195,7 @@ def test_the_propeller_moment_is_that_of_the_moving_plane():
     """Ω = ϑ̇ + w: about a blade as it swings through its straight shape, along it as ϑ̇ does."""
     inertia = 1e-2 * BEAM.mass_per_length * BEAM.length**2
     blade = BEAM.with_section_out_of_plane(0.5, 1e-3, inertia)
-    model = blade_continuum(blade.unit, 0.0, 12, 1, 0.0)
+    model = blade_continuum(blade, Theory(extension=False), 12, 1)
     space, planar = Space(blade, 8), SteadyBeam(model, 2.0)
     still, swinging = np.zeros((1, model.size)), np.zeros((1, model.size))
     swinging[0, 0] = 1.5  # ϑ̇ = 1.5 x, the first of Legendre's polynomials being ϑ' = 1
@@ -221,7 +226,7 @@ def test_a_bar_bent_by_a_force_at_its_tip_buckles_where_timoshenko_says():
     """P L²/√(EI_out GJ) = 4.0126, in the limit of a bar that hardly bends in its plane."""
     small = 1e-8
     blade = BEAM.with_section_out_of_plane(small, small, 0.0)
-    model = blade_continuum(blade.unit, 0.0, 8, 1, 0.0)
+    model = blade_continuum(blade, Theory(extension=False), 8, 1)
     # ϑ' = P(1 - x) in Legendre's polynomials, the first two of which it is made of.
     shape = np.zeros(model.size)
     shape[:2] = 0.5, -0.5 / math.sqrt(3.0)
@@ -239,7 +244,7 @@ def test_a_bar_on_edge_buckles_under_its_own_weight_where_timoshenko_says():
     """W L²/√(EI_out GJ) = 12.85 of the whole weight W."""
     small = 1e-8
     blade = BEAM.with_section_out_of_plane(small, small, 0.0)
-    model = blade_continuum(blade.unit, 0.0, 8, 1, 0.0)
+    model = blade_continuum(blade, Theory(extension=False), 8, 1)
     # ϑ' = W(1 - x)²/2 in Legendre's polynomials, the first three of which it is made of.
     shape = np.zeros(model.size)
     shape[:3] = 0.5 / np.array([3.0, -2.0 * math.sqrt(3.0), 6.0 * math.sqrt(5.0)])
@@ -321,12 +326,12 @@ def test_the_stretch_moves_the_narrow_tongue(beam):
     """By 3.3e-4 of w̄ in 4.4: what is unstable without extension is not with it."""
     inside = 4.43220 - 1e-4
     assert growth(ROUND, inside, 0.5).unstable
-    assert not growth(ROUND, inside, 0.5, inextensible=False).unstable
-    assert growth(ROUND, inside - 3.3e-4, 0.5, inextensible=False).unstable
+    assert not growth(ROUND, inside, 0.5, theory=Theory()).unstable
+    assert growth(ROUND, inside - 3.3e-4, 0.5, theory=Theory()).unstable
 
 
 def test_onset_of_a_section_that_does_not_twist():
     at_two = 2.0 / BEAM.frequency_scale
     for sign in (-1.0, 1.0):
-        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, inextensible=False)
+        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, theory=Theory())
         assert found.unstable == (sign > 0.0)

@@ -13,6 +13,7 @@ from analytic import (
     Damping,
     Section,
     SpinUp,
+    Theory,
     TipForce,
     damping_ratios,
     forced_response,
@@ -51,7 +52,7 @@ def answers(blade):
     yield "burst", blade.burst_speed
     yield "mass", blade.mass
     yield "modes", linear_modes(blade, w).frequencies
-    yield "inextensible modes", linear_modes(blade, w, inextensible=True).frequencies
+    yield "inextensible modes", linear_modes(blade, w, theory=Theory(extension=False)).frequencies
     yield "unstretched", unstretched_frequencies(blade, w)
     yield "ratio", Damping.from_ratio(blade, 3, 0.01).bending
     yield "ratios", damping_ratios(damped, w, 2)
@@ -60,7 +61,7 @@ def answers(blade):
     orbits = periodic_orbits(blade, w, [0.1, 0.3])
     yield "orbits", orbits.frequency
     yield "λ", 1.0 + orbits.lambda_omega
-    yield "inextensible", periodic_orbits(blade, w, [0.2], inextensible=True).frequency
+    yield "inextensible", periodic_orbits(blade, w, [0.2], theory=Theory(extension=False)).frequency
     yield "forced", forced_response(damped, w, TipForce(amplitude=0.05), [2.0, 2.5]).amplitude[0]
     yield "gravity", gravity_response(damped, [0.5 * w, 0.6 * w], 0.1).amplitude[0]
     yield "spin-up", spin_up_response(blade, motion, time, tolerance=1e-6).q[-1]
@@ -95,7 +96,7 @@ def test_a_straight_taper_at_stations_is_the_polynomial(stations):
     )
     for inextensible in (False, True):
         one, other = (
-            linear_modes(blade, 2.0, inextensible=inextensible).frequencies
+            linear_modes(blade, 2.0, theory=Theory(extension=not inextensible)).frequencies
             for blade in (straight, cut)
         )
         assert other == pytest.approx(one, rel=1e-9)
@@ -146,20 +147,20 @@ def shot(blade, omega, guess):
 
 
 def test_a_real_blade_has_the_frequencies_that_shooting_finds(nrel):
-    found = linear_modes(nrel, 1.267, 2, inextensible=True).frequencies
+    found = linear_modes(nrel, 1.267, 2, theory=Theory(extension=False)).frequencies
     for frequency in found.tolist():
         # The bracket is 1e-7 wide, shooting integrates to 1e-11.
         assert shot(nrel, 1.267, frequency) == pytest.approx(frequency, rel=2e-10)
 
 
 def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):
-    exact = linear_modes(nrel, 1.267, 1, inextensible=True, functions=60).frequencies
-    six = resolved_model(nrel, 1, True, False, 6)
+    exact = linear_modes(nrel, 1.267, 1, theory=Theory(extension=False), functions=60).frequencies
+    six = resolved_model(nrel, 1, Theory(extension=False), 6)
     found = solve_modes(steady_rotation(nrel, 1.267, six)).frequencies[:1] * nrel.frequency_scale
     # As docs/theory/blade.md says.
     assert found == pytest.approx(exact, rel=2e-8)
     # Half of 24 functions' frequencies, as the docstring promises.
-    uniform = linear_modes(nrel, 0.0, 12, inextensible=True, functions=60).frequencies
+    uniform = linear_modes(nrel, 0.0, 12, theory=Theory(extension=False), functions=60).frequencies
     assert nrel.frequencies_at_rest[:12] == pytest.approx(uniform, rel=2e-3)
     assert nrel.omega_0 == pytest.approx(uniform[0], rel=1e-9)
 
@@ -175,7 +176,7 @@ def test_a_real_blade_answers_to_every_kind_of_question(nrel):
     orbits = periodic_orbits(nrel, 1.267, [0.1, 0.2])
     assert orbits.frequency_error.max() < 1e-9
     frm = reduced_model(nrel, 1.267, "FrM")
-    inextensible = periodic_orbits(nrel, 1.267, [0.02], inextensible=True)
+    inextensible = periodic_orbits(nrel, 1.267, [0.02], theory=Theory(extension=False))
     assert frm.lambda_omega == pytest.approx(inextensible.lambda_omega, abs=1e-6)
     motion = SpinUp(omega=1.267, ramp_time=3.0)
     end = spin_up_response(nrel, motion, [2.0, 4.0], tolerance=1e-6)
@@ -207,7 +208,9 @@ def test_refinement_adds_functions_on_every_panel():
     blade = blade_of(1.0, 1.0, 1e9)
     for k in range(1, 20):
         blade = blade.with_point_mass(0.05, k / 20.0)
-    coarse, fine = (linear_modes(blade, 1.0, inextensible=True, functions=n) for n in (6, 120))
+    coarse, fine = (
+        linear_modes(blade, 1.0, theory=Theory(extension=False), functions=n) for n in (6, 120)
+    )
     assert coarse.frequencies == pytest.approx(fine.frequencies, rel=1e-8)
-    at_rest = linear_modes(blade, 0.0, 1, inextensible=True).frequencies[0]
+    at_rest = linear_modes(blade, 0.0, 1, theory=Theory(extension=False)).frequencies[0]
     assert blade.omega_0 == pytest.approx(at_rest, rel=1e-7)

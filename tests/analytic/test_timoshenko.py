@@ -8,7 +8,7 @@ from numpy.polynomial import Polynomial, legendre
 from scipy.linalg import block_diag, expm
 from scipy.optimize import brentq
 
-from analytic import Beam, linear_modes
+from analytic import Beam, Theory, linear_modes
 
 SHARE = (5.0 / 6.0) / 2.6
 STUBBY = Beam.from_stiffness(
@@ -19,7 +19,9 @@ STUBBY = Beam.from_stiffness(
 
 def sheared(beam, omega, count=3, *, share=SHARE, rotary_inertia=True):
     """Return the frequencies of the beam with shear."""
-    modes = linear_modes(beam, omega, count, shear_share=share, rotary_inertia=rotary_inertia)
+    modes = linear_modes(
+        beam, omega, count, theory=Theory(shear=share, rotary_inertia=rotary_inertia)
+    )
     return modes.frequencies
 
 
@@ -53,7 +55,7 @@ def test_at_rest_it_is_timoshenkos_cantilever():
 def test_stiff_in_shear_it_is_the_exact_beam(w_bar, rotary_inertia):
     """What is left of shear at a share of 1e10 is 1e-13."""
     found = sheared(STUBBY, w_bar, share=1e10, rotary_inertia=rotary_inertia)
-    exact = linear_modes(STUBBY, w_bar, rotary_inertia=rotary_inertia).frequencies
+    exact = linear_modes(STUBBY, w_bar, theory=Theory(rotary_inertia=rotary_inertia)).frequencies
     assert found == pytest.approx(exact, rel=1e-9)
 
 

@@ -5,6 +5,7 @@ import time
 import numpy as np
 import pytest
 
+from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification.cases import CASES, Asked
 from rotbeam_exu.verification.references import reference
@@ -16,7 +17,6 @@ from rotbeam_exu.verification.submission import (
     Submission,
 )
 from rotbeam_exu.verification.submission_files.writing import write_submission
-from rotbeam_exu.verification.theory import BERNOULLI_EULER
 
 pytestmark = pytest.mark.benchmarks
 

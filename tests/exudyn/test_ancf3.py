@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 
-from analytic import linear_modes
+from analytic import Theory, linear_modes
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, formulation
 from rotbeam_exu.fem.elements.ancf3 import _Row
@@ -53,7 +53,7 @@ def test_coupled_law_locks_in_thickness(beam):
 
     No mesh cures it: the frequency at rest is too high by 1/√(1 - ν²).
     """
-    exact = linear_modes(beam, 0.0, 1, rotary_inertia=True).frequencies[0]
+    exact = linear_modes(beam, 0.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
     for nu in (0.0, 0.2, 0.3):
         locked, free = (
             natural_frequencies(
@@ -68,7 +68,7 @@ def test_coupled_law_locks_in_thickness(beam):
 
 def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(beam, fitted_order):
     """At rest, the gap is shear compliance, 1/k_s; the limit comes from the continuum."""
-    limit = linear_modes(beam, 0.0, 1, rotary_inertia=True).frequencies[0]
+    limit = linear_modes(beam, 0.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
     stiffness = np.array([0.01, 0.1, 1.0])
     gaps = [
         1.0 - first_frequency(beam, 0.0, Ancf3(shear_correction=k), 64) / limit for k in stiffness
@@ -83,7 +83,7 @@ def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):
     (3/2) ∫ ε EI v''² dx / (ω_n² ∫ ρA v² dx), 4.7e-5 at 6 rad/s.
     """
     omega = 6.0
-    modes = linear_modes(beam, omega, 1, rotary_inertia=True)
+    modes = linear_modes(beam, omega, 1, theory=Theory(rotary_inertia=True))
     x = np.linspace(0.0, beam.length, 2001)
     v = modes.shapes(x)[:, 0]
     curvature = np.gradient(np.gradient(v, x, edge_order=2), x, edge_order=2)

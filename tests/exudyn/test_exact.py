@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from analytic import Beam, SpinUp, linear_modes
+from analytic import Beam, SpinUp, Theory, linear_modes
 from analytic.description import from_description
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Exact, formulation
@@ -63,7 +63,7 @@ def test_mesh_order(nodes, order, fitted_order, of_a_fine_mesh):
 
 def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(fitted_order):
     """The gap is shear compliance, 1/k_s; the limit comes from another theory and another code."""
-    limit = linear_modes(THICK, 5.0, 1, rotary_inertia=True).frequencies[0]
+    limit = linear_modes(THICK, 5.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
     stiffness = np.array([1.0, 10.0, 100.0])
     gaps = [
         1.0

@@ -19,6 +19,7 @@ from analytic import (
     SpinUp,
     SteadyRotation,
     Table,
+    Theory,
     TipForce,
     exact_residual,
     forced_response,
@@ -242,7 +243,7 @@ def test_an_exact_spin_up_says_what_drove_it(beam, motion, tmp_path):
     ripple = SpeedRipple(amplitude=0.2, frequency=5.0)
     time = np.linspace(0.0, 2.5, 6)
     response = spin_up_response(
-        beam, motion, time, tolerance=1e-3, loads=[ripple], rotary_inertia=True
+        beam, motion, time, tolerance=1e-3, loads=[ripple], theory=Theory(rotary_inertia=True)
     )
     data = load(save(exact_spin_up(response), tmp_path / "exact.nc"))
     assert motion_of(data.attrs) == motion

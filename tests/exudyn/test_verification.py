@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from analytic import Beam, spin_up_response
+from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import measures
@@ -17,7 +18,6 @@ from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.measures import handed_in, verify
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.peers import Entry, peer
-from rotbeam_exu.verification.theory import BERNOULLI_EULER
 
 
 def finding(entry, speeds=(0.0, 6.0)):

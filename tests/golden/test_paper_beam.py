@@ -15,6 +15,7 @@ from analytic import (
     VARIANTS,
     Beam,
     SpinUp,
+    Theory,
     campbell,
     linear_modes,
     periodic_orbits,
@@ -29,8 +30,12 @@ SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
 def modes(beam):
     return {
         "frequencies": [linear_modes(beam, omega).frequencies.tolist() for omega in SPEEDS],
-        "inextensible": linear_modes(beam, 6.0, inextensible=True).frequencies.tolist(),
-        "rotary inertia": linear_modes(beam, 6.0, rotary_inertia=True).frequencies.tolist(),
+        "inextensible": linear_modes(
+            beam, 6.0, theory=Theory(extension=False)
+        ).frequencies.tolist(),
+        "rotary inertia": linear_modes(
+            beam, 6.0, theory=Theory(rotary_inertia=True)
+        ).frequencies.tolist(),
         "Campbell": campbell(beam, SPEEDS).frequencies.tolist(),
     }
 

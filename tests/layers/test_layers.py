@@ -23,6 +23,7 @@ FLOORS = {
         {"shape_functions"},
         {"blade"},
         {"beam"},
+        {"theory"},
         {"reduced", "exact"},  # neither knows the other
         {"spin_up"},
     ],

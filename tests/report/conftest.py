@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
-from rotbeam_exu.verification.theory import BERNOULLI_EULER
 
 
 @pytest.fixture(scope="session")

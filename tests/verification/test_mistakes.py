@@ -7,6 +7,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes.histories import mistake_in_history
@@ -21,7 +22,6 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
-from rotbeam_exu.verification.theory import BERNOULLI_EULER
 
 S1 = replace(CASES["S1"], duration=6.0)
 TIME = np.arange(0.0, 6.0, 0.02)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.sampled import sampled_history
 from rotbeam_exu.verification.shipped import DURATION, shipped, shipped_backbones, shipped_histories
-from rotbeam_exu.verification.theory import BERNOULLI_EULER, Theory
 
 BEAM = Beam.reference()
 
@@ -179,7 +179,7 @@ def test_a_beam_with_rotary_inertia_has_a_truth_of_its_own():
 
 def test_an_orbit_of_a_beam_that_shears_is_slower():
     """By about as much as small vibrations are: the orbit's curvature is bending's."""
-    plain, sheared = reference(CASES["O"]), reference(CASES["O"], Theory(shear_share=0.1))
+    plain, sheared = reference(CASES["O"]), reference(CASES["O"], Theory(shear=0.1))
     assert sheared.source == "computed from the exact beam, Timoshenko"
     slower = sheared.frequency_at(0.4) / plain.frequency_at(0.4) - 1.0
     linear = sheared.first_frequency(2.0) / plain.first_frequency(2.0) - 1.0

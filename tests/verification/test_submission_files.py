@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from analytic.theory import Theory
 from rotbeam_exu.verification.submission import (
     BackbonePoint,
     Declaration,
@@ -19,12 +20,11 @@ from rotbeam_exu.verification.submission import (
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
 from rotbeam_exu.verification.submission_files.reading import digests, read_submission
 from rotbeam_exu.verification.submission_files.writing import write_submission
-from rotbeam_exu.verification.theory import Theory
 
 DECLARATION = Declaration(
     code="Balken", version="2.1", url="https://example.org", licence="MIT", element="B22",
     machine="one core", remarks='of "two\nlines", and a tail\x7f', authors=("A. Å.", "B"),
-    theory=Theory(rotary_inertia=True, shear_share=0.3205), inextensible=True,
+    theory=Theory(rotary_inertia=True, shear=0.3205), inextensible=True,
     order=4.0, order_in_step=2.0, benchmark="1.0",
 )  # fmt: skip
 
@@ -93,7 +93,7 @@ def test_bernoulli_euler_reads_back(tmp_path):
 def test_shear_may_be_given_as_its_author_has_it(good):
     text = (good / "entry.toml").read_text("utf-8").replace("share = 0.3205", "k_s = 5e-1\nnu=0.25")
     (good / "entry.toml").write_text(text, "utf-8")
-    assert read_submission(good).declaration.theory.shear_share == pytest.approx(0.2)
+    assert read_submission(good).declaration.theory.shear == pytest.approx(0.2)
 
 
 def test_line_ends_comments_and_a_mark_at_the_beginning_change_nothing(good):

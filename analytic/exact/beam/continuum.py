@@ -59,11 +59,9 @@ class Continuum(Kinematics):
         μ = I/(AL²); zero for the inextensible beam.
     bending, axial : int
         Number of functions for θ and for e; with shear, as many for γ as for e.
-    rotary_inertia : float
-        Inertia of the cross-sections against rotation per length: μ, or 0 to leave it out.
     blade : UnitBlade
         What is not the uniform beam: section, point masses, hub radius, setting angle.
-    shear_share : float or None
+    shear : float or None
         σ = k_s GA/(EA); None to leave shear out.
 
     Attributes
@@ -79,19 +77,17 @@ class Continuum(Kinematics):
         bending: int,
         axial: int,
         *,
-        rotary_inertia: float = 0.0,
         blade: UnitBlade = UNIFORM,
-        shear_share: float | None = None,
+        shear: float | None = None,
     ) -> None:
-        super().__init__(slenderness, bending, axial, blade, shear_share)
-        self.rotary = rotary_inertia
+        super().__init__(slenderness, bending, axial, blade, shear)
         # One point more integrates the square of the integrated interpolant exactly.
         count = 2 * self._across.a_panel + 1
         at, dm = blade.inertia(count)
         integral = self.grid.integral(at)
         self._green = integral.T @ (dm[:, None] * integral)
         outboard = integral.T @ dm
-        x, dj = blade.turning(count, rotary_inertia)
+        x, dj = blade.turning(count)
         phi = self._across.once(x)
         self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
         self._turns = bool(dj.any())

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from ...beam import AnyBlade, require_blade
 from ...shape_functions import shape_functions
+from ...theory import Theory, require_theory
 from ...unit_blade import UNIFORM, UnitBlade
 from .continuum import Continuum
 
@@ -14,19 +16,11 @@ def continuum(
     slenderness: float,
     bending: int,
     axial: int,
-    rotary_inertia: float = 0.0,
     blade: UnitBlade = UNIFORM,
-    shear_share: float | None = None,
+    shear: float | None = None,
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
-    return Continuum(
-        slenderness,
-        bending,
-        axial,
-        rotary_inertia=rotary_inertia,
-        blade=blade,
-        shear_share=shear_share,
-    )
+    return Continuum(slenderness, bending, axial, blade=blade, shear=shear)
 
 
 def finer_model(model: Continuum) -> Continuum:
@@ -42,20 +36,15 @@ def finer_model(model: Continuum) -> Continuum:
         model.slenderness,
         more(model.bending),
         more(model.axial) if model.slenderness > 0.0 else model.axial,
-        model.rotary,
         model.blade,
-        model.shear_share,
+        model.shear_ratio,
     )
 
 
-def blade_continuum(
-    blade: UnitBlade,
-    slenderness: float,
-    bending: int,
-    axial: int,
-    rotary_inertia: float,
-    shear_share: float | None = None,
-) -> Continuum:
+def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
-    bending, axial = (shape_functions(blade, count).count for count in (bending, axial))
-    return continuum(slenderness, bending, axial, rotary_inertia, blade, shear_share)
+    require_blade(beam)
+    unit = require_theory(theory).unit(beam)
+    axial = axial if theory.extension else 1
+    bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
+    return continuum(theory.slenderness(beam), bending, axial, unit, theory.shear)

@@ -29,7 +29,7 @@ class Kinematics:
     bending, axial, shear, size : int
         Number of functions for θ, for e and for γ, as many on each of the blade's panels, and of
         all. Those for γ are those for e, or none.
-    shear_share : float or None
+    shear_ratio : float or None
         σ, shear over axial stiffness; None where sections stay normal to the axis.
     blade : UnitBlade
     points, weights : ndarray (points,)
@@ -42,13 +42,13 @@ class Kinematics:
         bending: int,
         axial: int,
         blade: UnitBlade,
-        shear_share: float | None = None,
+        shear: float | None = None,
     ) -> None:
         self.slenderness = slenderness
         self.bending = bending
         self.axial = axial
-        self.shear = 0 if shear_share is None else axial
-        self.shear_share = shear_share
+        self.shear = 0 if shear is None else axial
+        self.shear_ratio = shear
         self.size = bending + axial + self.shear
         self.blade = blade
         self._across = shape_functions(blade, bending)
@@ -139,9 +139,9 @@ class Kinematics:
         """Return φ_k and Ψ_k at `x`, each (points, functions)."""
         phi = self._across.once(x)
         psi = math.sqrt(self.slenderness) * self._along.strain(x)
-        if self.shear_share is None:
+        if self.shear_ratio is None:
             return phi, psi
-        return phi, np.hstack([psi, 1j / math.sqrt(self.shear_share) * psi])
+        return phi, np.hstack([psi, 1j / math.sqrt(self.shear_ratio) * psi])
 
     def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:
         """Return the integral from the clamp to `x` of a slope given at the Gauss points."""

@@ -29,6 +29,7 @@ from ...methods.system import Tangent
 from ...out_of_plane import OutOfPlane
 from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
+from ...theory import BERNOULLI_EULER, Theory, require_theory
 from .continuum import Continuum
 from .steady import BeamOrbit, SteadyBeam
 
@@ -41,9 +42,15 @@ def out_of_plane_of(blade: AnyBlade) -> OutOfPlane | None:
     return blade.section.out_of_plane if isinstance(blade, Blade) else None
 
 
-def require_out_of_plane(blade: AnyBlade, torsion: bool = True) -> OutOfPlane:
+def require_out_of_plane(
+    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
+) -> OutOfPlane:
     """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
     require_blade(blade)
+    if require_theory(theory).shear is not None:
+        raise ValueError(
+            "how slices shear out of the plane is unknown: take a theory without shear"
+        )
     known = out_of_plane_of(blade)
     if known is None:
         raise ValueError(

@@ -12,6 +12,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...input_checks import finite_number, points_of_beam
 from ...methods.orbit import Orbit
+from ...theory import BERNOULLI_EULER
 from .continuum import Continuum
 from .discretization import blade_continuum
 from .steady import steady_rotation
@@ -55,7 +56,7 @@ class BeamState:
 
 def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
     """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
-    steady = steady_rotation(beam, omega, blade_continuum(beam.unit, beam.slenderness, 20, 10, 0.0))
+    steady = steady_rotation(beam, omega, blade_continuum(beam, BERNOULLI_EULER, 20, 10))
     return _state(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
 
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_steady_state
-from ...blade import Blade
-from ...input_checks import flag, positive
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
 from .continuum import Continuum
@@ -113,23 +111,6 @@ def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
     if model.slenderness > 0.0:
         require_steady_state(beam, omega)
     return omega / beam.frequency_scale
-
-
-def section_inertia(beam: AnyBlade, wanted: bool) -> float:
-    """Return ρI of a uniform beam, nondimensional: μ if wanted. A blade has its own."""
-    if not flag("rotary_inertia", wanted):
-        return 0.0
-    if isinstance(beam, Blade):
-        raise ValueError(
-            "rotary_inertia=True takes ρI of a uniform section from the Beam; a Blade has its "
-            "own: give Section(rotary_inertia=...) in kg m"
-        )
-    return beam.slenderness
-
-
-def checked_share(shear_share: float | None) -> float | None:
-    """Return the shear over the axial stiffness, positive, or None for a beam without shear."""
-    return None if shear_share is None else positive("shear_share", shear_share)
 
 
 def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:

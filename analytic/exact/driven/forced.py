@@ -13,6 +13,7 @@ from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Gravity, HarmonicLoad
 from ...methods.orbit_curve import Marked, ResponseNotFollowedError, response_curve
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import steady_rate
 from ..linear.modes import linear_modes, resolved_model
@@ -30,7 +31,7 @@ def forced_response(
     load: HarmonicLoad,
     frequencies: Sequence[float] | FloatArray,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
     harmonics: int = 4,
 ) -> ForcedResponse:
@@ -52,8 +53,8 @@ def forced_response(
     frequencies : sequence of float
         Drive frequencies ν [rad/s], ascending: the first and the last are the ends of the curve,
         those between are among its points, wherever it passes them.
-    inextensible : bool
-        Leave the axial motion out.
+    theory : Theory
+        Extension, shear and rotary inertia.
     functions, harmonics : int
         Least number of functions for the tangent's angle, and of harmonics.
 
@@ -88,9 +89,9 @@ def forced_response(
     warn_if_rpm(beam, omega)
     if not any(beam.unit.damping):
         _require_no_resonance(beam, omega, asked)
-    model = resolved_model(beam, 1, inextensible, False, functions)
+    model = resolved_model(beam, 1, theory, functions)
     system = DrivenBeam(model, steady_rate(beam, omega, model), unit)
-    return _followed(beam, load, system, asked, harmonics)
+    return _followed(beam, load, theory, system, asked, harmonics)
 
 
 @one_thread
@@ -99,7 +100,7 @@ def gravity_response(
     omegas: Sequence[float] | FloatArray,
     gravity: float = 9.81,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
     harmonics: int = 4,
 ) -> ForcedResponse:
@@ -116,7 +117,7 @@ def gravity_response(
         Rotation speeds [rad/s], ascending and above 0, as `frequencies` of `forced_response`.
     gravity : float
         g [m/s²].
-    inextensible, functions, harmonics
+    theory, functions, harmonics
         As for `forced_response`.
 
     Raises
@@ -135,7 +136,7 @@ def gravity_response(
     load, asked = Gravity(gravity), _ascending("omegas", omegas)
     for omega in asked.tolist():
         rotation_speed(omega, "omegas")
-    model = resolved_model(beam, 1, inextensible, False, functions)
+    model = resolved_model(beam, 1, theory, functions)
     steady_rate(beam, float(asked[-1]), model)
     if not any(beam.unit.damping):
         slow, fast = (linear_modes(beam, w, 1).frequencies[0] / w for w in asked[[0, -1]].tolist())
@@ -146,7 +147,7 @@ def gravity_response(
                 "beam.with_damping(Damping(...))"
             )
     system = DrivenBeam(model, None, unit_load(beam, load))
-    return _followed(beam, load, system, asked, harmonics)
+    return _followed(beam, load, theory, system, asked, harmonics)
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -172,6 +173,7 @@ def _require_no_resonance(beam: AnyBlade, omega: float, asked: FloatArray) -> No
 def _followed(
     beam: AnyBlade,
     load: HarmonicLoad | Gravity,
+    theory: Theory,
     system: DrivenBeam,
     asked: FloatArray,
     harmonics: int,
@@ -182,7 +184,7 @@ def _followed(
         found, failed = response_curve(system, frequencies, _LARGEST, least), None
     except ResponseNotFollowedError as reason:
         found, failed = reason.found, reason
-    response = _packed(beam, load, found) if found else None
+    response = _packed(beam, load, theory, found) if found else None
     if failed is not None:
         last = f" at {asked[0]:g} rad/s"
         if response is not None:
@@ -196,7 +198,9 @@ def _followed(
     return response
 
 
-def _packed(beam: AnyBlade, load: HarmonicLoad | Gravity, found: list[Marked]) -> ForcedResponse:
+def _packed(
+    beam: AnyBlade, load: HarmonicLoad | Gravity, theory: Theory, found: list[Marked]
+) -> ForcedResponse:
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
@@ -204,6 +208,7 @@ def _packed(beam: AnyBlade, load: HarmonicLoad | Gravity, found: list[Marked]) -
     return ForcedResponse(
         beam=beam,
         load=load,
+        theory=theory,
         omega=per_second * np.array([o.system.speed(o.frequency) for o in orbits]),
         frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
         amplitude=np.array([orbit.amplitude for orbit in orbits]),

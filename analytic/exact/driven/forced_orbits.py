@@ -16,6 +16,7 @@ from ...loads import Gravity, HarmonicLoad
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
 from ...plotting import axes_or_new
+from ...theory import Theory
 from ..beam.state import BeamState, orbit_state
 from ..free.backbone import Backbone
 from ..free.periodic import periodic_orbits
@@ -59,6 +60,7 @@ class ForcedResponse:
     ----------
     beam : Beam or Blade
     load : load
+    theory : Theory
     omega : ndarray (points,)
         Rotation speed ω [rad/s].
     frequency : ndarray (points,)
@@ -86,6 +88,7 @@ class ForcedResponse:
 
     beam: AnyBlade
     load: HarmonicLoad | Gravity
+    theory: Theory
     omega: FloatArray
     frequency: FloatArray
     amplitude: FloatArray
@@ -168,12 +171,12 @@ class ForcedResponse:
                 "gravity goes around with the speed, and each speed has its own backbone: take "
                 "periodic_orbits at one of them"
             )
-        system, highest = self._orbits[0].system, float(self.amplitude.max())
+        highest = float(self.amplitude.max())
         return periodic_orbits(
             undamped(self.beam),
             float(self.omega[0]),
             np.linspace(0.0, highest, 13)[1:],
-            inextensible=system.model.slenderness == 0.0,
+            theory=self.theory,
         )
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:

@@ -16,9 +16,10 @@ from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, points_of_beam, positive
 from ...loads import Load, loads_in_time, rippled
 from ...ramps import AnyRamp, fastest, require_ramp
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import blade_continuum
-from ..beam.steady import checked_share, section_inertia, steady_rate
+from ..beam.steady import steady_rate
 from ..plane.orbit_growth import planar_note
 from .transient import Motion, grid_of, integrated
 
@@ -42,8 +43,7 @@ class SpinUpResponse:
     beam : Beam or Blade
     spin_up : SpinUp, SmoothRamp or Table
     loads : tuple of loads
-    rotary_inertia, shear_share : bool, float or None
-        Of the sections, as asked for.
+    theory : Theory
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -73,8 +73,7 @@ class SpinUpResponse:
     beam: AnyBlade
     spin_up: AnyRamp
     loads: tuple[Load, ...]
-    rotary_inertia: bool
-    shear_share: float | None
+    theory: Theory
     time: FloatArray
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
@@ -103,8 +102,7 @@ def spin_up_response(
     times: float | ArrayLike,
     *,
     tolerance: float = 1e-8,
-    rotary_inertia: bool = False,
-    shear_share: float | None = None,
+    theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
 ) -> SpinUpResponse:
@@ -122,10 +120,8 @@ def spin_up_response(
         Times of the response [s], ascending, not before 0.
     tolerance : float
         Largest error of the tip's position over the largest |q|.
-    rotary_inertia : bool
-        Give the cross-sections their inertia against rotation.
-    shear_share : float, optional
-        Let them shear; as for `linear_modes`.
+    theory : Theory
+        Extension, shear and rotary inertia.
     points : array_like
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
@@ -153,7 +149,6 @@ def spin_up_response(
     warn_if_rpm(beam, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
-    rotary, share = section_inertia(beam, rotary_inertia), checked_share(shear_share)
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     _require_feasible(beam, spin_up, time, along, digits)
@@ -161,9 +156,7 @@ def spin_up_response(
     for level in range(_REFINEMENTS):
         functions = math.ceil(_A_DIGIT * digits)
         functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
-        model = blade_continuum(
-            beam.unit, beam.slenderness, functions, functions // 2, rotary, share
-        )
+        model = blade_continuum(beam, theory, functions, functions // 2)
         steady_rate(beam, highest, model)
         corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
@@ -182,8 +175,7 @@ def spin_up_response(
                     beam=beam,
                     spin_up=spin_up,
                     loads=loads,
-                    rotary_inertia=rotary_inertia,
-                    shear_share=share,
+                    theory=theory,
                     time=time,
                     **_in_units(beam, finer, turned),
                     error=error,

@@ -15,6 +15,7 @@ from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.continuation import Care
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.state import BeamState, orbit_state
 from ..beam.steady import BeamOrbit
@@ -72,7 +73,7 @@ class BackboneBranch:
     Examples
     --------
     >>> from analytic import Beam, backbone_branch
-    >>> found = backbone_branch(Beam.reference(), omega=6.0, up_to=0.1, inextensible=True)
+    >>> found = backbone_branch(Beam.reference(), omega=6.0, up_to=0.1)
     >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
     3.73001 rad/s at 0.10 L
     """
@@ -145,7 +146,7 @@ def backbone_branch(
     up_to: float = 0.9,
     mode: int = 1,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
 ) -> BackboneBranch:
     """Return the backbone of a mode up to an amplitude, with its internal resonances.
@@ -162,7 +163,7 @@ def backbone_branch(
         Rotation speed ω [rad/s].
     up_to : float
         Largest peak |q|/L, below 1. Where the path ends before, it ends in a fold.
-    mode, inextensible, functions
+    mode, theory, functions
         As for `periodic_orbits`.
 
     Raises
@@ -175,7 +176,7 @@ def backbone_branch(
     Examples
     --------
     >>> from analytic import Beam, backbone_branch
-    >>> found = backbone_branch(Beam.reference(), omega=4.0, up_to=0.15, inextensible=True)
+    >>> found = backbone_branch(Beam.reference(), omega=4.0, up_to=0.15)
     >>> for one in found.resonances:
     ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
     harmonic 16 meets mode 3 at a = 0.1269
@@ -184,9 +185,7 @@ def backbone_branch(
     up_to = peak_deflection("up_to", up_to)
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
-    branch = branch_of(
-        beam, omega, mode, resolved_model(beam, mode, inextensible, False, functions), _CARE
-    )
+    branch = branch_of(beam, omega, mode, resolved_model(beam, mode, theory, functions), _CARE)
     main = _main_path(branch, up_to)
     end = None
     if main[-1].amplitude < up_to - 1e-9:

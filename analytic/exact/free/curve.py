@@ -20,6 +20,7 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
 from ..beam.discretization import finer_model
@@ -46,7 +47,7 @@ def backbone_curve(
     *,
     coefficients: int = 10,
     tolerance: float = 1e-8,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
 ) -> BackboneCurve:
     """Return the exact backbone of a mode as a Chebyshev series in a².
@@ -64,7 +65,7 @@ def backbone_curve(
         Rotation speed ω [rad/s].
     up_to : float
         Largest peak |q|/L asked for, below 1.
-    mode, inextensible, functions
+    mode, theory, functions
         As for `periodic_orbits`.
     coefficients : int
         Of the series; at least 5.
@@ -99,7 +100,7 @@ def backbone_curve(
         )
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
-    model = resolved_model(beam, mode, inextensible, False, functions)
+    model = resolved_model(beam, mode, theory, functions)
     while True:
         branch = branch_of(beam, omega, mode, model, care_for(tolerance))
         curve = fitted_curve(branch, up_to, count, tolerance)

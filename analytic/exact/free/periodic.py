@@ -13,6 +13,7 @@ from ...beam import AnyBlade, require_undamped, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import finer_model
 from ..beam.steady import BeamOrbit
@@ -31,19 +32,17 @@ def periodic_orbits(
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
     *,
-    inextensible: bool = False,
-    rotary_inertia: bool = False,
-    shear_share: float | None = None,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
 ) -> Backbone:
     """Return the periodic orbits of the exact beam that grow out of one mode.
 
-    Geometrically exact, extensible, undamped beam in steady rotation, which shears if it has a
-    `shear_share`; harmonic balance in time on Legendre polynomials in space, continued in
-    amplitude. The number of harmonics grows until the Jacobi integral is constant to 2e-11, that of
-    functions until half as many again change the frequency by at most 1e-9. Near an internal
-    resonance several orbits may have one amplitude: there the branch is laid again on more
-    functions, until it leads to the same orbit. `frequency_error` tells what is left.
+    Geometrically exact, undamped beam in steady rotation; harmonic balance in time on Legendre
+    polynomials in space, continued in amplitude. The number of harmonics grows until the Jacobi
+    integral is constant to 2e-11, that of functions until half as many again change the frequency
+    by at most 1e-9. Near an internal resonance several orbits may have one amplitude: there the
+    branch is laid again on more functions, until it leads to the same orbit. `frequency_error`
+    tells what is left.
 
     Parameters
     ----------
@@ -54,8 +53,8 @@ def periodic_orbits(
         Peak tip deflections |q|/L, above 0 and below 1, in any order.
     mode : int
         In-plane mode from which the orbits grow, from 1.
-    inextensible, rotary_inertia, shear_share
-        As for `linear_modes`.
+    theory : Theory
+        Extension, shear and rotary inertia.
     functions : int
         Least number of functions for the tangent's angle; they grow where an orbit needs more.
 
@@ -91,7 +90,7 @@ def periodic_orbits(
         )
     warn_if_rpm(beam, omega)
     require_undamped(beam, "a damped blade has no free periodic orbits")
-    model = resolved_model(beam, mode, inextensible, rotary_inertia, functions, shear_share)
+    model = resolved_model(beam, mode, theory, functions)
     branch = branch_of(beam, omega, mode, model)
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(branch, ascending)

@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_blade, warn_if_rpm
-from ...input_checks import flag, points_of_beam, rotation_speed, whole_number
+from ...beam import AnyBlade, warn_if_rpm
+from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...methods.gyroscopic import reciprocal_modes
+from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
-from ..beam.steady import SteadyBeam, checked_share, section_inertia, steady_rotation
+from ..beam.steady import SteadyBeam, steady_rotation
 from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
 
 MOST_FUNCTIONS = 256
@@ -84,9 +85,7 @@ def linear_modes(
     count: int = 3,
     *,
     plane: Literal["lag", "flap"] = "lag",
-    inextensible: bool = False,
-    rotary_inertia: bool = False,
-    shear_share: float | None = None,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
 ) -> LinearModes: ...
 
@@ -104,15 +103,13 @@ def linear_modes(
     count: int = 3,
     *,
     plane: Plane = "lag",
-    inextensible: bool = False,
-    rotary_inertia: bool = False,
-    shear_share: float | None = None,
+    theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
 ) -> LinearModes | TorsionModes:
     """Return the modes of the beam in steady rotation at `omega`, by default in its plane.
 
     Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
-    bending and axial motion. Without extension (`inextensible`) they are the modes of
+    bending and axial motion. Of a theory without extension they are the modes of
     v'''' - (w̄²/2)[(1 - x²)v']' - (w̄² + w̄_n²)v = 0, from which the corrected Eq. 81 follows.
 
     Parameters
@@ -126,13 +123,8 @@ def linear_modes(
         "lag", the blade's own plane of bending; "flap", the plane normal to the rotation's, and
         "torsion", both of a blade that bends in the plane of rotation and has a known section out
         of it. To this order they are independent of each other.
-    inextensible : bool
-        Leave the axial motion out, the limit of the slenderness μ → 0.
-    rotary_inertia : bool
-        Give the cross-sections their inertia against rotation, in the plane.
-    shear_share : float, optional
-        Let them shear, as in Reissner's beam: shear stiffness over axial stiffness,
-        k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the blade; in the plane.
+    theory : Theory
+        Extension, shear and rotary inertia; the latter two in the plane of bending only.
     functions : int
         Least number of functions for the tangent's angle, at most 256; half as many modes are
         resolved. They grow by half until half as many again change no frequency by 1e-9.
@@ -154,19 +146,19 @@ def linear_modes(
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)
-    rotary_inertia = flag("rotary_inertia", rotary_inertia)
+    require_theory(theory)
     warn_if_rpm(beam, omega)
     if plane not in ("lag", "flap", "torsion"):
         raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
-    if plane != "lag" and (rotary_inertia or shear_share is not None):
+    if plane != "lag" and (theory.rotary_inertia or theory.shear is not None):
         raise ValueError(
-            f"rotary_inertia and shear_share are those of slices in the plane, and plane is "
+            f"rotary_inertia and shear of a theory are those of slices in the plane, and plane is "
             f"{plane!r}: leave them out"
         )
     if plane == "torsion":
         return torsion_modes(beam, omega, count, functions)
     bent = flap_blade(beam) if plane == "flap" else beam
-    model = resolved_model(bent, count, inextensible, rotary_inertia, functions, shear_share)
+    model = resolved_model(bent, count, theory, functions)
     model, modes = _settled_modes(bent, omega, count, model)
     return replace(_in_units(bent, omega, count, model, modes), beam=beam)
 
@@ -214,17 +206,8 @@ def _settled_modes(
         steady, modes = finer, confirmed
 
 
-def resolved_model(
-    beam: AnyBlade,
-    mode: int,
-    inextensible: bool,
-    rotary_inertia: bool,
-    functions: int,
-    shear_share: float | None = None,
-) -> Continuum:
+def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
-    require_blade(beam)
-    inextensible = flag("inextensible", inextensible)
     functions = whole_number("functions", functions, least=4)
     if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
         raise ValueError(
@@ -236,21 +219,7 @@ def resolved_model(
             f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
             f"ask for functions={2 * mode} or more"
         )
-    if inextensible and shear_share is not None:
-        raise ValueError(
-            "inextensible=True is the limit of the slender beam, which does not shear either: "
-            "leave shear_share out, or inextensible"
-        )
-    slenderness = 0.0 if inextensible else beam.slenderness
-    axial = 1 if inextensible else max(4, 5 * functions // 8)
-    return blade_continuum(
-        beam.unit,
-        slenderness,
-        functions,
-        axial,
-        section_inertia(beam, rotary_inertia),
-        checked_share(shear_share),
-    )
+    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
 
 
 class Modes(NamedTuple):

@@ -15,6 +15,7 @@ from ...input_checks import points_of_beam
 from ...lazily import linalg
 from ...profiles import in_units
 from ...shape_functions import shape_functions
+from ...theory import BERNOULLI_EULER
 from ..beam.discretization import blade_continuum
 from ..beam.space import Space, require_out_of_plane, with_points_for
 from ..beam.steady import SteadyBeam, steady_rotation
@@ -106,7 +107,7 @@ def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> T
             "homogeneous section"
         )
     functions = max(functions, 2 * count)
-    model = blade_continuum(beam.unit, beam.slenderness, functions, functions // 2, 0.0)
+    model = blade_continuum(beam, BERNOULLI_EULER, functions, functions // 2)
     steady = steady_rotation(beam, omega, model)
     before = _torsion(steady, beam, functions)
     while True:

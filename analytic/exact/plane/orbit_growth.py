@@ -13,6 +13,7 @@ from ...beam import AnyBlade, require_blade
 from ...blade import Blade
 from ...input_checks import rotation_speed
 from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import out_of_plane_of, require_out_of_plane
 from ..beam.steady import BeamOrbit
@@ -32,9 +33,9 @@ GrowthAt = Callable[[float, int], Growth]
 
 
 @lru_cache(maxsize=32)
-def growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> GrowthAt:
+def growths(blade: AnyBlade, omega: float, mode: int, theory: Theory) -> GrowthAt:
     """Return what finds what grows about the planar orbits of a mode, each once."""
-    orbit = planar_orbits(blade, omega, mode, inextensible)
+    orbit = planar_orbits(blade, omega, mode, theory)
 
     @lru_cache(maxsize=1)
     def functions() -> int:
@@ -48,7 +49,7 @@ def growths(blade: AnyBlade, omega: float, mode: int, inextensible: bool) -> Gro
 
 
 def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool = False
+    blade: AnyBlade, omega: float, mode: int, theory: Theory = BERNOULLI_EULER
 ) -> Callable[[float], BeamOrbit]:
     """Return what finds the planar orbits of a mode by their amplitude, each once.
 
@@ -56,14 +57,14 @@ def planar_orbits(
     """
     if isinstance(blade, Blade):
         blade = replace(blade, section=replace(blade.section, out_of_plane=None))
-    return _orbits(blade, omega, mode, inextensible)
+    return _orbits(blade, omega, mode, theory)
 
 
 @lru_cache(maxsize=32)
 def _orbits(
-    blade: AnyBlade, omega: float, mode: int, inextensible: bool
+    blade: AnyBlade, omega: float, mode: int, theory: Theory
 ) -> Callable[[float], BeamOrbit]:
-    model = resolved_model(blade, mode, inextensible, False, _FUNCTIONS)
+    model = resolved_model(blade, mode, theory, _FUNCTIONS)
     return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
 
 
@@ -117,7 +118,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         return ""
     omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        growth = growths(blade, omega, mode, False)
+        growth = growths(blade, omega, mode, BERNOULLI_EULER)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
             # What the first resolution finds, the finer one confirms.
             told = a == amplitude or growth(a, 1).per_radian >= LEAST_GROWTH

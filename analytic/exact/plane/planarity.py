@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
 from ...input_checks import whole_number
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from ..free.periodic import periodic_orbits
@@ -91,7 +92,7 @@ def planar_stability(
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
     *,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
     steps: int = STEPS,
 ) -> PlanarStability:
     """Return whether the planar orbits of a blade stay in the plane of rotation.
@@ -110,8 +111,8 @@ def planar_stability(
         Peak tip deflections |q|/L of the orbits.
     mode : int
         In-plane mode from which they grow, from 1.
-    inextensible : bool
-        Leave the extension of the orbits out, the limit μ → 0.
+    theory : Theory
+        Of the orbits, without shear: slices do not shear out of the plane.
     steps : int
         Steps over a period; twice as many are taken, and as many again to see what that changes.
 
@@ -131,10 +132,10 @@ def planar_stability(
     >>> print(found.stable, found.kind, found.growth_rate.round(1))
     [ True False] ('', 'divergence') [  0.  120.8]
     """
-    require_out_of_plane(blade)
+    require_out_of_plane(blade, theory)
     steps = whole_number("steps", steps)
     orbits = periodic_orbits(
-        blade, omega, amplitudes, mode, inextensible=inextensible,
+        blade, omega, amplitudes, mode, theory=theory,
         functions=max(16, 2 * whole_number("mode", mode)),
     )  # fmt: skip
     found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]

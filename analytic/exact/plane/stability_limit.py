@@ -8,8 +8,9 @@ from functools import lru_cache
 from itertools import groupby
 
 from ...beam import AnyBlade, require_undamped
-from ...input_checks import flag, peak_deflection, positive, rotation_speed, whole_number
+from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from .growth import Growth
@@ -120,7 +121,7 @@ def stability_limit(
     *,
     growth: float = LEAST_GROWTH,
     largest: float = LARGEST,
-    inextensible: bool = False,
+    theory: Theory = BERNOULLI_EULER,
 ) -> StabilityLimit:
     """Return the amplitude from which on the planar orbits of a blade leave their plane.
 
@@ -143,8 +144,8 @@ def stability_limit(
         by their damping ratio times their frequency over the orbit's, keep the plane.
     largest : float
         Largest |q|/L to look at.
-    inextensible : bool
-        Leave the extension of the orbits out.
+    theory : Theory
+        Of the orbits, without shear.
 
     Raises
     ------
@@ -160,18 +161,18 @@ def stability_limit(
     >>> round(limit.amplitude, 3), round(limit.tongues[0].low, 3)
     (0.059, 0.052)
     """
-    require_out_of_plane(blade)
+    require_out_of_plane(blade, theory)
     require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     growth, largest = positive("growth", growth), peak_deflection("largest", largest)
-    return _limit(blade, omega, mode, growth, largest, flag("inextensible", inextensible))
+    return _limit(blade, omega, mode, growth, largest, theory)
 
 
 @lru_cache(maxsize=256)
 def _limit(
-    blade: AnyBlade, omega: float, mode: int, least: float, largest: float, inextensible: bool
+    blade: AnyBlade, omega: float, mode: int, least: float, largest: float, theory: Theory
 ) -> StabilityLimit:
-    growth = growths(blade, omega, mode, inextensible)
+    growth = growths(blade, omega, mode, theory)
     seen = _scanned(growth, least, largest)
     searched = max(seen)
     amplitude, what, agreed = math.inf, None, True

@@ -24,9 +24,9 @@ from typing import Protocol
 from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ...lazily import xr
-from ..theory import BERNOULLI_EULER, Theory
 
 FrequenciesOf = Callable[[AnyBlade, float, int], float]
 """First natural frequency [rad/s] of (beam, omega, elements) in steady rotation."""

@@ -10,11 +10,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from analytic import Theory
 from analytic.input_checks import finite_number, positive
 
 from ..cases import VERSION
 from ..submission import Declaration
-from ..theory import BERNOULLI_EULER, Theory
 from .content import LARGEST_TOML, text_of
 from .faults import Faults, near, shown
 
@@ -66,11 +66,11 @@ def entry_text(declaration: Declaration) -> str:
         lines.append(f"authors = [{', '.join(map(_quoted, declaration.authors))}]")
     lines += [f"{key} = {float(stated[key])!r}" for key in _ORDERS if stated[key] is not None]
     theory = declaration.theory
-    held = (theory.shear_share is not None, theory.rotary_inertia, declaration.inextensible)
+    held = (theory.shear is not None, theory.rotary_inertia, declaration.inextensible)
     tags = [_quoted(tag) for tag, there in zip(TAGS, held, strict=True) if there]
     lines.append(f"tags = [{', '.join(tags)}]")
-    if theory.shear_share is not None:
-        lines += ["", "[shear]", f"share = {float(theory.shear_share)!r}"]
+    if theory.shear is not None:
+        lines += ["", "[shear]", f"share = {float(theory.shear)!r}"]
     return "\n".join([*lines, ""])
 
 
@@ -84,7 +84,7 @@ def _theory(tags: Iterable[str], shear: dict[str, float] | None) -> Theory:
     if shear is not None:
         share = shear["share"] if "share" in shear else 0.5 * shear["k_s"] / (1.0 + shear["nu"])
     rotary = "rotary-inertia" in tags
-    return Theory(rotary_inertia=rotary, shear_share=share) if rotary or share else BERNOULLI_EULER
+    return Theory(rotary_inertia=rotary, shear=share)
 
 
 def _wrong_with(document: dict[str, Any]) -> _Faults:

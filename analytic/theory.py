@@ -1,0 +1,103 @@
+"""The theory of the beam: which strains its slices have, and whether they have rotary inertia."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .beam import AnyBlade
+from .blade import Blade
+from .input_checks import flag, positive, shown
+from .profiles import evaluated, in_units
+from .unit_blade import UnitBlade
+
+
+@dataclass(frozen=True, kw_only=True)
+class Theory:
+    """Theory of the beam: Bernoulli and Euler's with extension, unless told otherwise.
+
+    Parameters
+    ----------
+    extension : bool
+        Whether the axis stretches; False is the limit of the slenderness μ → 0.
+    shear : float, optional
+        Shear stiffness over axial stiffness, k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the
+        blade, of Reissner's beam. None of a beam whose slices stay normal to the axis.
+    rotary_inertia : bool
+        Whether slices have inertia against rotation in the plane: that of a homogeneous section,
+        ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
+
+    Raises
+    ------
+    ValueError
+        If the shear is not positive, or the beam shears and does not stretch.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Theory, linear_modes
+    >>> for theory in (Theory(extension=False), Theory(), Theory(shear=0.32, rotary_inertia=True)):
+    ...     print(linear_modes(Beam.reference(), 6.0, theory=theory).frequencies.round(4))
+    [ 3.7304 23.0101 56.6472]
+    [ 3.7304 23.0101 56.6471]
+    [ 3.7304 23.0097 56.6442]
+    """
+
+    extension: bool = True
+    shear: float | None = None
+    rotary_inertia: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("extension", "rotary_inertia"):
+            object.__setattr__(self, name, flag(name, getattr(self, name)))
+        if self.shear is None:
+            return
+        object.__setattr__(self, "shear", positive("shear", self.shear))
+        if not self.extension:
+            raise ValueError(
+                "extension=False is the limit of the slender beam, which does not shear either: "
+                "leave shear out, or extension"
+            )
+
+    @property
+    def name(self) -> str:
+        """Name of the beam."""
+        if self.shear is not None:
+            return "Timoshenko"
+        return "with rotary inertia" if self.rotary_inertia else "Bernoulli-Euler"
+
+    def slenderness(self, beam: AnyBlade) -> float:
+        """Return μ = I/(AL²) of a blade, zero of one that does not stretch."""
+        return beam.slenderness if self.extension else 0.0
+
+    def unit(self, beam: AnyBlade) -> UnitBlade:
+        """Return a blade without dimensions, with the rotary inertia of its slices.
+
+        Raises
+        ------
+        ValueError
+            If the section tells no rotary inertia, and has no one ρ/E to take it from.
+        """
+        blade = beam.unit
+        told = isinstance(beam, Blade) and beam.section.rotary_inertia is not None
+        if told or not self.rotary_inertia:
+            return blade
+        x = np.linspace(0.0, 1.0, 257)
+        if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
+            raise ValueError(
+                "mass and axial stiffness of the blade do not vary alike, so that its sections "
+                "have no one ρ/E to take their rotary inertia from: give "
+                "Section(rotary_inertia=...) in kg m"
+            )
+        return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
+
+
+BERNOULLI_EULER = Theory()
+"""The beam that stretches, does not shear, and has no rotary inertia but what its section tells."""
+
+
+def require_theory(theory: object) -> Theory:
+    """Return what is a Theory; refuse what is not."""
+    if not isinstance(theory, Theory):
+        raise TypeError(f"theory must be a Theory, got {shown(theory)}: as Theory(extension=False)")
+    return theory

@@ -1,0 +1,95 @@
+"""The theory of the beam: extension, shear, rotary inertia, of beams and of blades."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.theory import BERNOULLI_EULER, Theory
+
+SHARE = (5.0 / 6.0) / 2.6
+SHEARED = Theory(rotary_inertia=True, shear=SHARE)
+STUBBY = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0
+)
+
+
+def first_frequency(blade, theory):
+    return linear_modes(blade, 3.0, 1, theory=theory).frequencies[0]
+
+
+@pytest.mark.parametrize("theory", [BERNOULLI_EULER, Theory(rotary_inertia=True), SHEARED])
+def test_the_beam_as_a_blade_is_the_same(theory):
+    """Its section is homogeneous: ρI = m EI/EA, which is what the beam has."""
+    blade, spin_up = STUBBY.blade, SpinUp(omega=2.0, ramp_time=1.0)
+    for answer in (
+        lambda one: first_frequency(one, theory),
+        lambda one: periodic_orbits(one, 3.0, [0.2], theory=theory).frequency,
+        lambda one: spin_up_response(one, spin_up, [0.5, 1.0], tolerance=1e-5, theory=theory).q,
+    ):
+        assert answer(blade) == pytest.approx(answer(STUBBY), rel=1e-10)
+
+
+def test_each_has_its_own_frequency():
+    thin, heavy, soft = (
+        first_frequency(STUBBY, one)
+        for one in (BERNOULLI_EULER, Theory(rotary_inertia=True), SHEARED)
+    )
+    assert soft < heavy < thin < first_frequency(STUBBY, Theory(extension=False))
+
+
+def test_orbits_and_histories_shear():
+    spin_up, times = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 2.0, 21)
+    thin, soft = (
+        spin_up_response(STUBBY, spin_up, times, theory=one).q for one in (BERNOULLI_EULER, SHEARED)
+    )
+    assert 1e-3 < np.abs(soft - thin).max() / np.abs(thin).max() < 1e-1
+    orbit = periodic_orbits(STUBBY, 3.0, [1e-3], theory=SHEARED)
+    assert orbit.frequency[0] == pytest.approx(first_frequency(STUBBY, SHEARED), rel=1e-6)
+
+
+def test_a_taper_has_the_inertia_of_its_own_sections():
+    blade = STUBBY.with_taper(0.2, 0.4)
+    own = replace(
+        blade.section, rotary_inertia=tuple(np.multiply(1e-3, blade.section.bending_stiffness))
+    )
+    heavy = first_frequency(blade, Theory(rotary_inertia=True))
+    assert heavy == pytest.approx(
+        first_frequency(replace(blade, section=own), BERNOULLI_EULER), rel=1e-12
+    )
+    assert heavy < first_frequency(blade, BERNOULLI_EULER)
+
+
+def test_inertia_that_the_section_says_stays():
+    said = Section(
+        axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0, rotary_inertia=0.1
+    )
+    blade = replace(STUBBY.blade, section=said)
+    heavy = first_frequency(blade, Theory(rotary_inertia=True))
+    assert heavy == first_frequency(blade, BERNOULLI_EULER)
+
+
+def test_a_section_without_one_density_is_refused():
+    section = replace(STUBBY.blade.section, mass_per_length=(1.0, -0.5))
+    blade = replace(STUBBY.blade, section=section)
+    with pytest.raises(ValueError, match="give Section\\(rotary_inertia"):
+        first_frequency(blade, SHEARED)
+    remedied = replace(blade, section=replace(section, rotary_inertia=(1e-3, -5e-4)))
+    assert first_frequency(remedied, SHEARED) > 0.0
+
+
+def test_the_spin_up_without_extension_is_the_limit_of_slender_beams():
+    """The axial motion leaves q by the slenderness μ, to first order."""
+    spin_up, times = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 2.0, 21)
+    limit = spin_up_response(STUBBY, spin_up, times, theory=Theory(extension=False)).q
+    apart = [
+        np.abs(spin_up_response(beam, spin_up, times).q - limit).max()
+        for beam in (
+            Beam.from_stiffness(
+                length=1.0, axial_stiffness=EA, bending_stiffness=1.0, mass_per_length=1.0
+            )
+            for EA in (1e3, 1e4)
+        )
+    ]
+    assert 8.0 < apart[0] / apart[1] < 12.0
