@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, Damping, ForcedResponse, Gravity
+from analytic import AmplitudeNotReachedError, AnyBlade, Damping, ForcedResponse, Orbits
 from analytic.damping import UNDAMPED
-from analytic.loads import HarmonicLoad
+from analytic.loads import Load
 
 from ..lazily import xr
 from ..verdict import beam_attributes, loads_attributes
@@ -23,7 +23,7 @@ def forced_response(response: ForcedResponse) -> xr.Dataset:
     Parameters
     ----------
     response : ForcedResponse
-        As `analytic.forced_response` or `analytic.gravity_response` returns it.
+        As `analytic.forced_response` returns it.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def forced_response(response: ForcedResponse) -> xr.Dataset:
     RotbeamWarning
         If an internal resonance is near the backbone.
     """
-    weight = isinstance(response.load, Gravity)
+    weight = response.load.by_angle
     omega = None if weight else float(response.omega[0])
     frequency = "rotation speed ω" if weight else "drive frequency ν"
     # The weight across the blade is greatest, and negative, at θ = 0.
@@ -76,9 +76,7 @@ def forced_response(response: ForcedResponse) -> xr.Dataset:
     )
 
 
-def response_inputs(
-    beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
-) -> dict[str, Any]:
+def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     damping: Damping = getattr(beam, "damping", UNDAMPED)
     return {
@@ -93,12 +91,12 @@ def response_inputs(
     }
 
 
-def _backbone(response: ForcedResponse) -> Backbone | None:
+def _backbone(response: ForcedResponse) -> Orbits | None:
     """Return the backbone, or what of it is reached."""
     try:
-        return response.backbone
+        return response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
     except AmplitudeNotReachedError as error:
-        reached: Backbone | None = error.backbone
+        reached: Orbits | None = error.orbits
         return reached
 
 

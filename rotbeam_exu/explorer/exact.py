@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from analytic import AmplitudeNotReachedError, AnyBlade, Backbone, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, Orbits, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 
 from ..lazily import xr
@@ -61,16 +61,14 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
     )
 
 
-def _those_found(
-    beam: AnyBlade, omega: float, wanted: Floats
-) -> tuple[Backbone, dict[str, Floats]]:
+def _those_found(beam: AnyBlade, omega: float, wanted: Floats) -> tuple[Orbits, dict[str, Floats]]:
     """Return the orbits themselves, NaN for those that are not found."""
     try:
         backbone = periodic_orbits(beam, omega, wanted)
     except AmplitudeNotReachedError as error:
-        if error.backbone is None:
+        if error.orbits is None:
             raise
-        backbone = error.backbone
+        backbone = error.orbits
     found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
     tables = {}
     for name, values in _tables(backbone).items():
@@ -79,7 +77,7 @@ def _those_found(
     return backbone, tables
 
 
-def _tables(backbone: Backbone) -> dict[str, Floats]:
+def _tables(backbone: Orbits) -> dict[str, Floats]:
     """Return ω_NL/ω_n and harmonics of the tip and of the axis, (orbits, harmonics, ...)."""
     count = min(TIP_HARMONICS, backbone.harmonics.shape[1])
     tip = np.pad(backbone.harmonics[:, :count], ((0, 0), (0, TIP_HARMONICS - count)))
@@ -89,7 +87,7 @@ def _tables(backbone: Backbone) -> dict[str, Floats]:
     return {"ratio": ratio, "tip": tip, "axis_x": axis_x, "axis_y": axis_y}
 
 
-def in_between(backbone: Backbone, wanted: Floats) -> dict[str, Floats] | None:
+def in_between(backbone: Orbits, wanted: Floats) -> dict[str, Floats] | None:
     """Return the same at other amplitudes, None where a series has not converged."""
     a, top = backbone.amplitude, float(wanted.max())
     at, onto = (chebyshev.chebvander(2.0 * (x / top) ** 2 - 1.0, a.size - 1) for x in (a, wanted))

@@ -8,10 +8,10 @@ from functools import lru_cache
 
 from analytic import (
     AnyBlade,
-    Backbone,
     Beam,
     Damping,
     Gravity,
+    Orbits,
     SpinUp,
     SteadyRotation,
     periodic_orbits,
@@ -106,7 +106,7 @@ def frequency_case(beam: AnyBlade, speeds: tuple[float, ...]) -> Case:
 
 
 @lru_cache(maxsize=8)
-def starting_orbit(case: Case) -> Backbone:
+def starting_orbit(case: Case) -> Orbits:
     """Return the exact orbit that a case starts on, at phase 0; ValueError if it starts at rest."""
     if not isinstance(case.motion, SteadyRotation) or not case.amplitudes:
         raise ValueError(f"case {case.name} starts at rest, on no orbit")

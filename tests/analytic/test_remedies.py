@@ -137,10 +137,10 @@ def test_unsettled_frequencies():
 
 
 def test_amplitude_not_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
-    assert caught.value.backbone.amplitude.tolist() == [0.1]
+    assert caught.value.orbits.amplitude.tolist() == [0.1]
     reached = float(re.search(r"last amplitude reached is ([0-9.]+)", str(caught.value))[1])
     assert complaint(periodic_orbits, beam, 6.0, [0.99 * reached]) == ""
 
@@ -151,7 +151,7 @@ def test_orbit_too_small(beam):
 
 
 def test_orbits_too_fast(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.MOST_FUNCTIONS", 16)
+    monkeypatch.setattr("analytic.exact.free.path.MOST_FUNCTIONS", 16)
     assert complaint(periodic_orbits, beam, 80.0, [0.05]).endswith("rotate slower")
     assert complaint(periodic_orbits, beam, 8.0, [0.05]) == ""
 

@@ -144,7 +144,7 @@ def test_the_reference_lists_what_is_built_on_first():
         ("analytic.reduced.lagrangian", "analytic.reduced.model"),
         ("analytic.reduced.model", "analytic.reduced.tables"),
         ("analytic.methods.system", "analytic.exact.beam.continuum"),
-        ("analytic.exact.beam.continuum", "analytic.exact.free.periodic"),
+        ("analytic.exact.beam.continuum", "analytic.exact.free.backbone"),
     ):
         assert theory.index(first) < theory.index(then)
 

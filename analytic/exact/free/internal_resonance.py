@@ -237,5 +237,5 @@ def warn_of_resonances(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                "tell; backbone_branch follows what branches there"
+                "tell; backbone(...).branch follows what branches there"
             )

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
-from ...blade import Blade
 from ...input_checks import rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import out_of_plane_of, require_out_of_plane
-from ..beam.steady import BeamOrbit
-from ..free.branch import AmplitudeNotReachedError, branch_of
+from ..free.branch import AmplitudeNotReachedError
+from ..free.path import ModePath
 from ..linear.modes import resolved_model
 from .growth import STEPS, Growth, grown, settled_functions
 
@@ -28,44 +26,32 @@ SMALLEST = 0.01
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
 _FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 
-GrowthAt = Callable[[float, int], Growth]
-"""What grows about an orbit, by its amplitude and the multiple of the resolution."""
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlanarOrbits:
+    """Planar orbits of a blade, by their amplitude, and what grows out of their plane."""
 
-@lru_cache(maxsize=32)
-def growths(blade: AnyBlade, omega: float, mode: int, theory: Theory) -> GrowthAt:
-    """Return what finds what grows about the planar orbits of a mode, each once."""
-    orbit = planar_orbits(blade, omega, mode, theory)
+    blade: AnyBlade
+    of: ModePath
 
-    @lru_cache(maxsize=1)
-    def functions() -> int:
-        return settled_functions(blade, orbit(SMALLEST).system)
+    @cached_property
+    def functions(self) -> int:
+        """How many settle the flap modes."""
+        return settled_functions(self.blade, self.of.path.at(SMALLEST).system)
 
-    @lru_cache(maxsize=1024)
-    def growth(amplitude: float, finer: int) -> Growth:
-        return grown(blade, orbit(amplitude), finer * functions(), finer * STEPS)
-
-    return growth
+    def growth(self, amplitude: float, finer: int = 1) -> Growth:
+        """Return what grows about an orbit, at a multiple of the resolution."""
+        orbit = self.of.path.at(amplitude)
+        return grown(self.blade, orbit, finer * self.functions, finer * STEPS)
 
 
 def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int, theory: Theory = BERNOULLI_EULER
-) -> Callable[[float], BeamOrbit]:
-    """Return what finds the planar orbits of a mode by their amplitude, each once.
-
-    Sections that differ out of the plane share them.
-    """
-    if isinstance(blade, Blade):
-        blade = replace(blade, section=replace(blade.section, out_of_plane=None))
-    return _orbits(blade, omega, mode, theory)
-
-
-@lru_cache(maxsize=32)
-def _orbits(
-    blade: AnyBlade, omega: float, mode: int, theory: Theory
-) -> Callable[[float], BeamOrbit]:
+    blade: AnyBlade, omega: float, mode: int = 1, theory: Theory = BERNOULLI_EULER
+) -> PlanarOrbits:
+    """Return the planar orbits of a mode at ω [rad/s]."""
     model = resolved_model(blade, mode, theory, _FUNCTIONS)
-    return lru_cache(maxsize=128)(branch_of(blade, omega, mode, model).path.at)
+    of = ModePath(beam=blade, omega=omega, mode=mode, theory=theory, model=model)
+    return PlanarOrbits(blade=blade, of=of)
 
 
 @one_thread
@@ -76,15 +62,14 @@ def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> Float
     amplitude on that no orbit was found for.
     """
     require_out_of_plane(blade)
-    orbit = planar_orbits(blade, rotation_speed(omega), 1)
+    orbits = planar_orbits(blade, rotation_speed(omega))
     rates = np.full(amplitudes.size, np.nan)
     for k, a in enumerate(amplitudes.tolist()):
         try:
-            at = orbit(a)
+            frequency = orbits.of.path.at(a).frequency
         except NoOrbitError:
             break
-        found = grown(blade, at, settled_functions(blade, at.system), STEPS)
-        rates[k] = found.rate(at.frequency * blade.frequency_scale)
+        rates[k] = orbits.growth(a).rate(frequency * blade.frequency_scale)
     return rates
 
 
@@ -103,12 +88,6 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     amplitude : float
         Peak |q|/L of the motion, about that of an orbit of `mode`.
     mode : int
-
-    Examples
-    --------
-    >>> from analytic import Beam, planar_note
-    >>> planar_note(Beam.reference().rectangle(), 4.0, amplitude=0.05)
-    ''
     """
     require_blade(blade)
     unit = blade.unit
@@ -118,11 +97,11 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         return ""
     omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        growth = growths(blade, omega, mode, BERNOULLI_EULER)
+        orbits = planar_orbits(blade, omega, mode)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
             # What the first resolution finds, the finer one confirms.
-            told = a == amplitude or growth(a, 1).per_radian >= LEAST_GROWTH
-            if told and (what := growth(a, 2)).per_radian >= LEAST_GROWTH:
+            told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH
+            if told and (what := orbits.growth(a, 2)).per_radian >= LEAST_GROWTH:
                 return (
                     f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit "
                     f"of a = {a:.3g} leaves it by {what.per_radian:.2g} per radian ({what.kind} of "

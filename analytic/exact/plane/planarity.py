@@ -14,7 +14,7 @@ from ...input_checks import whole_number
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
-from ..free.periodic import periodic_orbits
+from ..free.backbone import periodic_orbits
 from .growth import STEPS, grown_and_checked
 
 

@@ -98,7 +98,7 @@ class BackboneCurve:
             raise ValueError(
                 f"the curve at omega = {self.omega:g} rad/s holds for amplitudes from 0 up to "
                 f"{self.holds_up_to:.6g}, got {low if low < 0.0 else high:g}: they are the peak of "
-                f"|q|/L; beyond, take periodic_orbits or backbone_branch"
+                f"|q|/L; beyond, take periodic_orbits or backbone(...).branch"
             )
         return amplitude
 
