@@ -52,6 +52,10 @@ from .reduced.unstretched import unstretched_frequencies as unstretched_frequenc
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
 from .section import Section as Section
+from .section_shapes import Circle as Circle
+from .section_shapes import Ellipse as Ellipse
+from .section_shapes import Rectangle as Rectangle
+from .section_shapes import Tube as Tube
 from .spin_up.design import design_ramp as design_ramp
 from .spin_up.quiet import QuietRamps as QuietRamps
 from .spin_up.quiet import exact_residual as exact_residual

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import ClassVar
 
-from .blade import Blade
+from .arrays import FloatArray
+from .blade import Blade, Variations
 from .damping import UNDAMPED, Damping
-from .description import Described
 from .input_checks import positive, shown, warn_if_giga
-from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
+from .point_mass import PointMass
 from .section import Section
+from .section_shapes import Gyration
 from .unit_blade import UNIFORM, UnitBlade
 from .warning import warn
 
@@ -22,7 +25,7 @@ _RPM_SUSPECT = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beam(Described):
+class Beam(Variations):
     """A uniform, initially straight beam; SI units.
 
     Parameters
@@ -58,6 +61,11 @@ class Beam(Described):
     second_moment: float
     youngs_modulus: float
     density: float
+
+    hub_radius: ClassVar[float] = 0.0
+    setting_angle: ClassVar[float] = 0.0
+    point_masses: ClassVar[tuple[PointMass, ...]] = ()
+    damping: ClassVar[Damping] = UNDAMPED
 
     def __post_init__(self) -> None:
         for field, unit in zip(fields(self), ("m", "m^2", "m^4", "Pa", "kg/m^3"), strict=True):
@@ -163,67 +171,38 @@ class Beam(Described):
         return UNIFORM
 
     @property
-    def blade(self) -> Blade:
-        """The same as a `Blade`, without a hub."""
-        return Blade(
-            length=self.length,
-            section=Section(
-                axial_stiffness=self.axial_stiffness,
-                bending_stiffness=self.bending_stiffness,
-                mass_per_length=self.mass_per_length,
-            ),
+    def uniform(self) -> Beam:
+        """The beam itself; a `Blade` has None here."""
+        return self
+
+    def in_units(self, length: float, mass: float, time: float) -> Beam:
+        """Return the beam in units of length [m], mass [kg] and time [s]."""
+        return Beam(
+            length=self.length / length,
+            area=self.area / length**2,
+            second_moment=self.second_moment / length**4,
+            youngs_modulus=self.youngs_modulus * length * time**2 / mass,
+            density=self.density * length**3 / mass,
         )
 
-    def with_hub_radius(self, radius: float) -> Blade:
-        """Return the blade clamped at `radius` [m] from the axis."""
-        return self.blade.with_hub_radius(radius)
+    @cached_property
+    def blade(self) -> Blade:
+        """The same as a `Blade`, without a hub."""
+        return Blade(length=self.length, section=self.section)
 
-    def with_setting_angle(self, angle: float) -> Blade:
-        """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
-        return self.blade.with_setting_angle(angle)
+    @cached_property
+    def section(self) -> Section:
+        """Its section, all along."""
+        return Section(
+            axial_stiffness=self.axial_stiffness,
+            bending_stiffness=self.bending_stiffness,
+            mass_per_length=self.mass_per_length,
+        )
 
-    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with a mass [kg] at `position` [m] from the clamp."""
-        return self.blade.with_point_mass(mass, position, inertia)
-
-    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with a mass [kg] at its tip."""
-        return self.blade.with_tip_mass(mass, inertia)
-
-    def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
-        """Return the blade whose width and height fall to (1 - taper) of the root's at the tip."""
-        return self.blade.with_taper(width, height)
-
-    def with_damping(self, damping: Damping) -> Blade:
-        """Return the blade with `damping`."""
-        return self.blade.with_damping(damping)
-
-    def with_section_out_of_plane(
-        self,
-        bending_ratio: float,
-        torsion_ratio: float | None = None,
-        polar_inertia: float | None = None,
-    ) -> Blade:
-        """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
-        return self.blade.with_section_out_of_plane(bending_ratio, torsion_ratio, polar_inertia)
-
-    def with_out_of_plane(self, out_of_plane: OutOfPlane) -> Blade:
-        """Return the blade with this out of its plane, whatever its A and I."""
-        return self.blade.with_out_of_plane(out_of_plane)
-
-    def rectangle(
-        self, height: float | None = None, width: float | None = None, poisson_ratio: float = 0.3
-    ) -> Blade:
-        """Return the blade with a rectangular section [m] of which the beam has the A and I.
-
-        The height is in the plane; without both, the one rectangle that has them. What contradicts
-        is refused.
-        """
-        return self.blade.with_out_of_plane(rectangle(self._gyration, height, width, poisson_ratio))
-
-    def tube(self, radius: float, wall: float, poisson_ratio: float = 0.3) -> Blade:
-        """Return the blade as a tube of this mean radius and wall [m], with the beam's A and I."""
-        return self.blade.with_out_of_plane(tube(self._gyration, radius, wall, poisson_ratio))
+    @property
+    def frequencies_at_rest(self) -> FloatArray:
+        """Frequencies of bending at rest [rad/s], as those of a `Blade`."""
+        return self.blade.frequencies_at_rest
 
     def __str__(self) -> str:
         return (
@@ -232,7 +211,8 @@ class Beam(Described):
         )
 
     @property
-    def _gyration(self) -> Gyration:
+    def gyration(self) -> Gyration:
+        """I/A and A."""
         return Gyration(squared=self.second_moment / self.area, area=self.area)
 
 

@@ -8,8 +8,10 @@ compare and can be written to files; with_* return new ones.
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -17,10 +19,11 @@ from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
-from .out_of_plane import Gyration, OutOfPlane, rectangle, tube
+from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
 from .profiles import evaluated, in_units
 from .section import Section
+from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
 from .warning import warn
@@ -35,8 +38,82 @@ def _several(masses: object) -> tuple[PointMass, ...]:
     raise TypeError(f"point_masses must be several, as (PointMass(...),), got {shown(masses)}")
 
 
+class Variations(Described, abstract=True):
+    """What is made of a Beam and of a Blade alike: blades that differ in one thing."""
+
+    @property
+    @abstractmethod
+    def blade(self) -> Blade:
+        """The same as a `Blade`."""
+
+    @property
+    def gyration(self) -> Gyration:
+        """I/A at the root, and A where it is known."""
+        blade = self.blade
+        return Gyration(squared=blade.slenderness * blade.length**2)
+
+    def with_hub_radius(self, radius: float) -> Blade:
+        """Return the blade clamped at `radius` [m] from the axis."""
+        return replace(self.blade, hub_radius=radius)
+
+    def with_setting_angle(self, angle: float) -> Blade:
+        """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
+        return replace(self.blade, setting_angle=angle)
+
+    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with one mass [kg] more at `position` [m] from the clamp."""
+        more = (PointMass(position=position, mass=mass, inertia=inertia),)
+        return replace(self.blade, point_masses=self.blade.point_masses + more)
+
+    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
+        """Return the blade with one mass [kg] more at its tip."""
+        return self.with_point_mass(mass, self.blade.length, inertia)
+
+    def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
+        """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
+
+        Mass and EA go with width times height, EI with width times height cubed; the height is
+        the dimension in the plane of bending.
+        """
+        return replace(self.blade, section=self.blade.section.tapered(width, height))
+
+    def with_damping(self, damping: Damping) -> Blade:
+        """Return the blade with `damping` in place of its own."""
+        return replace(self.blade, damping=damping)
+
+    def with_section_out_of_plane(
+        self,
+        bending_ratio: float,
+        torsion_ratio: float | None = None,
+        polar_inertia: float | None = None,
+    ) -> Blade:
+        """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
+        given = OutOfPlane(
+            bending_ratio=bending_ratio, torsion_ratio=torsion_ratio, polar_inertia=polar_inertia
+        )
+        return self._with_out_of_plane(given)
+
+    def with_shape(self, shape: SectionShape) -> Blade:
+        """Return the blade with a shape as its section, refusing one with another I/A or A.
+
+        A `Beam` has A and I; a `Blade` has EA and EI, so that the material of its shape, and A,
+        are free. The ratios out of the plane hold all along the blade.
+        """
+        if not isinstance(shape, SectionShape):
+            raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
+        return self._with_out_of_plane(shape.out_of_plane(self.gyration))
+
+    def in_its_plane(self) -> Blade:
+        """Return the blade of whose section nothing is known out of the plane."""
+        return self._with_out_of_plane(None)
+
+    def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
+        blade = self.blade
+        return replace(blade, section=replace(blade.section, out_of_plane=out_of_plane))
+
+
 @dataclass(frozen=True, kw_only=True)
-class Blade(Described):
+class Blade(Variations):
     """A straight blade of variable section on a hub; SI units.
 
     Parameters
@@ -71,6 +148,8 @@ class Blade(Described):
     setting_angle: float = 0.0
     point_masses: tuple[PointMass, ...] = ()
     damping: Damping = UNDAMPED
+
+    uniform: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         for name, value in (
@@ -107,70 +186,21 @@ class Blade(Described):
                     f"{own:.4g} kg: give it in kg, or clamp the blade there"
                 )
 
-    def with_hub_radius(self, radius: float) -> Blade:
-        """Return the blade clamped at `radius` [m] from the axis."""
-        return replace(self, hub_radius=radius)
-
-    def with_setting_angle(self, angle: float) -> Blade:
-        """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
-        return replace(self, setting_angle=angle)
-
-    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with one mass [kg] more at `position` [m]."""
-        more = (PointMass(position=position, mass=mass, inertia=inertia),)
-        return replace(self, point_masses=self.point_masses + more)
-
-    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with one mass [kg] more at its tip."""
-        return self.with_point_mass(mass, self.length, inertia)
-
-    def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
-        """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
-
-        Mass and EA go with width times height, EI with width times height cubed; the height is
-        the dimension in the plane of bending.
-        """
-        return replace(self, section=self.section.tapered(width, height))
-
-    def with_damping(self, damping: Damping) -> Blade:
-        """Return the blade with `damping` in place of its own."""
-        return replace(self, damping=damping)
-
-    def with_section_out_of_plane(
-        self,
-        bending_ratio: float,
-        torsion_ratio: float | None = None,
-        polar_inertia: float | None = None,
-    ) -> Blade:
-        """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
-        return self.with_out_of_plane(
-            OutOfPlane(
-                bending_ratio=bending_ratio,
-                torsion_ratio=torsion_ratio,
-                polar_inertia=polar_inertia,
-            )
-        )
-
-    def rectangle(
-        self, height: float | None = None, width: float | None = None, poisson_ratio: float = 0.3
-    ) -> Blade:
-        """Return the blade with a rectangular section [m] of which it has the I/A.
-
-        The height is in the plane; without it, the one that fits. What contradicts is refused.
-        """
-        return self.with_out_of_plane(rectangle(self._gyration, height, width, poisson_ratio))
-
-    def tube(self, radius: float, wall: float, poisson_ratio: float = 0.3) -> Blade:
-        """Return the blade as a tube of this mean radius and wall [m], of which it has the I/A."""
-        return self.with_out_of_plane(tube(self._gyration, radius, wall, poisson_ratio))
-
-    def with_out_of_plane(self, out_of_plane: OutOfPlane) -> Blade:
-        """Return the blade with this out of its plane, whatever its A and I."""
-        return replace(self, section=replace(self.section, out_of_plane=out_of_plane))
-
     @property
-    def _gyration(self) -> Gyration:
-        return Gyration(squared=self.slenderness * self.length**2)
+    def blade(self) -> Blade:
+        """The blade itself."""
+        return self
+
+    def in_units(self, length: float, mass: float, time: float) -> Blade:
+        """Return the blade in units of length [m], mass [kg] and time [s]."""
+        return replace(
+            self,
+            length=self.length / length,
+            section=self.section.in_units(length, mass, time),
+            hub_radius=self.hub_radius / length,
+            point_masses=tuple(one.in_units(length, mass) for one in self.point_masses),
+            damping=self.damping.in_units(length, mass, time),
+        )
 
     @property
     def mass(self) -> float:

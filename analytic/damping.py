@@ -61,10 +61,18 @@ class Damping(Described):
             ζ, of the critical damping.
         """
         mode = whole_number("mode", mode)
-        frequencies = getattr(blade, "blade", blade).frequencies_at_rest
+        frequencies = blade.frequencies_at_rest
         if mode > frequencies.size // 2:
             raise ValueError(f"mode must be at most {frequencies.size // 2}, got {mode}")
         return cls(bending=2.0 * not_negative("ratio", ratio) / float(frequencies[mode - 1]))
+
+    def in_units(self, length: float, mass: float, time: float) -> Damping:
+        """Return the same in units of length [m], mass [kg] and time [s]."""
+        return Damping(
+            bending=self.bending / time,
+            axial=self.axial / time,
+            external=self.external * length * time / mass,
+        )
 
     def __bool__(self) -> bool:
         return any((self.bending, self.axial, self.external))

@@ -43,6 +43,14 @@ class PointMass(Described):
         ):
             object.__setattr__(self, name, value)
 
+    def in_units(self, length: float, mass: float) -> PointMass:
+        """Return the same in units of length [m] and mass [kg]."""
+        return PointMass(
+            position=self.position / length,
+            mass=self.mass / mass,
+            inertia=self.inertia / (mass * length**2),
+        )
+
 
 def _off_the_clamp(position: float) -> float:
     at = not_negative("position", position, "m", "it is measured from the clamp to the tip")

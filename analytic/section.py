@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -69,6 +70,23 @@ class Section(Described):
         }
         told = self.rotary_inertia
         return profiles if told is None else profiles | {"rotary_inertia": told}
+
+    def in_units(self, length: float, mass: float, time: float) -> Section:
+        """Return the section in units of length [m], mass [kg] and time [s]."""
+        force = mass * (length / time) ** 2 / length
+        per = {
+            "axial_stiffness": force,
+            "bending_stiffness": force * length**2,
+            "mass_per_length": mass / length,
+            "rotary_inertia": mass * length,
+        }
+        scaled: dict[str, Any] = {
+            name: in_units(profile, length, per[name]) for name, profile in self.profiles().items()
+        }
+        out = self.out_of_plane
+        if out is not None and out.polar_inertia is not None:
+            out = replace(out, polar_inertia=out.polar_inertia / per["rotary_inertia"])
+        return Section(**scaled, out_of_plane=out)
 
     def require_along(self, length: float) -> None:
         """Refuse a section that vanishes on a blade of that length [m], or is given for another."""

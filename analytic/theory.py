@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .beam import AnyBlade
-from .blade import Blade
 from .input_checks import flag, positive, shown
 from .profiles import evaluated, in_units
 from .unit_blade import UnitBlade
@@ -79,7 +78,7 @@ class Theory:
             If the section tells no rotary inertia, and has no one ρ/E to take it from.
         """
         blade = beam.unit
-        told = isinstance(beam, Blade) and beam.section.rotary_inertia is not None
+        told = beam.section.rotary_inertia is not None
         if told or not self.rotary_inertia:
             return blade
         x = np.linspace(0.0, 1.0, 257)

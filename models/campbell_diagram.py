@@ -9,7 +9,7 @@ Frequencies of the exact beam in the plane of rotation, its lag, against the spe
 import matplotlib.pyplot as plt
 import numpy as np
 
-from analytic import Beam, campbell
+from analytic import Beam, Rectangle, campbell
 from rotbeam_exu import figures
 
 plt.style.use(figures.STYLE)
@@ -28,7 +28,8 @@ print(f"mode 1 meets 2ω at ω = {first.omega:.6f} rad/s")
 # Where the section is known, flap, out of the plane, and torsion come along: here of a rectangle
 # with the paper's A and I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is
 # as slow as its third lag.
-flat = campbell(Beam.reference().rectangle(), diagram.omegas, planes=("lag", "flap", "torsion"))
+strip = Beam.reference().with_shape(Rectangle())
+flat = campbell(strip, diagram.omegas, planes=("lag", "flap", "torsion"))
 _, ax = plt.subplots(figsize=(6, 4.5))
 flat.plot(ax, highest=80.0)
 plt.show()

@@ -10,11 +10,11 @@ spin-ups would end. A thin tube with the same :math:`A` and :math:`I` stays.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from analytic import Beam, planar_stability, stability_limit
+from analytic import Beam, Rectangle, Tube, planar_stability, stability_limit
 from rotbeam_exu import comparison, figures
 
 beam = Beam.reference()
-strip, tube = beam.rectangle(), beam.tube(radius=0.015, wall=0.77e-3)
+strip, tube = beam.with_shape(Rectangle()), beam.with_shape(Tube())
 data = comparison.growth_out_of_plane(
     strip, omegas=[0.0, 2.0, 4.0, 6.0], amplitudes=np.geomspace(0.02, 0.3, 8)
 )

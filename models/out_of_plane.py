@@ -10,14 +10,14 @@ stays. Sections are drawn as strips 0.4 m high; nothing else is exaggerated.
 import matplotlib.pyplot as plt
 from matplotlib.animation import ArtistAnimation
 
-from analytic import Beam, SpinUp
+from analytic import Beam, Rectangle, SpinUp, Tube
 from rotbeam_exu import figures, ray_traced, simulate_3d
 
 plt.style.use([figures.STYLE, {"animation.html": "jshtml"}])
 beam, settings = Beam.reference(), {"kick": 1e-3, "duration": 3.4}
 settings["motion"] = SpinUp(omega=6.0, ramp_time=3.0)
-rectangle = simulate_3d(beam.rectangle(), **settings, elements=32, step=2.5e-4)
-tube = simulate_3d(beam.tube(radius=0.015, wall=0.00077), **settings, step=5e-3)
+rectangle = simulate_3d(beam.with_shape(Rectangle()), **settings, elements=32, step=2.5e-4)
+tube = simulate_3d(beam.with_shape(Tube(radius=0.015, wall=0.00077)), **settings, step=5e-3)
 
 _, (picture, axes) = plt.subplots(2, height_ratios=[2.0, 1.0], figsize=(6.0, 4.8))
 picture.imshow(ray_traced(rectangle, times := [0.8, 1.4, 1.8, 2.2, 3.0], whole=True))

@@ -25,7 +25,8 @@ GROUPS = (
     _group(
         "Beam and blade",
         "What turns: its lengths, sections, masses and damping.",
-        analytic="Beam Blade Section PointMass Damping OutOfPlane AnyBlade",
+        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Circle Tube OutOfPlane "
+        "AnyBlade",
     ),
     _group(
         "Motion and loads",

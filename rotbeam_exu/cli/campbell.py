@@ -11,7 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade, Blade
+from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
@@ -20,10 +20,10 @@ from .configuration import configured
 from .motion import chosen_speeds
 from .options import Whole
 from .output import Format, new_console, print_columns, print_written
-from .sections import SectionShape
+from .sections import SectionOptions
 from .targets import Force, refuse_to_replace_unread
 
-_GIVEN = SectionShape()
+_GIVEN = SectionOptions()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
 
@@ -35,7 +35,7 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 10,
-    shape: SectionShape = _GIVEN,
+    shape: SectionOptions = _GIVEN,
     config: Path | None = None,
     format: Format = "table",  # noqa: A002  the name of the option
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
@@ -102,7 +102,7 @@ def campbell(
 
 def _families(beam: AnyBlade) -> list[Plane]:
     """Return the families of modes of which the beam's section tells."""
-    known = beam.section.out_of_plane if isinstance(beam, Blade) else None
+    known = beam.section.out_of_plane
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)

@@ -88,12 +88,13 @@ def compare(
 
 def _uniform(beam: AnyBlade) -> Beam:
     """Refuse a blade: of it the paper's models have nothing to say."""
-    if not isinstance(beam, Beam):
+    known = beam.uniform
+    if known is None:
         raise ValueError(
             "compare holds the paper's models against the exact beam, and they are for the uniform "
             "beam of [beam] only: for a [blade] take rotbeam backbone --variant FrM --exact"
         )
-    return beam
+    return known
 
 
 def _even(motion: Motion) -> Motion:

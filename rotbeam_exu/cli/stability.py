@@ -16,17 +16,17 @@ from .configuration import configured, omega_of
 from .job import Job, drawn
 from .options import Amplitudes, Results, Whole
 from .output import new_console, print_columns, print_text
-from .sections import SectionShape
+from .sections import SectionOptions
 
 _RESULTS = Results()
-_GIVEN = SectionShape()
+_GIVEN = SectionOptions()
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 
 def stability(
     *,
     omega: float | None = None,
-    shape: SectionShape = _GIVEN,
+    shape: SectionOptions = _GIVEN,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     growth: float = LEAST_GROWTH,

@@ -10,8 +10,8 @@ import numpy as np
 from analytic import (
     AnyBlade,
     Beam,
-    OutOfPlane,
     PlanarStability,
+    Rectangle,
     StabilityLimit,
     linear_modes,
     stability_limit,
@@ -109,7 +109,7 @@ def growth_out_of_plane(
     Dataset
         `growth_rate`, zero where stable, over (omega, a).
     """
-    blade = Beam.reference().rectangle() if blade is None else blade
+    blade = Beam.reference().with_shape(Rectangle()) if blade is None else blade
     speeds, peaks = np.linspace(0.0, 8.0, 25), np.geomspace(0.01, 0.4, 24)
     if omegas is not None:
         speeds = finite_values("omegas", omegas, "rad/s")
@@ -147,7 +147,7 @@ def stability_limits(
         `limit` |q|/L over (ratio, omega), infinite where the largest orbit stays in the plane.
     """
     beam = Beam.reference() if beam is None else beam
-    blades = [beam.with_out_of_plane(OutOfPlane.rectangle(ratio)) for ratio in ratios]
+    blades = [beam.blade.with_shape(Rectangle(ratio=ratio)) for ratio in ratios]
     found = [[stability_limit(blade, w, largest=largest) for w in omegas] for blade in blades]
     return xr.Dataset(
         {
@@ -175,7 +175,7 @@ def modes_in_space(
     Dataset
         `frequency` [rad/s] over (plane, mode, omega).
     """
-    blade = Beam.reference().rectangle() if blade is None else blade
+    blade = Beam.reference().with_shape(Rectangle()) if blade is None else blade
     speeds = np.linspace(0.0, 8.0, 17) if omegas is None else np.asarray(omegas, dtype=float)
     families = [
         [linear_modes(blade, w, count).frequencies for w in speeds.tolist()],

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade, Beam
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.loads import Load
@@ -137,8 +137,5 @@ class Loading:
 
 def _of_unit_density(beam: AnyBlade) -> AnyBlade:
     """Return the same blade with a mass per length of one and no other mass."""
-    if isinstance(beam, Beam):
-        # It is not damped, and a force that shifts its sections does not turn them.
-        return replace(beam, density=1.0 / beam.area)
     section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
-    return replace(beam, section=section, point_masses=())
+    return replace(beam.blade, section=section, point_masses=())

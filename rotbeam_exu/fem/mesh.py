@@ -8,9 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic import AnyBlade, Blade, Damping, PointMass
+from analytic import AnyBlade, Damping, PointMass
 from analytic.arrays import FloatArray
-from analytic.damping import UNDAMPED
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
 
@@ -60,12 +59,12 @@ class Mesh:
     @property
     def hub_radius(self) -> float:
         """Where the root is, from the axis."""
-        return self.blade.hub_radius if isinstance(self.blade, Blade) else 0.0
+        return self.blade.hub_radius
 
     @property
     def damping(self) -> Damping:
         """That of the blade; a beam has none."""
-        return self.blade.damping if isinstance(self.blade, Blade) else UNDAMPED
+        return self.blade.damping
 
     @cached_property
     def positions(self) -> FloatArray:
@@ -75,17 +74,6 @@ class Mesh:
 
     def sections(self) -> Iterator[ElementSection]:
         """Yield the section of each element, from the root."""
-        blade = self.blade
-        if not isinstance(blade, Blade):
-            uniform = ElementSection(
-                mass_per_length=blade.mass_per_length,
-                bending_stiffness=blade.bending_stiffness,
-                axial_stiffness=blade.axial_stiffness,
-                rotary_inertia=blade.density * blade.second_moment,
-            )
-            for _ in range(self.elements):
-                yield uniform
-            return
         inner, weights = gauss_points(8)
         at = self.sections_at(inner)
         for m, EI, compliance, turning in zip(
@@ -109,7 +97,7 @@ class Mesh:
         m = blade.mass_per_length * evaluated(unit.mass, x)
         EI = blade.bending_stiffness * evaluated(unit.bending, x)
         EA = blade.axial_stiffness * evaluated(unit.axial, x)
-        told = isinstance(blade, Blade) and blade.section.rotary_inertia is not None
+        told = blade.section.rotary_inertia is not None
         own = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
         return PointSections(
             mass_per_length=m,
@@ -127,8 +115,6 @@ class Mesh:
         ValueError
             If a mass is not at a node.
         """
-        if not isinstance(self.blade, Blade):
-            return
         for one in self.blade.point_masses:
             node = round((self.positions.size - 1) * one.position / self.blade.length)
             off = abs(self.hub_radius + one.position - self.positions[node])

@@ -12,18 +12,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
-from analytic import (
-    AnyBlade,
-    Beam,
-    BeamState,
-    Blade,
-    Damping,
-    PointMass,
-    Section,
-)
+from analytic import AnyBlade, BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
-from analytic.profiles import in_units
 
 StateT = TypeVar("StateT", bound=BeamState)
 """A state of the plane, or of space."""
@@ -57,50 +48,7 @@ class Units:
 
     def beam(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam or blade in these units."""
-        if isinstance(beam, Blade):
-            return self._blade(beam)
-        return Beam(
-            length=beam.length / self.length,
-            area=beam.area / self.length**2,
-            second_moment=beam.second_moment / self.length**4,
-            youngs_modulus=beam.youngs_modulus * self.length**3 / self.energy,
-            density=beam.density * self.length**3 / self.mass,
-        )
-
-    def _blade(self, blade: Blade) -> Blade:
-        force = self.energy / self.length
-        per = {
-            "axial_stiffness": force,
-            "bending_stiffness": force * self.length**2,
-            "mass_per_length": self.mass / self.length,
-            "rotary_inertia": self.mass * self.length,
-        }
-        profiles = blade.section.profiles()
-        scaled: dict[str, Any] = {
-            name: in_units(profile, self.length, per[name]) for name, profile in profiles.items()
-        }
-        out = blade.section.out_of_plane
-        if out is not None and out.polar_inertia is not None:
-            out = replace(out, polar_inertia=out.polar_inertia / per["rotary_inertia"])
-        return Blade(
-            length=blade.length / self.length,
-            section=Section(**scaled, out_of_plane=out),
-            hub_radius=blade.hub_radius / self.length,
-            setting_angle=blade.setting_angle,
-            point_masses=tuple(
-                PointMass(
-                    position=one.position / self.length,
-                    mass=one.mass / self.mass,
-                    inertia=one.inertia / (self.mass * self.length**2),
-                )
-                for one in blade.point_masses
-            ),
-            damping=Damping(
-                bending=blade.damping.bending / self.time,
-                axial=blade.damping.axial / self.time,
-                external=blade.damping.external * self.length * self.time / self.mass,
-            ),
-        )
+        return beam.in_units(self.length, self.mass, self.time)
 
     def loads(self, loads: Iterable[Load]) -> tuple[Load, ...]:
         """Return the loads of a motion in time in these units."""

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
+from analytic.description import from_description
+from analytic.section_shapes import SectionShape
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
 _DAMPING = tuple(field.name for field in fields(Damping))
@@ -25,7 +27,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
-    and polar_inertia [kg m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
+    and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
+    lengths [m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
     bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not of point
     masses, each zero where it is not given.
 
@@ -91,14 +94,16 @@ def beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
         raise ValueError(text if text.startswith(str(source)) else f"{source}: {text}") from error
 
 
-def _beam(table: dict[str, Any], source: Path) -> Beam:
+def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
     by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
     wanted = _STIFFNESS if by_stiffness else _MATERIAL
-    require_keys(table, "[beam]", source, wanted)
-    return Beam.from_stiffness(**table) if by_stiffness else Beam(**table)
+    require_keys(table, "[beam]", source, wanted, () if by_stiffness else ("shape",))
+    if by_stiffness:
+        return Beam.from_stiffness(**table)
+    return _shaped(Beam(**{name: table[name] for name in wanted}), table.get("shape"))
 
 
-def _blade(table: dict[str, Any], source: Path) -> Blade:
+def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
     require_keys(
         table, "[blade]", source, ("length", "section"),
         ("hub_radius", "setting_angle", "point_mass", "damping"),
@@ -111,26 +116,41 @@ def _blade(table: dict[str, Any], source: Path) -> Blade:
             "[[blade.point_mass]] as tables"
         )
     require_keys(
-        section, "[blade.section]", source, _STIFFNESS[1:], ("rotary_inertia", "out_of_plane")
-    )
-    beyond = section.get("out_of_plane")
+        section, "[blade.section]", source, _STIFFNESS[1:],
+        ("rotary_inertia", "out_of_plane", "shape"),
+    )  # fmt: skip
+    beyond, shape = section.get("out_of_plane"), section.get("shape")
     if beyond is not None:
         if not isinstance(beyond, dict):
             raise ValueError(f"{source}: write [blade.section.out_of_plane] as a table")
         title = "[blade.section.out_of_plane]"
         require_keys(beyond, title, source, _OUT_OF_PLANE[:1], _OUT_OF_PLANE[1:])
+        if shape is not None:
+            raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
     require_keys(damping, "[blade.damping]", source, (), _DAMPING)
     for one in masses:
         require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
-    out_of_plane = None if beyond is None else OutOfPlane(**beyond)
-    return Blade(
+    profiles = {name: value for name, value in section.items() if name != "shape"}
+    profiles["out_of_plane"] = None if beyond is None else OutOfPlane(**beyond)
+    blade = Blade(
         **{name: value for name, value in table.items() if name != "point_mass"}
         | {
-            "section": Section(**section | {"out_of_plane": out_of_plane}),
+            "section": Section(**profiles),
             "point_masses": tuple(PointMass(**one) for one in masses),
             "damping": Damping(**damping),
         }
     )
+    return _shaped(blade, shape)
+
+
+def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
+    """Return the beam with the shape of a table, or itself without one."""
+    if shape is None:
+        return beam
+    if not isinstance(shape, dict):
+        raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
+    family: Any = SectionShape
+    return beam.with_shape(from_description(shape, family))
 
 
 def require_keys(

@@ -106,7 +106,7 @@ def row_of(case: Case) -> dict[str, Any]:
     ValueError
         If the case has what these names cannot say.
     """
-    blade = case.blade if isinstance(case.blade, Blade) else case.blade.blade
+    blade = case.blade.blade
     ramp = case.motion.ramp_time if isinstance(case.motion, SpinUp) else None
     row = {
         "id": case.name,

@@ -14,6 +14,7 @@ from analytic import (
     Gravity,
     OutOfPlane,
     PointMass,
+    Rectangle,
     RotbeamWarning,
     Section,
     SpinUp,
@@ -37,7 +38,7 @@ from analytic import (
 from rotbeam_exu import natural_frequencies, simulate, simulate_3d, sweep
 
 BEAM = Beam.reference()
-STRIP = BEAM.rectangle()
+STRIP = BEAM.with_shape(Rectangle())
 DAMPED = BEAM.with_damping(Damping(external=0.1))
 PUSH = TipForce(amplitude=0.5)
 SLOW = SpinUp(omega=2.0, ramp_time=1.0)

@@ -3,11 +3,13 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
-from analytic import Beam, Blade, OutOfPlane, Section
+from analytic import Beam, Blade, Circle, Ellipse, OutOfPlane, Rectangle, Section, Tube
 from analytic.description import describe, from_description
 
+BEAM = Beam.reference()
 UNIT = Blade(
     length=1.0,
     section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0),
@@ -21,19 +23,41 @@ UNIT = Blade(
 )
 @pytest.mark.parametrize("standing", [True, False])
 def test_torsion_of_the_rectangle(ratio, torsion, standing):
-    section = OutOfPlane.rectangle(ratio if standing else 1.0 / ratio, poisson_ratio=0.0)
+    shape = Rectangle(ratio=ratio if standing else 1.0 / ratio, poisson_ratio=0.0)
+    section = UNIT.with_shape(shape).section.out_of_plane
     inertia = (ratio**3 if standing else ratio) / 12.0  # in the plane, shorter side 1
     assert 2.0 * inertia * section.torsion_ratio == pytest.approx(torsion * ratio, rel=3e-3)
     assert section.bending_ratio == pytest.approx(ratio ** (-2 if standing else 2))
 
 
 def test_the_sections_with_the_a_and_i_of_the_paper(beam):
-    rectangle = beam.rectangle().section.out_of_plane
+    rectangle = beam.with_shape(Rectangle()).section.out_of_plane
     assert rectangle.bending_ratio**-0.5 == pytest.approx(18.5, abs=0.05)
-    assert beam.rectangle(0.03675, 0.001986).section.out_of_plane.bending_ratio == pytest.approx(
-        rectangle.bending_ratio, rel=1e-3
-    )
-    assert beam.tube(0.015, 0.77e-3) == beam.with_out_of_plane(OutOfPlane.circle())
+    mine = beam.with_shape(Rectangle(height=0.03675, width=0.001986)).section.out_of_plane
+    assert mine.bending_ratio == pytest.approx(rectangle.bending_ratio, rel=1e-3)
+    assert beam.with_shape(Tube(radius=0.015, wall=0.77e-3)) == beam.with_shape(Tube())
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 4.0])
+def test_torsion_of_the_ellipse(ratio):
+    """GJ = G π a³b³/(a² + b²) by quadrature of Prandtl's stress function (1 - y²/a² - z²/b²)."""
+    a, b = ratio, 1.0
+    r, weights = np.polynomial.legendre.leggauss(8)
+    r, weights = 0.5 * (r + 1.0), 0.5 * weights
+    stress = a**2 * b**2 / (a**2 + b**2) * (1.0 - r**2)
+    J = 2.0 * 2.0 * math.pi * a * b * np.sum(weights * r * stress)
+    shape = Ellipse(ratio=ratio, poisson_ratio=0.25)
+    section = UNIT.with_shape(shape).section.out_of_plane
+    assert section.torsion_ratio == pytest.approx(J / (2.5 * 0.25 * math.pi * a**3 * b))
+    assert section.bending_ratio == pytest.approx(1.0 / ratio**2)
+
+
+def test_a_round_ellipse_is_a_circle_and_a_thick_tube():
+    circle = UNIT.with_shape(Circle())
+    assert UNIT.with_shape(Ellipse(ratio=1.0)) == circle
+    assert UNIT.with_shape(Tube()) == circle
+    assert circle.section.out_of_plane == OutOfPlane(bending_ratio=1.0, torsion_ratio=1.0 / 1.3)
+    UNIT.with_shape(Circle(radius=2e-3))
 
 
 def test_they_are_values_and_travel(beam):
@@ -49,20 +73,40 @@ def test_they_are_values_and_travel(beam):
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
-        (lambda: Beam.reference().rectangle(0.04, 0.002), "has I/A = .* 18.5 % from .* fits it"),
-        (lambda: Beam.reference().rectangle(0.03675, 0.004), "has A = .* 101 % from .* fits it"),
-        (lambda: Beam.reference().tube(0.02, 0.001), "radius=0.015, wall=0.0007746 fits it"),
-        (lambda: Beam.reference().tube(0.001, 0.003), "0.002 m is the full circle"),
-        (UNIT.rectangle, "needs its width"),
-        (lambda: UNIT.rectangle(1.0, 0.1), "height=0.003464 fits it"),
-        (lambda: UNIT.tube(1.0, 0.1), "radius=0.001414 fits it"),
+        (
+            lambda: BEAM.with_shape(Rectangle(height=0.04, width=0.002)),
+            "has I/A = .* 18.5 % from .* fits it",
+        ),
+        (
+            lambda: BEAM.with_shape(Rectangle(height=0.03675, width=0.004)),
+            "has A = .* 101 % from .* fits it",
+        ),
+        (
+            lambda: BEAM.with_shape(Tube(radius=0.02, wall=0.001)),
+            "radius=0.015, wall=0.0007746 fits it",
+        ),
+        (
+            lambda: BEAM.with_shape(Tube(radius=0.001, wall=0.003)),
+            "0.002 m is the full circle",
+        ),
+        (lambda: UNIT.with_shape(Rectangle()), "needs its width"),
+        (lambda: UNIT.with_shape(Rectangle(width=1.0, ratio=2.0)), "not both"),
+        (lambda: UNIT.with_shape(Rectangle(width=-1.0)), "width must be positive"),
+        (
+            lambda: UNIT.with_shape(Rectangle(height=1.0, width=0.1)),
+            "height=0.003464 fits it",
+        ),
+        (lambda: UNIT.with_shape(Tube(radius=1.0, wall=0.1)), "radius=0.001414 fits it"),
         (lambda: UNIT.with_section_out_of_plane(0.0), "bending_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, -1.0), "torsion_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, 1.0, -1.0), "polar_inertia must not be"),
-        (lambda: OutOfPlane.rectangle(1e-4), "between 0.001 and 1000, got 0.0001"),
-        (lambda: OutOfPlane.rectangle(2.0, 0.6), "poisson_ratio must be at most 0.5"),
         (
-            lambda: UNIT.with_out_of_plane(OutOfPlane.circle()).with_taper(height=0.5),
+            lambda: UNIT.with_shape(Rectangle(ratio=1e-4)),
+            "between 0.001 and 1000, got 0.0001",
+        ),
+        (lambda: Rectangle(ratio=2.0, poisson_ratio=0.6), "poisson_ratio must be at most 0.5"),
+        (
+            lambda: UNIT.with_shape(Tube()).with_taper(height=0.5),
             "taper both alike",
         ),
     ],
@@ -73,9 +117,9 @@ def test_contradictions_are_refused(wrong, sentence):
 
 
 def test_what_the_sentences_advise_works():
-    Beam.reference().tube(radius=0.015, wall=0.0007746)
-    Beam.reference().rectangle(height=0.03675, width=0.001986)
-    UNIT.rectangle(height=0.003464, width=0.1)
-    UNIT.tube(radius=0.001414, wall=1e-5)
-    UNIT.with_out_of_plane(OutOfPlane.circle()).with_taper(width=0.5, height=0.5)
-    UNIT.with_taper(height=0.5).with_out_of_plane(OutOfPlane.circle())
+    Beam.reference().with_shape(Tube(radius=0.015, wall=0.0007746))
+    Beam.reference().with_shape(Rectangle(height=0.03675, width=0.001986))
+    UNIT.with_shape(Rectangle(height=0.003464, width=0.1))
+    UNIT.with_shape(Tube(radius=0.001414, wall=1e-5))
+    UNIT.with_shape(Tube()).with_taper(width=0.5, height=0.5)
+    UNIT.with_taper(height=0.5).with_shape(Tube())

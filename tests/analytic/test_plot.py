@@ -11,6 +11,7 @@ import pytest
 from analytic import (
     Beam,
     Damping,
+    Rectangle,
     SpeedRipple,
     backbone_curve,
     campbell,
@@ -82,7 +83,7 @@ def test_a_campbell_diagram_names_its_modes_apart(beam):
 def test_the_dots_of_a_campbell_diagram_lie_on_its_curves(beam):
     """Also between speeds 6 rad/s apart, in all families: to a third of a pixel of 400."""
     planes = ("lag", "flap", "torsion")
-    diagram = campbell(beam.rectangle(), [0.0, 6.0, 12.0], 1, 8, planes=planes)
+    diagram = campbell(beam.with_shape(Rectangle()), [0.0, 6.0, 12.0], 1, 8, planes=planes)
     ax = diagram.plot()
     curves = dict(zip(planes, ax.lines[-4:-1], strict=True))
     assert {one.plane for one in diagram.crossings} == set(planes)
@@ -118,7 +119,7 @@ def test_no_mode_crosses_the_name_of_a_line(beam):
 
 
 def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
-    diagram = campbell(beam.rectangle(), [0.0, 4.0], 2, planes=("flap", "torsion"))
+    diagram = campbell(beam.with_shape(Rectangle()), [0.0, 4.0], 2, planes=("flap", "torsion"))
     ax = diagram.plot(highest=100.0)
     names = {text.get_text() for text in ax.texts}
     assert {"flap 1", "flap 2", "torsion 1"} <= names

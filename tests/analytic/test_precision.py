@@ -14,6 +14,7 @@ from analytic import (
     Gravity,
     OutOfPlane,
     PointMass,
+    Rectangle,
     Section,
     SmoothRamp,
     SpeedRipple,
@@ -22,6 +23,7 @@ from analytic import (
     Table,
     Theory,
     TipForce,
+    Tube,
     backbone,
     backbone_curve,
     campbell,
@@ -42,7 +44,7 @@ from analytic import (
 from analytic.exact.plane.orbit_growth import planar_note
 
 BEAM = Beam.reference()
-STRIP = BEAM.rectangle()
+STRIP = BEAM.with_shape(Rectangle())
 SOFT_FLAP = BEAM.with_section_out_of_plane(0.01, math.inf)
 DAMPED = BEAM.with_damping(Damping(bending=0.0625, external=0.125))
 SLOW = SpinUp(omega=2.0, ramp_time=3.0)
@@ -113,7 +115,8 @@ ANSWERS = {
     ).with_tip_mass(n(0.125)).frequencies_at_rest,
     "damping from a ratio": lambda n: Damping.from_ratio(BEAM, 1, n(0.0625)),
     "shapes": lambda n: [
-        OutOfPlane.rectangle(n(2), n(0.25)), OutOfPlane.circle(n(0.25)), paper_table(5).rows[0]
+        BEAM.blade.with_shape(Rectangle(ratio=n(2), poisson_ratio=n(0.25))).section,
+        BEAM.blade.with_shape(Tube(poisson_ratio=n(0.25))).section, paper_table(5).rows[0],
     ],
     "a state": lambda n: periodic_orbits(BEAM, 6.0, [0.25]).state(0, [n(4), n(8)], phase=n(1)).v,
 }  # fmt: skip

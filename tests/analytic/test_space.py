@@ -1,6 +1,7 @@
 """Motion out of the plane: the second-order Lagrangian, its limits, and resonances of a bar."""
 
 import math
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ from analytic import (
     Beam,
     Blade,
     OutOfPlane,
+    Rectangle,
     Section,
     Theory,
+    Tube,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -35,7 +38,7 @@ SLENDER_LIMIT = Theory(extension=False)
 
 
 def growth(section, w_bar, a, *, theory=SLENDER_LIMIT, functions=12, steps=STEPS):
-    blade = BEAM.with_out_of_plane(section)
+    blade = BEAM.with_section_out_of_plane(**asdict(section))
     (orbit,) = periodic_orbits(
         blade, w_bar * blade.frequency_scale, a, theory=theory
     ).nondimensional
@@ -98,13 +101,13 @@ def test_about_the_steady_state_it_has_the_flap_modes(blade, digits):
 def test_flap_squared_is_lag_squared_and_the_speed_squared(beam, rate):
     lag = linear_modes(beam, rate, theory=Theory(extension=False)).frequencies
     flap = linear_modes(
-        beam.tube(0.015, 0.77e-3), rate, plane="flap", theory=Theory(extension=False)
+        beam.with_shape(Tube()), rate, plane="flap", theory=Theory(extension=False)
     ).frequencies
     assert np.sqrt(lag**2 + rate**2) == pytest.approx(flap, rel=1e-8)
 
 
 def test_torsional_frequencies_are_those_of_a_rod(beam):
-    blade = beam.rectangle()
+    blade = beam.with_shape(Rectangle())
     section = blade.section.out_of_plane
     rod = math.sqrt(section.torsion_ratio / (beam.slenderness * (1.0 + section.bending_ratio)))
     rod *= beam.frequency_scale
@@ -128,7 +131,7 @@ def test_the_rotation_stiffens_torsion_by_propeller_moment_and_trapeze_effect(be
     The rest is what the tension w²(1 - x²)/2 and k² = j add in the mode sin(πx/2), to first order
     in w̄²j/g = 0.03.
     """
-    blade, omega = beam.rectangle(), 12.0
+    blade, omega = beam.with_shape(Rectangle()), 12.0
     r = blade.section.out_of_plane.bending_ratio
     at_rest, turning = (
         linear_modes(blade, w, 1, plane="torsion").frequencies[0] for w in (0.0, omega)
@@ -141,7 +144,7 @@ def test_the_rotation_stiffens_torsion_by_propeller_moment_and_trapeze_effect(be
 
 def test_both_effects_lower_the_growth_of_the_strip(beam, monkeypatch):
     """By 0.5 % at 2 rad/s; 0.7 % if GJ is raised all along by what it is at the root."""
-    strip = beam.rectangle()
+    strip = beam.with_shape(Rectangle())
     torsion = [linear_modes(strip, w, 1, plane="torsion").frequencies[0] for w in (0.0, 2.0, 8.0)]
     assert torsion[1] ** 2 / torsion[0] ** 2 == pytest.approx(1.002, abs=5e-4)
     assert torsion[2] ** 2 / torsion[0] ** 2 == pytest.approx(1.03, abs=5e-3)
@@ -285,9 +288,9 @@ def test_torsion_does_not_matter_to_a_round_section():
 
 def test_without_inertia_the_twist_follows(beam, fitted_order):
     """Growth of the paper's rectangle, ever less inertia: to that of the quasi-static twist."""
-    shape = beam.rectangle().section.out_of_plane
+    shape = beam.with_shape(Rectangle()).section.out_of_plane
     (orbit,) = periodic_orbits(beam, 2.0, 0.15).nondimensional
-    shape = OutOfPlane.rectangle(6.0)
+    shape = beam.blade.with_shape(Rectangle(ratio=6.0)).section.out_of_plane
 
     def exponent(share):
         section = OutOfPlane(
@@ -295,7 +298,7 @@ def test_without_inertia_the_twist_follows(beam, fitted_order):
             torsion_ratio=shape.torsion_ratio,
             polar_inertia=share * beam.slenderness * beam.mass_per_length * beam.length**2,
         )
-        return grown(beam.with_out_of_plane(section), orbit, 10, 48).exponent
+        return grown(beam.with_section_out_of_plane(**asdict(section)), orbit, 10, 48).exponent
 
     shares = np.array([1.0, 2.0, 4.0])
     apart = [abs(exponent(share) - exponent(0.0)) for share in shares]

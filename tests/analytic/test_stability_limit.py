@@ -11,10 +11,11 @@ from analytic import (
     AmplitudeNotReachedError,
     Blade,
     Damping,
-    OutOfPlane,
     PlanarStability,
+    Rectangle,
     Section,
     SpinUp,
+    Tube,
     campbell,
     linear_modes,
     planar_stability,
@@ -46,7 +47,7 @@ LIMITS = {
 
 
 def first_unstable(beam, omega, ratio, amplitudes):
-    blade = beam.with_out_of_plane(OutOfPlane.rectangle(ratio))
+    blade = beam.blade.with_shape(Rectangle(ratio=ratio))
     found = planar_stability(blade, omega, amplitudes)
     unstable = found.amplitude[~found.stable]
     return unstable.min() if unstable.size else None
@@ -83,7 +84,7 @@ def test_the_pages_state_these_limits():
 @pytest.mark.filterwarnings("ignore:internal resonance")
 @pytest.mark.parametrize(("omega", "ratio"), LIMITS)
 def test_the_limits_of_the_table(beam, omega, ratio):
-    found = stability_limit(beam.with_out_of_plane(OutOfPlane.rectangle(ratio)), omega)
+    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=ratio)), omega)
     # Printed to four digits; bisected to 1e-4 of itself.
     assert found.amplitude == pytest.approx(LIMITS[omega, ratio], rel=2e-3)
     assert found.converged
@@ -91,7 +92,7 @@ def test_the_limits_of_the_table(beam, omega, ratio):
 
 @pytest.fixture(scope="module")
 def strip_at_6(beam):
-    return stability_limit(beam.rectangle(), 6.0, largest=0.1)
+    return stability_limit(beam.with_shape(Rectangle()), 6.0, largest=0.1)
 
 
 @pytest.mark.slow  # cheaper sections below have a tongue and a limit that their edges tell
@@ -104,7 +105,7 @@ def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, stri
     above = np.linspace(limit.amplitude * 1.0005, 0.09, 8)
     between = [one.low * 0.997 for one in limit.tongues]
     inside = [0.5 * (one.low + one.high) for one in limit.tongues]
-    found = planar_stability(beam.rectangle(), 6.0, [*between, *inside, *above])
+    found = planar_stability(beam.with_shape(Rectangle()), 6.0, [*between, *inside, *above])
     per_radian = found.growth_rate / found.frequency
     count = len(between)
     assert np.all(per_radian[2 * count :] >= 0.01)
@@ -118,9 +119,9 @@ def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, stri
 
 @pytest.mark.slow
 def test_the_limit_rises_with_the_growth_that_counts(beam, strip_at_6):
-    most = stability_limit(beam.rectangle(), 6.0, growth=3.0, largest=0.1).amplitude
+    most = stability_limit(beam.with_shape(Rectangle()), 6.0, growth=3.0, largest=0.1).amplitude
     assert 1.1 * strip_at_6.amplitude < most < 0.1
-    grows = planar_stability(beam.rectangle(), 6.0, [0.99 * most, 1.01 * most])
+    grows = planar_stability(beam.with_shape(Rectangle()), 6.0, [0.99 * most, 1.01 * most])
     assert np.sign(grows.growth_rate / grows.frequency - 3.0).tolist() == [-1.0, 1.0]
 
 
@@ -147,10 +148,10 @@ def test_all_spin_ups_of_the_paper_leave_the_plane_as_a_rectangle_and_not_as_a_t
         found = spin_up_response(beam, SpinUp(omega=omega, ramp_time=ramp), times, tolerance=1e-3)
         ends.append(0.5 * np.ptp(found.q) / beam.length)
     assert min(ends) > 0.097
-    limit = stability_limit(beam.rectangle(), omega)
+    limit = stability_limit(beam.with_shape(Rectangle()), omega)
     assert limit.amplitude < min(ends)
-    assert not planar_stability(beam.rectangle(), omega, ends).stable.any()
-    assert planar_stability(beam.tube(0.015, 0.77e-3), omega, ends).stable.all()
+    assert not planar_stability(beam.with_shape(Rectangle()), omega, ends).stable.any()
+    assert planar_stability(beam.with_shape(Tube()), omega, ends).stable.all()
 
 
 def test_the_limit_lies_between_the_amplitudes_that_tell(beam):
@@ -199,12 +200,12 @@ def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
 
 @pytest.mark.slow
 def test_a_map_has_no_number_where_there_is_no_orbit(beam):
-    rates = growth_rates(beam.rectangle(), 8.0, np.array([0.02, 0.97]))
+    rates = growth_rates(beam.with_shape(Rectangle()), 8.0, np.array([0.02, 0.97]))
     assert np.isnan(rates).tolist() == [False, True]
 
 
 def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
-    found = stability_limit(beam.with_out_of_plane(OutOfPlane.rectangle(1.0)), 6.0, largest=0.03)
+    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=1.0)), 6.0, largest=0.03)
     assert math.isinf(found.amplitude)
     assert "stay in their plane, up to a = 0.03" in str(found)
 
@@ -212,12 +213,12 @@ def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
 @pytest.mark.parametrize("omega", [0.0, 1e-3])
 def test_a_tube_that_hardly_turns_stays_in_the_plane(beam, omega):
     """Its plane may nearly be turned: multipliers near a double 1, which nothing may split."""
-    found = planar_stability(beam.tube(0.015, 0.77e-3), omega, [0.1, 0.4])
+    found = planar_stability(beam.with_shape(Tube()), omega, [0.1, 0.4])
     assert found.stable.all()
 
 
 def test_a_twist_without_inertia_that_buckles_grows_without_bound(beam):
-    shape = OutOfPlane.rectangle(18.5)
+    shape = beam.blade.with_shape(Rectangle(ratio=18.5)).section.out_of_plane
     blade = beam.with_section_out_of_plane(shape.bending_ratio, shape.torsion_ratio, 0.0)
     found = planar_stability(blade, 2.0, 0.3)
     assert found.growth_rate[0] == math.inf
@@ -226,14 +227,14 @@ def test_a_twist_without_inertia_that_buckles_grows_without_bound(beam):
 
 def test_a_stability_of_growth_that_overflows_is_finite(beam):
     """The rectangle at 0.4 of its length: multipliers beyond what a number holds."""
-    found = planar_stability(beam.rectangle(), 2.0, 0.4)
+    found = planar_stability(beam.with_shape(Rectangle()), 2.0, 0.4)
     assert isinstance(found, PlanarStability)
     assert 50.0 < found.growth_rate[0] < 500.0
     assert not found.converged[0]
 
 
 def test_all_three_families_in_the_campbell_diagram(beam):
-    blade = beam.rectangle()
+    blade = beam.with_shape(Rectangle())
     diagram = campbell(blade, [0.0, 1.0, 2.0], 2, 3, planes=("lag", "flap", "torsion"))
     assert diagram.planes == ("lag", "lag", "flap", "flap", "torsion", "torsion")
     for plane, columns in (("lag", [0, 1]), ("flap", [2, 3]), ("torsion", [4, 5])):
@@ -246,7 +247,7 @@ def test_all_three_families_in_the_campbell_diagram(beam):
     assert met
 
 
-ROUND = OutOfPlane.circle()
+ROUND = Tube()
 UNIT = Blade(
     length=1.0,
     section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0),
@@ -265,20 +266,19 @@ UNIT = Blade(
             "torsional stiffness decides .* math.inf",
         ),
         (
-            lambda: planar_stability(
-                UNIT.with_out_of_plane(ROUND).with_setting_angle(0.3), 1.0, 0.1
-            ),
+            lambda: planar_stability(UNIT.with_shape(ROUND).with_setting_angle(0.3), 1.0, 0.1),
             r"set at 0.3 rad: take blade.with_setting_angle\(0.0\)",
         ),
         (
-            lambda: stability_limit(
-                UNIT.with_out_of_plane(ROUND).with_damping(Damping(bending=0.1)), 1.0
-            ),
+            lambda: stability_limit(UNIT.with_shape(ROUND).with_damping(Damping(bending=0.1)), 1.0),
             "damped blade has no free periodic orbits",
         ),
-        (lambda: planar_stability(UNIT.with_out_of_plane(ROUND), 1.0, 1.5), "between 0 and 1"),
-        (lambda: stability_limit(UNIT.with_out_of_plane(ROUND), 1.0, largest=1.0), "below 1"),
-        (lambda: stability_limit(UNIT.with_out_of_plane(ROUND), 1.0, growth=0.0), "growth must be"),
+        (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 1.5), "between 0 and 1"),
+        (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),
+        (
+            lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, growth=0.0),
+            "growth must be",
+        ),
         (
             lambda: linear_modes(
                 UNIT.with_section_out_of_plane(1.0, math.inf), 1.0, plane="torsion"
@@ -307,4 +307,4 @@ def test_what_is_refused(ask, sentence):
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
-        planar_stability(beam.rectangle(), 4.0, 0.2, mode=3)
+        planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode=3)

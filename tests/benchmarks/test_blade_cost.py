@@ -13,6 +13,7 @@ from analytic import (
     Blade,
     Damping,
     Gravity,
+    Rectangle,
     Section,
     SpinUp,
     TipForce,
@@ -53,7 +54,7 @@ def test_a_blade_that_is_the_beam_costs_what_the_beam_does(beam, name):
 
 def test_an_amplitude_out_of_the_plane_costs_a_fraction_of_a_second(beam):
     """The orbit, and what grows about it at two resolutions, with a twist that has inertia."""
-    blade = beam.rectangle()
+    blade = beam.with_shape(Rectangle())
     planar_stability(blade, 4.0, [0.05])  # the first time is no measure
     took = [seconds(lambda b: planar_stability(b, 4.0, [0.02, 0.035, 0.05]), blade) / 3.0]
     took += [seconds(lambda b: planar_stability(b, 4.0, [0.02, 0.035, 0.05]), blade) / 3.0]

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analytic import OutOfPlane, planar_stability
+from analytic import Rectangle, planar_stability
 from rotbeam_exu import load
 from rotbeam_exu.verdict import beam_of
 
@@ -37,7 +37,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam):
     (tongue,) = [line for line in out.partition("Tongues")[2].splitlines() if " 0.2955 " in line]
     assert "sum" in tongue
     assert " 0.3532 " in tongue
-    blade = beam.with_out_of_plane(OutOfPlane.rectangle(3.0))
+    blade = beam.blade.with_shape(Rectangle(ratio=3.0))
     exact = planar_stability(blade, 2.0, [0.3, 0.36])
     row = next(line for line in out.splitlines() if line.startswith("│   0.3"))
     assert f"{exact.growth_rate[0]:.4g}" in row
@@ -76,7 +76,7 @@ def test_a_section_out_of_a_file(call, tmp_path):
     ("options", "sentence"),
     [
         ((), "give --section rectangle or --section tube"),
-        (("--section", "tube", "--ratio", "2"), "--ratio is of a rectangle"),
+        (("--section", "tube", "--ratio", "2"), "--section tube has none: leave it out"),
         (("--section", "rectangle", "--ratio", "0"), "ratio must be positive"),
         (("--section", "tube", "--mode", "0"), "mode must be at least 1"),
         (("--section", "tube", "--amplitude", "1.5"), "between 0 and 1, got 1.5"),
@@ -110,6 +110,13 @@ def test_a_blade_without_area_needs_the_ratio(call, tmp_path):
             "did you mean 'torsion_ratio'",
         ),
         ("[blade.section.out_of_plane]\nbending_ratio = -1.0", "bending_ratio must be positive"),
+        ('shape = "Tube"', "write a shape as a table"),
+        ('shape = { kind = "Blade" }', "'Blade' is no known SectionShape"),
+        ('shape = { kind = "Tube", height = 1.0 }', "this is no Tube"),
+        (
+            'shape = { kind = "Tube" }\n[blade.section.out_of_plane]\nbending_ratio = 1.0',
+            "tells the same: keep one",
+        ),
     ],
 )
 def test_sections_in_files_that_are_refused(call, tmp_path, lines, sentence):

@@ -6,10 +6,10 @@ import io
 import numpy as np
 import pytest
 
-from analytic import OutOfPlane, campbell, linear_modes
+from analytic import Rectangle, campbell, linear_modes
 from rotbeam_exu.cli import app
 from rotbeam_exu.cli.campbell import campbell as command
-from rotbeam_exu.cli.sections import SectionShape
+from rotbeam_exu.cli.sections import SectionOptions
 
 PLANES = ("lag", "flap", "torsion")
 
@@ -55,12 +55,12 @@ def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):
 
 def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     options = {"omega_max": 8.0, "points": 3, "count": 1, "orders": 9}
-    shape = SectionShape(section="rectangle", ratio=18.5)
+    shape = SectionOptions(section="rectangle", ratio=18.5)
     command(**options, shape=shape, format="csv", out=tmp_path, frequency_max=80.0)
     printed = capsys.readouterr()
     rows = list(csv.reader(io.StringIO(printed.out)))
     assert rows[0] == ["omega [rad/s]", *(f"{p} 1 [rad/s]" for p in ("lag", "flap", "torsion"))]
-    blade = beam.with_out_of_plane(OutOfPlane.rectangle(18.5))
+    blade = beam.blade.with_shape(Rectangle(ratio=18.5))
     frequencies = [linear_modes(blade, 8.0, 1, plane=p).frequencies[0] for p in PLANES]
     assert np.array(rows[3][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
     # Torsion meets 9ω.
@@ -107,7 +107,7 @@ def test_a_blade_set_at_a_right_angle_flaps(tmp_path, capsys):
 
 def test_a_table_prints_torsion_to_the_digits_that_are_known(capsys):
     """0.1 % is what a clamp that holds the warping changes: four digits, not eight."""
-    shape = SectionShape(section="rectangle")
+    shape = SectionOptions(section="rectangle")
     command(omega_max=12.0, points=2, count=1, orders=7, shape=shape)
     printed = capsys.readouterr().out
     assert " 66.75 " in printed

@@ -14,6 +14,7 @@ from scipy import optimize
 from analytic import (
     Blade,
     Damping,
+    Rectangle,
     Section,
     SpinUp,
     damping_ratios,
@@ -120,7 +121,7 @@ def test_gravity_would_bend_and_buckle_the_strip(beam):
     assert says(page, "it sags by 0.22 $L$ in its stiff direction")
     assert says(page, "length of 2.36 m it buckles under its own weight")
     assert says(page, r"$I_y=I_z=8.2189\cdot10^{-9}$ m⁴: most likely a thin tube")
-    section = beam.rectangle().section.out_of_plane
+    section = beam.with_shape(Rectangle()).section.out_of_plane
     weight = beam.mass_per_length * _GRAVITY
     sag = weight * beam.length**3 / (8.0 * beam.bending_stiffness)  # over L
     assert round(sag, 2) == 0.22
@@ -177,7 +178,7 @@ def test_the_strip_buckles_on_the_mildest_ramp_already(beam):
     assert says(page, "2 rad/s in 3.375 s, it is twisted by 0.1 at 1.2 s, bent by 0.107 $L$")
     motion = SpinUp(omega=2.0, ramp_time=3.375)
     settings = {"kick": 1e-6, "duration": 3.4, "elements": 32, "step": 2.5e-4}
-    run = simulate_3d(beam.rectangle(), motion, **settings)
+    run = simulate_3d(beam.with_shape(Rectangle()), motion, **settings)
     at = int((np.abs(run["twist"]) > 0.1).argmax("time"))
     # Another code, a discrete rod, has 1.20 s and 0.106.
     assert float(run["time"][at]) == pytest.approx(1.2, abs=0.01)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam, Damping
+from analytic import Beam, Damping, Ellipse, Rectangle
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.verdict import beam_attributes, beam_of
 
@@ -55,6 +55,16 @@ def test_a_bad_file_is_one_sentence(tmp_path, content, sentence):
     with pytest.raises(ValueError, match=sentence) as refused:
         load_beam(path)
     assert str(path) in str(refused.value)
+
+
+def test_a_shape_is_read(tmp_path):
+    beam = load_beam(written(tmp_path / "beam.toml", GOOD + 'shape = { kind = "Rectangle" }\n'))
+    assert beam == Beam.reference().with_shape(Rectangle())
+    section, damping = DAMPED.split("[blade.damping]")
+    content = section + 'shape = { kind = "Ellipse", ratio = 2.0 }\n[blade.damping]' + damping
+    assert load_beam(written(tmp_path / "blade.toml", content)) == load_beam(
+        written(tmp_path / "damped.toml", DAMPED)
+    ).with_shape(Ellipse(ratio=2.0))
 
 
 DAMPED = """[blade]

@@ -14,6 +14,7 @@ from analytic import (
     Beam,
     Damping,
     DistributedForce,
+    Rectangle,
     SmoothRamp,
     SpeedRipple,
     SpinUp,
@@ -21,6 +22,7 @@ from analytic import (
     Table,
     Theory,
     TipForce,
+    Tube,
     exact_residual,
     forced_response,
     residual_amplitude,
@@ -181,7 +183,7 @@ def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(be
 
 
 def test_a_run_in_space_is_not_repeated_in_the_plane(tmp_path):
-    tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
+    tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
     run = simulate_3d(tube, MOTION, element="cable", elements=2, duration=2.5, step=5e-3, kick=0.0)
     path = save(run, tmp_path / "space.nc")
     assert type(Case.described(load(path).attrs).model) is SpaceCable
@@ -347,7 +349,10 @@ def test_two_kinds_cannot_have_one_name():
     "blade",
     [
         Beam.reference(),
-        Beam.reference().rectangle().with_tip_mass(0.1, 0.2).with_damping(Damping(axial=1e-3)),
+        Beam.reference()
+        .with_shape(Rectangle())
+        .with_tip_mass(0.1, 0.2)
+        .with_damping(Damping(axial=1e-3)),
         replace(Beam.reference().blade, setting_angle=1.0),
         Beam.reference().with_section_out_of_plane(1.0, np.inf),
     ],

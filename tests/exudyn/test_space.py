@@ -7,8 +7,10 @@ import xarray as xr
 from analytic import (
     Beam,
     Damping,
+    Rectangle,
     SpinUp,
     SteadyRotation,
+    Tube,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -26,8 +28,8 @@ from rotbeam_exu.growth import growth_rate_of
 from rotbeam_exu.verdict import energy_drift
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
-RECTANGLE = Beam.reference().rectangle()
-TUBE = Beam.reference().tube(0.015, 0.00077)
+RECTANGLE = Beam.reference().with_shape(Rectangle())
+TUBE = Beam.reference().with_shape(Tube(radius=0.015, wall=0.00077))
 MODELS = [(SpaceCable(), ALIKE), (SpaceExact(), RECTANGLE)]
 IDS = ["cable", "exact"]
 
@@ -195,7 +197,7 @@ def test_rate_of_a_known_growth(rate):
         ({"frame": "rotating"}, "frame='inertial'"),
         ({"kick": 0.5}, "1e-6"),
         ({"kick": np.nan}, "kick"),
-        ({"blade": Beam.reference()}, "blade.rectangle"),
+        ({"blade": Beam.reference()}, r"blade.with_shape\(Rectangle"),
         ({"blade": ALIKE}, "element='cable'"),
         ({"blade": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
         ({"blade": RECTANGLE.with_tip_mass(0.5)}, "point masses"),

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import OutOfPlane, planar_stability
+from analytic import Rectangle, Tube, planar_stability
 from rotbeam_exu import comparison, figures
 
 
@@ -16,7 +16,7 @@ def without_display(monkeypatch):
 
 
 def test_growth_over_the_amplitude(beam):
-    blade = beam.with_out_of_plane(OutOfPlane.rectangle(3.0))
+    blade = beam.blade.with_shape(Rectangle(ratio=3.0))
     found = planar_stability(blade, 2.0, [0.25, 0.3])
     axes = figures.planar_stability(comparison.planar_stability(found))
     by_label = {line.get_label(): line for line in axes.lines}
@@ -29,7 +29,7 @@ def test_growth_over_the_amplitude(beam):
 
 
 def test_what_stays_is_drawn_at_zero(beam):
-    found = planar_stability(beam.tube(0.015, 0.77e-3), 6.0, [0.1, 0.3])
+    found = planar_stability(beam.with_shape(Tube()), 6.0, [0.1, 0.3])
     axes = figures.planar_stability(comparison.planar_stability(found))
     assert axes.get_ylim()[0] == 0.0
     assert axes.get_yticks().tolist() == [0.0]
@@ -78,7 +78,7 @@ def test_lag_and_flap_change_sign_where_they_do():
 
 
 def test_three_families_over_the_speed(beam):
-    data = comparison.modes_in_space(beam.tube(0.015, 0.77e-3), omegas=[0.0, 4.0])
+    data = comparison.modes_in_space(beam.with_shape(Tube()), omegas=[0.0, 4.0])
     lag, flap = (data["frequency"].sel(plane=plane) for plane in ("lag", "flap"))
     # The stretch, μω̄²/2 of the frequency, changes both a little differently.
     assert (flap**2 - lag**2).to_numpy() == pytest.approx(

@@ -19,7 +19,7 @@ FLOORS = {
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "methods", "plotting"},
         {"profiles", "motion", "damping", "out_of_plane", "point_mass"},
-        {"unit_blade", "section", "loads", "ramps"},
+        {"unit_blade", "section", "section_shapes", "loads", "ramps"},
         {"shape_functions"},
         {"blade"},
         {"beam"},

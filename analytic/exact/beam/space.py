@@ -23,7 +23,6 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
-from ...blade import Blade
 from ...lazily import linalg
 from ...methods.system import Tangent
 from ...out_of_plane import OutOfPlane
@@ -37,11 +36,6 @@ Twist = Literal["inertial", "quasi-static", "rigid"]
 """What the twist does: moves with its inertia, follows without, or is none."""
 
 
-def out_of_plane_of(blade: AnyBlade) -> OutOfPlane | None:
-    """Return what is known of the section out of its plane."""
-    return blade.section.out_of_plane if isinstance(blade, Blade) else None
-
-
 def require_out_of_plane(
     blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
 ) -> OutOfPlane:
@@ -51,17 +45,17 @@ def require_out_of_plane(
         raise ValueError(
             "how slices shear out of the plane is unknown: take a theory without shear"
         )
-    known = out_of_plane_of(blade)
+    known = blade.section.out_of_plane
     if known is None:
         raise ValueError(
             "how this blade bends and twists out of its plane is unknown: give its section by "
-            "blade.rectangle(height, width), blade.tube(radius, wall) or "
+            "blade.with_shape(Rectangle(height=..., width=...)) or "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
         )
     if blade.unit.setting != 1.0:
         raise ValueError(
             f"motion out of the plane is known for a blade that bends in the plane of rotation, "
-            f"and this one is set at {blade.setting_angle:g} rad: take "  # type: ignore[union-attr]
+            f"and this one is set at {blade.setting_angle:g} rad: take "
             "blade.with_setting_angle(0.0)"
         )
     if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:

@@ -39,8 +39,9 @@ class TorsionModes:
 
     Examples
     --------
-    >>> from analytic import Beam, linear_modes
-    >>> twist = linear_modes(Beam.reference().rectangle(), 6.0, 2, plane="torsion")
+    >>> from analytic import Beam, Rectangle, linear_modes
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> twist = linear_modes(strip, 6.0, 2, plane="torsion")
     >>> print(twist.frequencies.round(1))
     [ 65.1 194.3]
     """
@@ -65,9 +66,8 @@ def flap_blade(beam: AnyBlade) -> Blade:
     against rotation is known in the plane only, and left out.
     """
     section = require_out_of_plane(beam, torsion=False)
-    assert isinstance(beam, Blade)
     return replace(
-        beam,
+        beam.blade,
         setting_angle=0.5 * math.pi,
         section=replace(
             beam.section,
@@ -99,7 +99,7 @@ def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> T
     if section.torsion_ratio is None or math.isinf(section.torsion_ratio):
         raise ValueError(
             "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
-            "with_section_out_of_plane, .rectangle or .tube"
+            "with_section_out_of_plane or with_shape"
         )
     if section.polar_inertia == 0.0:
         raise ValueError(

@@ -13,7 +13,7 @@ from ...input_checks import rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.space import out_of_plane_of, require_out_of_plane
+from ..beam.space import require_out_of_plane
 from ..free.branch import AmplitudeNotReachedError
 from ..free.path import ModePath
 from ..linear.modes import resolved_model
@@ -91,7 +91,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     """
     require_blade(blade)
     unit = blade.unit
-    if out_of_plane_of(blade) is None or unit.setting != 1.0 or any(unit.damping):
+    if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
         return ""
     if not 0.0 < amplitude < 1.0:
         return ""

@@ -49,8 +49,9 @@ class PlanarStability:
 
     Examples
     --------
-    >>> from analytic import Beam, planar_stability
-    >>> print(planar_stability(Beam.reference().rectangle(), 4.0, amplitudes=[0.01]))
+    >>> from analytic import Beam, Rectangle, planar_stability
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> print(planar_stability(strip, 4.0, amplitudes=[0.01]))
     The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
     """
 
@@ -126,8 +127,8 @@ def planar_stability(
 
     Examples
     --------
-    >>> from analytic import Beam, planar_stability
-    >>> strip = Beam.reference().rectangle()
+    >>> from analytic import Beam, Rectangle, planar_stability
+    >>> strip = Beam.reference().with_shape(Rectangle())
     >>> found = planar_stability(strip, 4.0, amplitudes=[0.01, 0.2])
     >>> print(found.stable, found.kind, found.growth_rate.round(1))
     [ True False] ('', 'divergence') [  0.  120.8]

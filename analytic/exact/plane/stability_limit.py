@@ -155,8 +155,9 @@ def stability_limit(
 
     Examples
     --------
-    >>> from analytic import Beam, stability_limit
-    >>> limit = stability_limit(Beam.reference().rectangle(), omega=4.0, largest=0.1)
+    >>> from analytic import Beam, Rectangle, stability_limit
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> limit = stability_limit(strip, omega=4.0, largest=0.1)
     >>> round(limit.amplitude, 3), round(limit.tongues[0].low, 3)
     (0.059, 0.052)
     """

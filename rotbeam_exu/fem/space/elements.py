@@ -172,7 +172,7 @@ class SpaceExact(FrameNodes, NoDivergence):
             raise ValueError(
                 "element 'exact' twists, and the torsion_ratio of this blade is "
                 f"{'unknown' if torsion is None else 'infinite'}: take a number for it, as "
-                "blade.tube(radius, wall) has, or element='cable' where bending_ratio is 1"
+                "blade.with_shape(Tube()) has, or element='cable' where bending_ratio is 1"
             )
 
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:

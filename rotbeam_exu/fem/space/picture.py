@@ -93,9 +93,9 @@ def ray_traced(
 
     Examples
     --------
-    >>> from analytic import Beam, SpinUp
+    >>> from analytic import Beam, SpinUp, Tube
     >>> from rotbeam_exu import ray_traced, simulate_3d
-    >>> tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
+    >>> tube = Beam.reference().with_shape(Tube())
     >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
     >>> run = simulate_3d(tube, motion, elements=4, duration=1.5, step=5e-3)
     >>> ray_traced(run, times=[0.5, 1.0, 1.5], size=(320, 200)).shape

@@ -42,7 +42,7 @@ def simulate_3d(
     Parameters
     ----------
     blade : Blade
-        With a section out of the plane: ``beam.rectangle()``, ``beam.tube(radius, wall)`` or
+        With a section out of the plane: ``beam.with_shape(Rectangle())`` or
         ``beam.with_section_out_of_plane(...)``; set at no angle, without point masses.
     motion : SpinUp or SteadyRotation
         Prescribed rotation of the clamped end.
@@ -78,10 +78,10 @@ def simulate_3d(
 
     Examples
     --------
-    >>> from analytic import Beam, SpinUp
+    >>> from analytic import Beam, SpinUp, Tube
     >>> from rotbeam_exu import simulate_3d
     >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
-    >>> tube = Beam.reference().tube(radius=0.015, wall=0.77e-3)
+    >>> tube = Beam.reference().with_shape(Tube())
     >>> run = simulate_3d(tube, motion, elements=4, duration=1.5, step=5e-3, kick=1e-3)
     >>> print(f"q {run.q.min().item():.3f} m, w at most {abs(run.w).max().item():.4f} m")
     q -4.652 m, w at most 0.0080 m

@@ -67,13 +67,14 @@ def simulate(
     RotbeamWarning
         If steps did not converge.
     """
-    if not isinstance(beam, Beam):
+    straight = beam.uniform
+    if straight is None:
         raise SimulationError("the adapter to Kratos takes the uniform Beam, not a Blade")
     elements, step = whole_number("elements", elements), positive("step", step, "s")
     require_resolved_ramp(spin_up.ramp_time, step)
     steps = round(positive("duration", duration, "s") / step)
     every = sampling(beam, spin_up.omega, steps, step)
-    strategy, part, kratos, _model = _assembled(beam, elements, tolerance, iterations)
+    strategy, part, kratos, _model = _assembled(straight, elements, tolerance, iterations)
     root, tip = part.Nodes[1], part.Nodes[elements + 1]
     time: FloatArray = step * np.arange(0.0, steps + 1.0, every)
     q, q_dot = np.zeros(time.size), np.zeros(time.size)

@@ -1,0 +1,273 @@
+"""Shapes of sections, which tell how a blade of their A and I bends and twists out of its plane.
+
+A new shape is a frozen dataclass that inherits from `SectionShape`.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import ClassVar
+
+import numpy as np
+
+from .description import Described
+from .input_checks import not_negative, positive
+from .out_of_plane import OutOfPlane
+
+_PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
+_THINNEST = 1000.0  # of one side over the other
+_SAME = 0.01  # what rounded lengths may differ from A and I
+_NO_LENGTHS = ("poisson_ratio", "ratio")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gyration:
+    """I/A [m²], which is EI/EA whatever the material, and A [m²] if it is known."""
+
+    squared: float
+    area: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SectionShape(Described, ABC, abstract=True):
+    """Shape of a section at the root; lengths [m] that are left out are those that fit the blade.
+
+    Parameters
+    ----------
+    poisson_ratio : float
+        ν of the shear modulus E/(2 (1 + ν)).
+
+    Raises
+    ------
+    ValueError
+        If a value is out of range; of a blade, if the shape has another I/A or A than it.
+    """
+
+    poisson_ratio: float = 0.3
+
+    def __post_init__(self) -> None:
+        for name, value in self._given.items():
+            object.__setattr__(self, name, positive(name, value, "m"))
+        ratio = not_negative("poisson_ratio", self.poisson_ratio)
+        if ratio > 0.5:
+            raise ValueError(f"poisson_ratio must be at most 0.5, got {ratio:g}")
+        object.__setattr__(self, "poisson_ratio", ratio)
+
+    @abstractmethod
+    def _fitting(self, own: Gyration) -> dict[str, float]:
+        """Return the lengths [m] by name that follow from I/A and, if it is known, A."""
+
+    @abstractmethod
+    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
+        """Return I/A and A of these lengths [m]."""
+
+    def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        """Return I out of the plane and the torsion constant J over I; those of a round shape."""
+        return 1.0, 2.0
+
+    def out_of_plane(self, own: Gyration) -> OutOfPlane:
+        """Return the stiffness out of the plane, refusing what contradicts the blade's `own`."""
+        lengths = self._fitting(own) | self._given
+        has = self._gyration(lengths)
+        pairs = [("I/A", has.squared, own.squared)]
+        if own.area is not None and has.area is not None:
+            pairs.append(("A", has.area, own.area))
+        for what, found, wanted in pairs:
+            off = abs(found / wanted - 1.0)
+            if off > _SAME:
+                fitting = type(self)()._fitting(own).items()
+                raise ValueError(
+                    f"{self!r} has {what} = {found:.4g} m², {100.0 * off:.3g} % from the "
+                    f"{wanted:.4g} m² of this blade: "
+                    f"{', '.join(f'{name}={length:.4g}' for name, length in fitting)} fits it"
+                )
+        across, torsion = self._ratios(lengths)
+        shear = 0.5 / (1.0 + self.poisson_ratio)
+        return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
+
+    @property
+    def _given(self) -> dict[str, float]:
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {k: x for k, x in values.items() if x is not None and k not in _NO_LENGTHS}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _TwoSided(SectionShape, ABC, abstract=True):
+    """A shape with a height in the plane of bending and a width, or the ratio of both."""
+
+    height: float | None = None
+    width: float | None = None
+    ratio: float | None = None
+
+    _deep: ClassVar[float]  # h² A/I
+    _filled: ClassVar[float]  # A/(h b)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.ratio is not None:
+            object.__setattr__(self, "ratio", positive("ratio", self.ratio))
+            if self.width is not None:
+                raise ValueError(
+                    f"give width or ratio, which is height over width, not both: {self}"
+                )
+
+    def _fitting(self, own: Gyration) -> dict[str, float]:
+        height = math.sqrt(self._deep * own.squared)
+        if self.ratio is not None:
+            return {"height": height, "width": (self.height or height) / self.ratio}
+        if own.area is None:
+            return {"height": height}
+        return {"height": height, "width": own.area / (self._filled * (self.height or height))}
+
+    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
+        if "width" not in lengths:
+            raise ValueError(
+                f"a {type(self).__name__} of unknown area needs its width: a Blade has EA and EI, "
+                "no area; give width in m, or ratio, height in the plane over width"
+            )
+        height, area = lengths["height"], self._filled * lengths["height"] * lengths["width"]
+        return Gyration(squared=height**2 / self._deep, area=area)
+
+    def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        ratio = self.ratio or lengths["height"] / lengths["width"]
+        if not 1.0 / _THINNEST <= ratio <= _THINNEST:
+            raise ValueError(
+                f"the ratio of height to width must be between {1.0 / _THINNEST:g} and "
+                f"{_THINNEST:g}, got {ratio:g}: beyond, it is a foil and no beam"
+            )
+        return 1.0 / ratio**2, self._torsion(ratio)
+
+    @abstractmethod
+    def _torsion(self, ratio: float) -> float:
+        """Return J/I by the ratio of height to width."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rectangle(_TwoSided):
+    """A rectangle, whose GJ follows from Saint-Venant's series.
+
+    The series is in Timoshenko and Goodier, Theory of Elasticity, Sec. 109.
+
+    Parameters
+    ----------
+    height, width : float, optional
+        In the plane of bending and across it [m]; without them those with the beam's A and I.
+    ratio : float, optional
+        Height over width, in place of the width.
+    poisson_ratio : float
+        ν, which tells the shear modulus.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> print(f"{1.0 / strip.section.out_of_plane.bending_ratio:.0f} times stiffer in its plane")
+    342 times stiffer in its plane
+    """
+
+    _deep = 12.0
+    _filled = 1.0
+
+    def _torsion(self, ratio: float) -> float:
+        longer, shorter = max(ratio, 1.0), min(ratio, 1.0)  # in widths
+        odd = np.arange(1, 2 * _PLACES, 2)
+        rest = np.sum(np.tanh(0.5 * np.pi * odd * longer / shorter) / odd**5.0)
+        torsion = longer * shorter**3 / 3.0 * (1.0 - 192.0 / np.pi**5 * shorter / longer * rest)
+        return float(torsion * 12.0 / ratio**3)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ellipse(_TwoSided):
+    """A full ellipse, of which J = π a³b³/(a² + b²) with the half axes a and b.
+
+    Parameters
+    ----------
+    height, width, ratio, poisson_ratio : float, optional
+        As those of a `Rectangle`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Ellipse
+    >>> blade = Beam.reference().blade.with_shape(Ellipse(ratio=2.0))
+    >>> print(blade.section.out_of_plane.bending_ratio)
+    0.25
+    """
+
+    _deep = 16.0
+    _filled = 0.25 * math.pi
+
+    def _torsion(self, ratio: float) -> float:
+        return 4.0 / (1.0 + ratio**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Circle(SectionShape):
+    """A full circle, of which J = 2I.
+
+    Parameters
+    ----------
+    radius : float, optional
+        [m].
+    poisson_ratio : float
+        ν, which tells the shear modulus.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Circle
+    >>> blade = Beam.reference().blade.with_shape(Circle())
+    >>> print(f"GJ = {blade.section.out_of_plane.torsion_ratio:.4f} EI")
+    GJ = 0.7692 EI
+    """
+
+    radius: float | None = None
+
+    def _fitting(self, own: Gyration) -> dict[str, float]:
+        return {"radius": 2.0 * math.sqrt(own.squared)}
+
+    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
+        squared = lengths["radius"] ** 2
+        return Gyration(squared=0.25 * squared, area=math.pi * squared)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tube(SectionShape):
+    """A round tube, of which J = 2I.
+
+    Parameters
+    ----------
+    radius, wall : float, optional
+        Mean radius and thickness of the wall [m]; without them those with the beam's A and I.
+    poisson_ratio : float
+        ν, which tells the shear modulus.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Tube
+    >>> tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
+    >>> print(tube.section.out_of_plane.bending_ratio)
+    1.0
+    """
+
+    radius: float | None = None
+    wall: float | None = None
+
+    def _fitting(self, own: Gyration) -> dict[str, float]:
+        if own.area is None:
+            return {"radius": math.sqrt(2.0 * own.squared)}
+        # A = 2πrt and I/A = (r² + t²/4)/2
+        thin = own.area / (2.0 * math.pi)
+        rest = max(own.squared**2 - 0.25 * thin**2, 0.0)
+        radius = math.sqrt(own.squared + math.sqrt(rest))
+        return {"radius": radius, "wall": thin / radius}
+
+    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
+        r, t = lengths["radius"], lengths.get("wall", 0.0)
+        if t > 2.0 * r:
+            raise ValueError(
+                f"the wall of a tube is at most twice its mean radius, got wall = {t:g} m and "
+                f"radius = {r:g} m: {2.0 * r:g} m is the full circle"
+            )
+        return Gyration(squared=0.5 * (r**2 + 0.25 * t**2), area=2.0 * math.pi * r * t)
