@@ -26,7 +26,7 @@ from ..lazily import linalg
 from ..methods.fourier import period
 from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
+from .blade_functions import BladeFunctions, blade_functions, settled_functions
 
 _ORDER = 5
 _HARMONICS = 3
@@ -68,11 +68,12 @@ def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
     ValueError
         If as many functions as are taken do not settle λ and κ, as where a section has steps.
     """
-    return settled(
-        basis_sizes(blade, w_bar),
+    return settled_functions(
         lambda count: _with_functions(blade, w_bar, count),
-        lambda found: (found.lambda_omega, found.kappa_of_peak),
+        blade,
+        w_bar,
         _SETTLED,
+        lambda found: (found.lambda_omega, found.kappa_of_peak),
         "the nonlinear normal mode",
     )
 
