@@ -11,6 +11,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
+from .fourier import packed
 from .harmonic_balance import LastTangent, frequency_change, solve
 from .newton import NoOrbitError
 from .orbit import Orbit, S
@@ -22,6 +23,7 @@ FREQUENCY_BOUND = 1e-9
 """Relative change of an orbit's frequency under one more refinement, up to which it is settled."""
 
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
+_TRUNCATED = 5e-6  # residual of harmonics left out, which leave 1e-6 of a response's amplitude
 _FEWEST_HARMONICS = 6
 MOST_FUNCTIONS = 128
 """For θ; enough for the smallest orbits up to w̄ = 1000."""
@@ -43,11 +45,14 @@ class Care(NamedTuple):
         The most that are taken.
     halvings : int
         Of a step that finds nothing.
+    functions : int
+        The most that are taken.
     """
 
     drift: float = 2e-11
     harmonics: int = 64
     halvings: int = 5
+    functions: int = 128
 
 
 THOROUGH = Care()
@@ -227,40 +232,47 @@ def _through(orbits: Sequence[Orbit[S]], amplitude: float) -> Orbit[S]:
 def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
-    Harmonics until the invariant is constant, functions until the residual is small.
+    Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
+    functions until the residual on half as many again is small.
 
     Raises
     ------
     NoOrbitError
         If it needs more than are taken.
     """
-    if orbit.invariant_drift > care.drift + orbit.invariant_noise:
-        last = orbit.harmonics >= care.harmonics
-        if last and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
-            return None
-        larger = _on_more_harmonics(orbit, care.harmonics)
-        if last or _too_large(larger):
-            raise NoOrbitError(
-                f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
-                f"{orbit.invariant_drift:.1e}"
-            )
-        return larger
-    return None if meets_the_equations(orbit) else _on_more_functions(orbit)
+    if orbit.system.driven:
+        lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"
+    else:
+        lacks = orbit.invariant_drift > care.drift + orbit.invariant_noise
+        left = f"the Jacobi integral drifting by {orbit.invariant_drift:.1e}"
+    if not lacks:
+        return None if meets_the_equations(orbit) else _on_more_functions(orbit, care)
+    last = orbit.harmonics >= care.harmonics
+    nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
+    if last and nearly and meets_the_equations(orbit):
+        return None
+    larger = _on_more_harmonics(orbit, care.harmonics)
+    if last or _too_large(larger):
+        raise NoOrbitError(f"{orbit.harmonics} harmonics leave {left}")
+    return larger
 
 
 def _on_more_harmonics(orbit: Orbit[S], most: int) -> Orbit[S]:
-    return orbit.with_harmonics(min(orbit.harmonics + max(4, orbit.harmonics // 4), most))
+    more = 2 if orbit.system.driven else max(4, orbit.harmonics // 4)
+    return orbit.with_harmonics(min(orbit.harmonics + more, most))
 
 
-def _on_more_functions(orbit: Orbit[S]) -> Orbit[S]:
+def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     larger = orbit.on(orbit.system.refined())
-    if larger.system.functions > MOST_FUNCTIONS or _too_large(larger):
+    if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "
-            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
+            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}",
+            remedy="no damping helps where functions are missing: smooth the steps of the section, "
+            "or rotate slower",
         )
     return larger
 
 
 def _too_large(orbit: Orbit[Any]) -> bool:
-    return bool(orbit.harmonics * orbit.system.size > _MOST_UNKNOWNS)
+    return bool(packed(orbit.coefficients, orbit.parts).size > _MOST_UNKNOWNS)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, Generic, Literal
 
@@ -16,6 +16,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
+from .continuation import Care, refined
 from .fourier import packed, unpacked
 from .harmonic_balance import jacobian, projected
 from .newton import NoOrbitError
@@ -26,9 +27,7 @@ Marked = tuple[Orbit[Any], Mark]
 """An orbit on a curve, and what is special about it: "asked" for, a "fold" of the frequency, a
 "peak" of the amplitude, a "branch point" where another curve crosses."""
 
-_TRUNCATED = 5e-6  # residual of the harmonics left out, which leave 1e-6 of the amplitude
-_UNRESOLVED = 1e-4  # residual of the functions left out; the amplitude is off by its square
-_MOST_HARMONICS, _MOST_FUNCTIONS, _MOST_UNKNOWNS = 40, 64, 4000
+_CARE = Care(harmonics=40, functions=64)
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
 
@@ -170,7 +169,7 @@ def response_curve(
     rest = np.zeros((2 * harmonics + 1, system.size))
     rest[0] = system.rest(first)
     like = Orbit(system=system, frequency=first, coefficients=rest)
-    curve = OrbitCurve(like, first, last - first, _better_resolved)
+    curve = OrbitCurve(like, first, last - first, partial(refined, care=_CARE))
     found: list[Marked] = []
     try:
         at = _beginning(curve)
@@ -188,30 +187,6 @@ def response_curve(
     except NoOrbitError as reason:
         raise ResponseNotFollowedError(str(reason), found, reason.remedy) from None
     raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", found)
-
-
-def _better_resolved(orbit: Orbit[S]) -> Orbit[S] | None:
-    """Return a driven orbit on more harmonics or functions, None if it needs none."""
-    truncated = orbit.truncation > _TRUNCATED
-    if not truncated and orbit.residual <= _UNRESOLVED:
-        return None
-    larger = (
-        orbit.with_harmonics(orbit.harmonics + 2) if truncated else orbit.on(orbit.system.refined())
-    )
-    if (
-        larger.harmonics > _MOST_HARMONICS
-        or larger.system.functions > _MOST_FUNCTIONS
-        or larger.coefficients.size > _MOST_UNKNOWNS
-    ):
-        raise NoOrbitError(
-            f"{orbit.harmonics} harmonics and {orbit.system.functions} functions leave a residual "
-            f"of {orbit.residual:.1e}",
-            remedy=""
-            if truncated
-            else "no damping helps where functions are missing: smooth the steps of the section, "
-            "or rotate slower",
-        )
-    return larger
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:

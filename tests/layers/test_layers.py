@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
-        {"input_checks", "quadrature", "methods", "plotting"},
+        {"input_checks", "quadrature", "settled", "methods", "plotting"},
         {"profiles", "motion", "damping", "out_of_plane", "point_mass"},
         {"unit_blade", "section", "section_shapes", "loads", "ramps"},
         {"shape_functions"},
