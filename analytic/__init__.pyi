@@ -15,9 +15,9 @@ from .exact.free.backbone import periodic_orbits as periodic_orbits
 from .exact.free.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.free.branch import SpecialPoint as SpecialPoint
 from .exact.free.branches import BackboneBranch as BackboneBranch
+from .exact.free.curve import BackboneCurve as BackboneCurve
 from .exact.free.internal_resonance import Resonance as Resonance
 from .exact.free.orbits import Orbits as Orbits
-from .exact.free.series import BackboneCurve as BackboneCurve
 from .exact.linear.campbell import Campbell as Campbell
 from .exact.linear.campbell import campbell as campbell
 from .exact.linear.damped import damping_ratios as damping_ratios

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import analytic
-from analytic.exact.plane.orbit_growth import LEAST_GROWTH
+from analytic.exact.plane.planarity import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
 from ..verdict import beam_attributes

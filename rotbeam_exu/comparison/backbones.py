@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from analytic import Beam, periodic_orbits, reduced_model
-from analytic.exact.plane.orbit_growth import planar_note
+from analytic.exact.plane.planarity import planar_note
 
 from ..fem.frame import Frame
 from ..lazily import xr

@@ -16,7 +16,7 @@ from analytic import (
     linear_modes,
     stability_limit,
 )
-from analytic.exact.plane.orbit_growth import growth_rates
+from analytic.exact.plane.planarity import growth_rates
 from analytic.exact.plane.stability_limit import LARGEST
 from analytic.input_checks import finite_values
 

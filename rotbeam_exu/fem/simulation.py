@@ -15,7 +15,7 @@ from analytic import AnyBlade, BeamState, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.beam.state import stretched_state
-from analytic.exact.plane.orbit_growth import planar_note
+from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
 from analytic.motion import Rotation
 from analytic.ramps import AnyRamp

@@ -41,7 +41,7 @@ from analytic import (
     stability_limit,
     unstretched_frequencies,
 )  # fmt: skip
-from analytic.exact.plane.orbit_growth import planar_note
+from analytic.exact.plane.planarity import planar_note
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())

@@ -22,7 +22,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.plane.orbit_growth import growth_rates, planar_note
+from analytic.exact.plane.planarity import growth_rates, planar_note
 from analytic.methods.continuation import Care
 
 ROOT = Path(__file__).parents[2]

@@ -20,7 +20,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rate
-from ..plane.orbit_growth import planar_note
+from ..plane.planarity import planar_note
 from .transient import Motion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen

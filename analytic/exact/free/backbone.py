@@ -12,10 +12,9 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
 from .branches import BackboneBranch, followed_branch
-from .curve import settled_curve
+from .curve import BackboneCurve, settled_curve
 from .orbits import Orbits, orbits_of
 from .path import ModePath
-from .series import BackboneCurve
 
 _MOST_COEFFICIENTS = 1000  # an orbit for each
 

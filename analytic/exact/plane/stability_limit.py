@@ -13,7 +13,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from .growth import Growth
-from .orbit_growth import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
+from .planarity import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
