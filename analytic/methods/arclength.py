@@ -146,12 +146,11 @@ def located(
     return found[share]
 
 
-def crossing(curve: Curve, start: Point, end: Point) -> tuple[FloatArray, FloatArray] | None:
-    """Return where another branch crosses between two points, and the way it goes there.
+def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
+    """Return where another branch crosses between two points, if one does.
 
-    At a branch point the equations' Jacobian has two null vectors: the tangent, and one that leads
-    off. None if there is none in between: the determinant changes its sign through infinity too,
-    where a narrow excursion of the curve is stepped over.
+    There the equations' Jacobian has two null vectors. The determinant changes its sign through
+    infinity too, where a narrow excursion of the curve is stepped over.
     """
     try:
         found = located(curve, start, end, lambda point: point.determinant)
@@ -159,13 +158,6 @@ def crossing(curve: Curve, start: Point, end: Point) -> tuple[FloatArray, FloatA
         return None
     if found is None:
         return None
-    _, sizes, vectors = np.linalg.svd(curve.jacobian(found.z))
-    if sizes[-1] > _SINGULAR * sizes[-2]:
-        return None
-    null = vectors[-2:]
-    tangent = start.tangent / np.linalg.norm(null @ start.tangent)
-    along = null.T @ (null @ tangent)
-    # Across the tangent, within the two.
-    others = null - np.outer(null @ along, along)
-    off = others[int(np.argmax(np.linalg.norm(others, axis=1)))]
-    return found.z, off / np.linalg.norm(off)
+    sizes = np.linalg.svd(curve.jacobian(found.z), compute_uv=False)
+    # N singular values of N rows: the tangent's is not among them.
+    return found.z if sizes[-1] <= _SINGULAR * sizes[-2] else None

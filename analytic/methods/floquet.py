@@ -2,12 +2,13 @@
 
 The equations of motion, linearized about the orbit, are integrated over one period by Gauss's
 method, which damps nothing. Modes too fast for its steps are left out by their shape, for they come
-out on the unit circle at a wrong place, where they may meet others that they never meet.
+out on the unit circle at a wrong place, where they may meet others that they never meet. Of an
+orbit all this depends on its `frequency`, `tangent` and `constants`, as `Orbit` has them.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,26 +25,6 @@ _FEWEST_STEPS = 24
 _MASSLESS = 1e-12  # energy of a shape of unit length, over the lowest frequency squared
 _LARGE = 1e60  # size of a monodromy that is kept apart, before it overflows
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
-
-
-class Orbit(Protocol):
-    """What of a periodic orbit its stability depends on."""
-
-    @property
-    def frequency(self) -> float:
-        """Rate of the phase."""
-        ...
-
-    def tangent(self, phase: FloatArray) -> Tangent:
-        """Return the residual and its derivatives at the phases (phases,)."""
-        ...
-
-    def constants(self) -> tuple[FloatArray, FloatArray] | None:
-        """Return the direction (2n,) of the flow and the gradient (2n,) of the invariant at φ = 0.
-
-        None where the orbit is driven.
-        """
-        ...
 
 
 class Multipliers(NamedTuple):
@@ -73,7 +54,7 @@ class Multipliers(NamedTuple):
 
 
 @one_thread
-def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
+def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     """Return the Floquet multipliers of the lowest `modes`, as far as there are so many."""
     shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))
     covered = min(modes, frequencies.size)
@@ -109,18 +90,18 @@ def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
     return Multipliers(np.concatenate((trivial, values[order])).astype(np.complex128))
 
 
-def monodromy(orbit: Orbit, steps: int) -> FloatArray:
+def monodromy(orbit: Any, steps: int) -> FloatArray:
     """Return what a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n)."""
     matrix, exponent = scaled_monodromy(orbit, steps)
     return np.asarray(matrix * np.exp(exponent))
 
 
-def scaled_monodromy(orbit: Orbit, steps: int) -> tuple[FloatArray, float]:
+def scaled_monodromy(orbit: Any, steps: int) -> tuple[FloatArray, float]:
     """Return the `monodromy` over its size, where that is beyond 1e60, and the size's logarithm."""
     return _flow(orbit, steps, 1.0)
 
 
-def reversible_monodromy(orbit: Orbit, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
+def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
     """Return the same of an undamped orbit that time reversal maps onto itself, from half of it.
 
     With signs S (n,), M(-φ) = SM(φ)S and K(-φ) = SK(φ)S. What half a period makes of (q, Mq̇) is
@@ -141,7 +122,7 @@ def reversible_monodromy(orbit: Orbit, signs: FloatArray, steps: int) -> tuple[F
     return whole, 2.0 * exponent
 
 
-def _flow(orbit: Orbit, steps: int, share: float) -> tuple[FloatArray, float]:
+def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
     """Return what the first `share` of a period makes, scaled as `scaled_monodromy` says."""
     method = gauss(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps

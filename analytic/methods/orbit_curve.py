@@ -135,8 +135,8 @@ class At(Generic[S]):
 
         return located(curve, self.point, there.point, climb)
 
-    def crossing(self, there: At[S]) -> tuple[FloatArray, FloatArray] | None:
-        """Return where another branch crosses before the next point, as `arclength.crossing`."""
+    def crossing(self, there: At[S]) -> FloatArray | None:
+        """Return where another branch crosses before the next point, if one does."""
         return crossing(self.curve, self.point, there.point)
 
 
@@ -212,7 +212,7 @@ def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Mar
     if (peak := at.peak(there)) is not None:
         note("peak", peak.z)
     if (crossed := at.crossing(there)) is not None:
-        note("branch point", crossed[0])
+        note("branch point", crossed)
     # A fold between them may pass a frequency twice: each side for itself.
     stops = [at.point, *([fold] if fold is not None else []), there.point]
     for one, other in pairwise(stops):

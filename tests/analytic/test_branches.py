@@ -78,12 +78,6 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert tongue.max() > tongue[0]
     assert tongue[-1] < tongue.max() - 0.02
     assert "6:2 at 0.64" in str(branch)
-    # Narrow resonances that the tongue crosses are no branch points.
-    for i, place in enumerate(branch.branch_points):
-        amplitude, _ = branch.switched(i)
-        assert np.abs(amplitude - place.amplitude).min() < 0.05
-    with pytest.raises(IndexError, match="branch point 99 is none of"):
-        branch.switched(99)
     state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
     assert np.isfinite(state.v).all()
 
@@ -93,7 +87,6 @@ def test_a_branch_without_a_felt_resonance_is_the_backbone(beam):
     assert not branch.folds
     assert np.all(branch.piece == 0)
     assert branch.stable.all()
-    assert branch.stability_changes.size == 0
     same = orbits(beam, 6.0, branch.amplitude)
     assert branch.frequency == pytest.approx(same.frequency, rel=1e-11)
 

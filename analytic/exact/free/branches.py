@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import FloatArray
 from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import At, Marked, OrbitCurve
-from ..beam.steady import BeamOrbit, SteadyBeam
+from ..beam.steady import BeamOrbit
 from .branch import Branch
 from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
 from .path import ModePath
@@ -31,26 +30,6 @@ _FREQUENCY_SCALE = 0.05  # relative change of Ω that counts as much as a unit o
 _ROUGHLY = 1e-4  # drift of the invariant up to which a fold is still told, beyond all harmonics
 _FELT = 1e-3  # size of a harmonic, over the first, whose resonance is looked into
 _TAKES_OVER = 3.0  # growth of that harmonic by which a tongue is told from the path
-
-
-@dataclass(frozen=True, eq=False)
-class _Crossing:
-    """Where another branch crosses, and the way it goes."""
-
-    curve: OrbitCurve[SteadyBeam]
-    z: FloatArray
-    off: FloatArray
-
-    def side(self, sign: float) -> list[BeamOrbit]:
-        """Return the orbits on one side of the branch that crosses, as far as it is resolved."""
-        found: list[BeamOrbit] = []
-        with suppress(NoOrbitError):
-            guess = self.z + sign * _STEP * self.off
-            there = At(self.curve, corrected(self.curve, guess, sign * self.off)).resolved()
-            found = [there.orbit]
-            ahead = islice(there.followed(_STEP, _LONGEST), _TONGUE_POINTS - 1)
-            found += [there.orbit for _, there in ahead]
-        return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,28 +67,6 @@ class BackboneBranch(Branch):
     mode: int
     piece: NDArray[np.int_]
     resonances: tuple[Resonance, ...]
-    _crossings: tuple[_Crossing, ...] = field(repr=False)
-
-    @property
-    def stability_changes(self) -> FloatArray:
-        """Amplitudes on the main path between an orbit that is stable and one that is not."""
-        main = self.piece == 0
-        changes = np.flatnonzero(np.diff(self.stable[main].astype(int)))
-        a = self.amplitude[main]
-        return np.asarray(0.5 * (a[changes] + a[changes + 1]))
-
-    def switched(self, i: int) -> tuple[FloatArray, FloatArray]:
-        """Return amplitude and frequency [rad/s] along the branch that crosses at branch point `i`.
-
-        Each (points,), from one side of the crossing to the other, as far as it is resolved.
-        """
-        count = len(self._crossings)
-        if not 0 <= i < count:
-            raise IndexError(f"branch point {i} is none of the {count} that there are")
-        here = self._crossings[i]
-        orbits = [*here.side(-1.0)[::-1], *here.side(1.0)]
-        amplitude, frequency = np.array([(o.amplitude, o.frequency) for o in orbits]).T
-        return amplitude, frequency * self.beam.frequency_scale
 
     def __str__(self) -> str:
         met = ", ".join(f"{r.harmonic}:{r.mode} at {r.amplitude:.3f}" for r in self.resonances)
@@ -128,8 +85,8 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     main, end = _main_path(of, up_to), None
     if main[-1].amplitude < up_to - 1e-9:
         end = _followed(main[-2], main[-1], lambda orbit: False, up_to=up_to, points=_END_POINTS)
-    if end is not None and "fold" not in end.marks:
-        main, end = [*main, *end.orbits[1:]], None
+    if end is not None and not _folds(end):
+        main, end = [*main, *(orbit for orbit, _ in end[1:])], None
     per_second = of.beam.frequency_scale
     met = []
     for one in resonances_along(main, of.modes, of.mode, per_second):
@@ -138,20 +95,18 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
         met.append(one._replace(amplitude=place, frequency=frequency_at(main, place) * per_second))
     met.sort(key=lambda one: one.amplitude)
     tongues = [_tongue(main, met, one, below) for one in met for below in (True, False)]
-    pieces = [_Piece([(orbit, "") for orbit in main], [])]
-    pieces += [piece for piece in [*tongues, end] if piece is not None]
-    orbits = [orbit for piece in pieces for orbit in piece.orbits]
+    pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
+    orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
         beam=of.beam,
         omega=of.omega,
         mode=of.mode,
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
-        marks=tuple(mark for piece in pieces for mark in piece.marks),
-        piece=np.repeat(np.arange(len(pieces)), [len(piece.marked) for piece in pieces]),
+        marks=marks,
+        piece=np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces]),
         resonances=tuple(met),
-        nondimensional=tuple(orbits),
-        _crossings=tuple(crossing for piece in pieces for crossing in piece.crossings),
+        nondimensional=orbits,
     )
 
 
@@ -177,25 +132,9 @@ def _main_path(of: ModePath, up_to: float) -> list[BeamOrbit]:
     ]
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """Orbits along a piece of the branch with their marks, and what crosses."""
-
-    marked: list[Marked]
-    crossings: list[_Crossing]
-
-    @property
-    def orbits(self) -> list[BeamOrbit]:
-        return [orbit for orbit, _ in self.marked]
-
-    @property
-    def marks(self) -> list[str]:
-        return [mark for _, mark in self.marked]
-
-
 def _tongue(
     main: list[BeamOrbit], met: list[Resonance], resonance: Resonance, below: bool
-) -> _Piece | None:
+) -> list[Marked] | None:
     """Return the orbits off the main path into the tongue of a resonance, from one side."""
     near = [o for o in main if (o.amplitude < resonance.amplitude) == below]
     beyond = [o for o in main if (o.amplitude >= resonance.amplitude) == below]
@@ -234,7 +173,7 @@ def _followed(
     *,
     up_to: float = 1.0,
     points: int = _TONGUE_POINTS,
-) -> _Piece | None:
+) -> list[Marked] | None:
     """Return the orbits that follow two by arclength; None if the path just goes on.
 
     So many points at most, and not beyond the amplitude `up_to`.
@@ -242,25 +181,28 @@ def _followed(
     scale = _FREQUENCY_SCALE * last.frequency
     curve = OrbitCurve(last, last.frequency, scale, _better_resolved)
     start = curve.unknowns(last)
-    piece = _Piece([(last, "")], [])
+    piece: list[Marked] = [(last, "")]
     # As far as it is resolved.
     with suppress(NoOrbitError):
         at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
         for here, there in islice(at.followed(_STEP, _LONGEST), points - 1):
             if goes_on(there.orbit):
                 return None
-            if "fold" not in piece.marks:
+            if not _folds(piece):
                 if (peak := here.peak(there)) is not None:
-                    piece.marked.append((here.curve.orbit(peak.z), "fold"))
+                    piece.append((here.curve.orbit(peak.z), "fold"))
             elif (met := here.crossing(there)) is not None:
                 # Short of the fold the sign of the determinant only tells that a narrow tongue was
                 # stepped over.
-                piece.crossings.append(_Crossing(here.curve, *met))
-                piece.marked.append((here.curve.orbit(met[0]), "branch point"))
-            piece.marked.append((there.orbit, ""))
+                piece.append((here.curve.orbit(met), "branch point"))
+            piece.append((there.orbit, ""))
             if there.orbit.amplitude >= up_to:
                 break
-    return piece if piece.marks.count("") > 2 else None
+    return piece if sum(mark == "" for _, mark in piece) > 2 else None
+
+
+def _folds(piece: list[Marked]) -> bool:
+    return any(mark == "fold" for _, mark in piece)
 
 
 def _better_resolved(orbit: BeamOrbit) -> BeamOrbit | None:

@@ -60,15 +60,15 @@ class Growth(NamedTuple):
         return self.per_radian * frequency
 
 
-def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
+def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
     Or two thirds as many, where half as many do not.
     """
     functions = settled_functions(blade, orbit.system)
-    rough = grown(blade, orbit, functions, steps)
+    rough = grown(blade, orbit, functions, STEPS)
     for finer in (2, 3):
-        fine = grown(blade, orbit, finer * functions, finer * steps)
+        fine = grown(blade, orbit, finer * functions, finer * STEPS)
         if not (rough.unstable or fine.unstable):
             return fine, True
         close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent

@@ -193,13 +193,12 @@ def planar_stability(
     mode: int = 1,
     *,
     theory: Theory = BERNOULLI_EULER,
-    steps: int = STEPS,
 ) -> PlanarStability:
     """Return whether the planar orbits of a blade stay in the plane of rotation.
 
     Small motion out of the plane about an orbit of `periodic_orbits` obeys a Hill equation, which
-    is integrated over a period by Gauss's method. Modes up to `steps` times twice the frequency of
-    the orbit are resolved; those beyond follow, or oscillate too fast to be excited.
+    is integrated over a period by Gauss's method. Modes up to 48 times the frequency of the orbit
+    are resolved; those beyond follow, or oscillate too fast to be excited.
 
     Parameters
     ----------
@@ -213,8 +212,6 @@ def planar_stability(
         In-plane mode from which they grow, from 1.
     theory : Theory
         Of the orbits, without shear: slices do not shear out of the plane.
-    steps : int
-        Steps over a period; twice as many are taken, and as many again to see what that changes.
 
     Raises
     ------
@@ -233,12 +230,11 @@ def planar_stability(
     [ True False] ('', 'divergence') [  0.  120.8]
     """
     require_out_of_plane(blade, theory)
-    steps = whole_number("steps", steps)
     orbits = periodic_orbits(
         blade, omega, amplitudes, mode, theory=theory,
         functions=max(16, 2 * whole_number("mode", mode)),
     )  # fmt: skip
-    found = [grown_and_checked(blade, orbit, steps) for orbit in orbits.nondimensional]
+    found = [grown_and_checked(blade, orbit) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(
         blade=blade,
