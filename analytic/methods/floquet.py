@@ -59,7 +59,8 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))
     covered = min(modes, frequencies.size)
     phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
-    matrix = monodromy(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))))
+    scaled, exponent = _flow(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))), 1.0)
+    matrix = scaled * np.exp(exponent)
     constants, n = orbit.constants(), len(matrix) // 2
     basis = np.eye(2 * n)
     if constants is not None:
@@ -90,20 +91,10 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     return Multipliers(np.concatenate((trivial, values[order])).astype(np.complex128))
 
 
-def monodromy(orbit: Any, steps: int) -> FloatArray:
-    """Return what a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n)."""
-    matrix, exponent = scaled_monodromy(orbit, steps)
-    return np.asarray(matrix * np.exp(exponent))
-
-
-def scaled_monodromy(orbit: Any, steps: int) -> tuple[FloatArray, float]:
-    """Return the `monodromy` over its size, where that is beyond 1e60, and the size's logarithm."""
-    return _flow(orbit, steps, 1.0)
-
-
 def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
-    """Return the same of an undamped orbit that time reversal maps onto itself, from half of it.
+    """Return the monodromy of an undamped orbit that time reversal maps onto itself.
 
+    From half of it, and over its size, where that is beyond 1e60; and the size's logarithm.
     With signs S (n,), M(-φ) = SM(φ)S and K(-φ) = SK(φ)S. What half a period makes of (q, Mq̇) is
     symplectic, which gives its inverse, and reversed that is the other half.
     """
@@ -123,7 +114,10 @@ def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[Flo
 
 
 def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
-    """Return what the first `share` of a period makes, scaled as `scaled_monodromy` says."""
+    """Return what a share of a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n).
+
+    Over its size, where that is beyond 1e60, and with the size's logarithm.
+    """
     method = gauss(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
     tangents = orbit.tangent(2.0 * np.pi * share * nodes.ravel())

@@ -20,8 +20,8 @@ class NoOrbitError(Exception):
 
     Attributes
     ----------
-    last : Orbit or None
-        The last orbit found.
+    last : Orbit, list or None
+        The last orbit found, or all along a curve.
     remedy : str
         What to try, where the usual remedies do not help.
     """

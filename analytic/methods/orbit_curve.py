@@ -140,17 +140,6 @@ class At(Generic[S]):
         return crossing(self.curve, self.point, there.point)
 
 
-class ResponseNotFollowedError(Exception):
-    """A response curve ended too early; `found` holds its orbits so far, `remedy` what to try.
-
-    No remedy is told where the usual ones may help.
-    """
-
-    def __init__(self, message: str, found: list[Marked], remedy: str = "") -> None:
-        super().__init__(message)
-        self.found, self.remedy = found, remedy
-
-
 def response_curve(
     system: S, frequencies: FloatArray, largest: float, harmonics: int
 ) -> list[Marked]:
@@ -162,8 +151,9 @@ def response_curve(
 
     Raises
     ------
-    ResponseNotFollowedError
-        If no response is found, the curve has no way on, or the amplitude exceeds `largest`.
+    NoOrbitError
+        If no response is found, the curve has no way on, or the amplitude exceeds `largest`; `last`
+        is the list of what was found.
     """
     first, last = float(frequencies[0]), float(frequencies[-1])
     rest = np.zeros((2 * harmonics + 1, system.size))
@@ -185,8 +175,8 @@ def response_curve(
             if len(found) >= _MOST_POINTS:
                 break
     except NoOrbitError as reason:
-        raise ResponseNotFollowedError(str(reason), found, reason.remedy) from None
-    raise ResponseNotFollowedError(f"the curve does not end within {_MOST_POINTS} points", found)
+        raise NoOrbitError(str(reason), found, reason.remedy) from None
+    raise NoOrbitError(f"the curve does not end within {_MOST_POINTS} points", found)
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:

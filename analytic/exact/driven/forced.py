@@ -12,7 +12,8 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Load
-from ...methods.orbit_curve import Marked, ResponseNotFollowedError, response_curve
+from ...methods.newton import NoOrbitError
+from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import steady_rate
@@ -107,10 +108,10 @@ def forced_response(
     least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
     try:
         found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least)
-    except ResponseNotFollowedError as failed:
+    except NoOrbitError as failed:
         response, last = None, f" at {asked[0]:g} rad/s"
-        if failed.found:
-            response = _packed(beam, load, theory, failed.found)
+        if failed.last:
+            response = _packed(beam, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
         remedy = failed.remedy or "take more damping or a smaller load"
