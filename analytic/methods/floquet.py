@@ -40,12 +40,12 @@ class Multipliers(NamedTuple):
 
     @property
     def modes(self) -> int:
-        """How many modes are covered."""
+        """Number of modes that are covered."""
         return self.values.size // 2
 
     @property
     def lowest(self) -> ComplexArray:
-        """Those of the lowest four modes, (8,)."""
+        """Multipliers of the lowest four modes, (8,)."""
         return self.values[: 2 * _REPORTED]
 
     def stable(self, tolerance: float = 1e-6) -> bool:

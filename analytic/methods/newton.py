@@ -41,7 +41,7 @@ class Root(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Newton:
-    """How Newton's method goes.
+    """Newton's method, with its tolerances.
 
     Attributes
     ----------

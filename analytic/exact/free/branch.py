@@ -122,7 +122,7 @@ class OrbitSet:
 
     @property
     def stable_modes(self) -> NDArray[np.int_]:
-        """How many modes `stable` covers, the lowest, (orbits,)."""
+        """Number of modes that `stable` covers, the lowest, (orbits,)."""
         return np.array([found.modes for found in self._stability])
 
 

@@ -1,4 +1,4 @@
-"""What grows out of the plane over one period of a planar orbit, at a resolution and its double."""
+"""Growth out of the plane over one period of a planar orbit, at a resolution and its double."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SHARE = 0.15  # of the energy, from which a mode is named
 
 
 class Growth(NamedTuple):
-    """What grows out of the plane over one period.
+    """Growth out of the plane over one period: the fastest motion.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Whether a planar motion stays in its plane: Floquet multipliers out of it."""
+"""Stability of planar motion in its plane, by Floquet multipliers out of it."""
 
 from __future__ import annotations
 
@@ -31,21 +31,18 @@ _FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PlanarOrbits:
-    """Planar orbits of a blade, by their amplitude, and what grows out of their plane."""
-
-    blade: AnyBlade
-    of: ModePath
+class PlanarOrbits(ModePath):
+    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane."""
 
     @cached_property
     def functions(self) -> int:
-        """How many settle the flap modes."""
-        return settled_functions(self.blade, self.of.path.at(SMALLEST).system)
+        """Number of functions that settles the flap modes."""
+        return settled_functions(self.beam, self.path.at(SMALLEST).system)
 
     def growth(self, amplitude: float, finer: int = 1) -> Growth:
         """Return what grows about an orbit, at a multiple of the resolution."""
-        orbit = self.of.path.at(amplitude)
-        return grown(self.blade, orbit, finer * self.functions, finer * STEPS)
+        orbit = self.path.at(amplitude)
+        return grown(self.beam, orbit, finer * self.functions, finer * STEPS)
 
 
 def planar_orbits(
@@ -53,8 +50,7 @@ def planar_orbits(
 ) -> PlanarOrbits:
     """Return the planar orbits of a mode at ω [rad/s]."""
     model = resolved_model(blade, mode, theory, _FUNCTIONS)
-    of = ModePath(beam=blade, omega=omega, mode=mode, theory=theory, model=model)
-    return PlanarOrbits(blade=blade, of=of)
+    return PlanarOrbits(beam=blade, omega=omega, mode=mode, theory=theory, model=model)
 
 
 @one_thread
@@ -69,7 +65,7 @@ def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> Float
     rates = np.full(amplitudes.size, np.nan)
     for k, a in enumerate(amplitudes.tolist()):
         try:
-            frequency = orbits.of.path.at(a).frequency
+            frequency = orbits.path.at(a).frequency
         except NoOrbitError:
             break
         rates[k] = orbits.growth(a).rate(frequency * blade.frequency_scale)

@@ -183,7 +183,7 @@ def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit
         agreed = orbits.growth(beyond, 3).per_radian >= least
         agreed = agreed and orbits.growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
-        blade=orbits.blade, omega=orbits.of.omega, mode=orbits.of.mode,
+        blade=orbits.beam, omega=orbits.omega, mode=orbits.mode,
         growth=least, amplitude=amplitude, searched=searched,
         kind=what.kind if what else "", modes=what.modes if what else (),
         tongues=_tongues(seen), converged=agreed,
