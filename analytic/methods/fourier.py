@@ -18,15 +18,15 @@ Parts = list[tuple[NDArray[np.intp], slice]]
 """Coordinates, and the rows of the coefficients that are theirs."""
 
 
-def waves(phase: FloatArray, harmonics: int) -> FloatArray:
-    """Return 1, cos kφ and sin kφ and their first two derivatives, (3, phases, 2H + 1)."""
+def waves(phase: FloatArray, harmonics: int, order: int = 2) -> FloatArray:
+    """Return 1, cos kφ, sin kφ and their first derivatives, (order + 1, phases, 2H + 1)."""
     k = np.arange(harmonics + 1.0)
     turns = np.multiply.outer(phase, k)
     sin, cos = np.sin(turns), np.cos(turns)
-    result = np.empty((3, len(phase), 2 * harmonics + 1))
-    even, odd = result[..., : harmonics + 1], result[..., harmonics + 1 :]
-    even[0], even[1], even[2] = cos, -k * sin, -(k**2) * cos
-    odd[0], odd[1], odd[2] = sin[:, 1:], (k * cos)[:, 1:], -((k**2) * sin)[:, 1:]
+    result = np.empty((order + 1, len(phase), 2 * harmonics + 1))
+    for derivative in result:
+        derivative[:, : harmonics + 1], derivative[:, harmonics + 1 :] = cos, sin[:, 1:]
+        sin, cos = k * cos, -k * sin
     return result
 
 

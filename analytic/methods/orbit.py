@@ -248,7 +248,7 @@ class Crest:
 
 def _gauge_near(orbit: Orbit[Any], phase: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the gauge at a few phases, and its derivative to the phase; both (phases,)."""
-    q, change = waves(phase, orbit.harmonics)[:2] @ orbit.coefficients
+    q, change = waves(phase, orbit.harmonics, order=1) @ orbit.coefficients
     return orbit.system.gauge(q), orbit.system.gauge_rate(q, change)
 
 
@@ -274,7 +274,7 @@ def peak_gradient(orbit: Orbit[Any]) -> FloatArray:
 
     The phase is where the gauge is stationary, so it adds nothing to them.
     """
-    (wave,) = waves(np.array([orbit.peak_phase]), orbit.harmonics)[0]
+    (wave,) = waves(np.array([orbit.peak_phase]), orbit.harmonics, order=0)[0]
     q = wave[None] @ orbit.coefficients
     rows = wave[:, None] * orbit.system.gauge_gradient(q)[0]
     return np.append(np.sign(orbit.system.gauge(q)[0]) * packed(rows, orbit.parts), 0.0)

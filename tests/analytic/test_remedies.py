@@ -188,14 +188,6 @@ def test_spin_up_ramp_too_short(beam):
     assert complaint(spin_up_response, beam, ramp, [0.1], tolerance=1e-4) == ""
 
 
-def test_spin_up_too_many_positions(beam):
-    spin_up, times = SpinUp(omega=1.0, ramp_time=1.0), np.linspace(0.0, 0.1, 100_001)
-    points = np.linspace(0.0, 8.0, 201)
-    said = complaint(spin_up_response, beam, spin_up, times, points=points, tolerance=1e-3)
-    assert said.endswith("ask for fewer points, or none")
-    assert complaint(spin_up_response, beam, spin_up, times[::100], tolerance=1e-3) == ""
-
-
 def test_masked_values():
     masked = np.ma.array([1.0, 2.0], mask=[False, True])
     assert "by .compressed()" in complaint(finite_array, "x", masked)
