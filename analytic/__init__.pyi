@@ -30,6 +30,7 @@ from .exact.plane.planarity import planar_stability as planar_stability
 from .exact.plane.stability_limit import StabilityLimit as StabilityLimit
 from .exact.plane.stability_limit import Tongue as Tongue
 from .exact.plane.stability_limit import stability_limit as stability_limit
+from .exact.space.steady import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
 from .loads import SpeedRipple as SpeedRipple

@@ -226,6 +226,17 @@ def require_blade(beam: object) -> None:
         raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
 
 
+def require_planar(beam: AnyBlade) -> None:
+    """Refuse a blade whose motion leaves the plane of bending at once."""
+    require_blade(beam)
+    if not beam.is_planar:
+        raise ValueError(
+            "this answer is of a straight blade in its plane, and this one has a twist, precone, "
+            "prebend, sweep or offset: take linear_modes, steady_state or spin_up_response, which "
+            "have it in space"
+        )
+
+
 def undamped(beam: AnyBlade) -> AnyBlade:
     """Return the same without damping."""
     return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
@@ -233,7 +244,7 @@ def undamped(beam: AnyBlade) -> AnyBlade:
 
 def require_undamped(beam: AnyBlade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
-    require_blade(beam)
+    require_planar(beam)
     if any(beam.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "

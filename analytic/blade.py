@@ -11,7 +11,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -19,9 +19,10 @@ from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
+from .line import STRAIGHT, Line, Offset
 from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
-from .profiles import evaluated, in_units
+from .profiles import Profile, evaluated, in_units
 from .section import Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
@@ -65,9 +66,48 @@ class Variations(Described, abstract=True):
         more = (PointMass(position=position, mass=mass, inertia=inertia),)
         return replace(self.blade, point_masses=self.blade.point_masses + more)
 
-    def with_tip_mass(self, mass: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with one mass [kg] more at its tip."""
-        return self.with_point_mass(mass, self.blade.length, inertia)
+    def with_tip_mass(
+        self, mass: float, inertia: float = 0.0, offset: Offset = (0.0, 0.0)
+    ) -> Blade:
+        """Return the blade with one mass [kg] more at its tip, `offset` [m] from the line."""
+        more = (PointMass(position=self.blade.length, mass=mass, inertia=inertia, offset=offset),)
+        return replace(self.blade, point_masses=self.blade.point_masses + more)
+
+    def with_twist(self, angle: Profile) -> Blade:
+        """Return the blade whose sections twist, from the chord towards the thickness.
+
+        By `angle` [rad] at the tip and in proportion before, if it is one number; else by
+        coefficients of 1, x/L, ... or by stations (x [m], angle).
+        """
+        return self._with_line(twist=(0.0, angle) if np.ndim(angle) == 0 else angle)
+
+    def with_precone(self, angle: float) -> Blade:
+        """Return the blade whose clamp points out of the plane of rotation by `angle` [rad]."""
+        return self._with_line(precone=angle)
+
+    def with_prebend(self, curvature: Profile) -> Blade:
+        """Return the blade whose unloaded line is curved about the chord [1/m], flapwise."""
+        return self._with_line(prebend=curvature)
+
+    def with_sweep(self, curvature: Profile) -> Blade:
+        """Return the blade whose unloaded line is curved about the thickness [1/m], chordwise."""
+        return self._with_line(sweep=curvature)
+
+    def with_offsets(self, mass: Offset = (0.0, 0.0), tension: Offset = (0.0, 0.0)) -> Blade:
+        """Return the blade whose centers of mass and of tension are so far [m] from the line.
+
+        Each (c2, c3), along chord and thickness, from the shear centers.
+        """
+        return self._with_line(mass_offset=mass, tension_offset=tension)
+
+    def _with_line(self, **change: Any) -> Blade:
+        return replace(self.blade, line=replace(self.blade.line, **change))
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether the blade is straight and flat: no twist, precone, prebend, sweep or offset."""
+        blade = self.blade
+        return blade.line == STRAIGHT and not any(any(m.offset) for m in blade.point_masses)
 
     def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
         """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
@@ -127,6 +167,8 @@ class Blade(Variations):
         ψ [rad], of the plane of bending against the plane of rotation.
     point_masses : tuple of PointMass
     damping : Damping
+    line : Line
+        Twist, precone, prebend, sweep and offsets.
 
     Raises
     ------
@@ -148,6 +190,7 @@ class Blade(Variations):
     setting_angle: float = 0.0
     point_masses: tuple[PointMass, ...] = ()
     damping: Damping = UNDAMPED
+    line: Line = STRAIGHT
 
     uniform: ClassVar[None] = None
 
@@ -164,7 +207,7 @@ class Blade(Variations):
                 f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "
                 f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad"
             )
-        for name, kind in (("section", Section), ("damping", Damping)):
+        for name, kind in (("section", Section), ("damping", Damping), ("line", Line)):
             if not isinstance(getattr(self, name), kind):
                 raise TypeError(
                     f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
@@ -200,6 +243,7 @@ class Blade(Variations):
             hub_radius=self.hub_radius / length,
             point_masses=tuple(one.in_units(length, mass) for one in self.point_masses),
             damping=self.damping.in_units(length, mass, time),
+            line=self.line.in_units(length),
         )
 
     @property

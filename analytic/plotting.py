@@ -10,6 +10,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import FloatArray
 
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # noqa: PLC0414  (for the results)
 
 _DRAWN = 61  # amplitudes, besides the orbits' own
+_FINE = 10  # pieces of what is drawn between two points of a response
+UNSTABLE: Any = {"ls": (0, (2.5, 1.5)), "lw": 0.8}
+FOLD: Any = {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white"}
+"""How the unstable part of a response is drawn, and where it folds."""
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -61,6 +66,41 @@ def backbone_drawn(
     )
     a = np.union1d(np.linspace(0.0, amplitude.max(), _DRAWN), amplitude)
     return CubicSpline(square, frequency[first], bc_type=ends)(a**2), a
+
+
+def draw_response(
+    ax: Axes,
+    frequency: FloatArray,
+    amplitude: FloatArray,
+    stable: NDArray[np.bool_],
+    fold: NDArray[np.bool_],
+    **line: Any,
+) -> None:
+    """Draw a response through its points in order: unstable dashed, folds as rings.
+
+    Between two points is a cubic that is monotone where they are: no peak or fold is drawn that is
+    none. A fold ends both parts, for a multiplier is 1 there.
+    """
+    from scipy.interpolate import PchipInterpolator  # noqa: PLC0415  (for pictures only)
+
+    points, calm = np.array([frequency, amplitude]), stable | fold
+    along = np.linalg.norm(np.diff(points / np.ptp(points, axis=1, keepdims=True)), axis=0)
+    distinct = np.append(True, along > 0.0)
+    place = np.append(0.0, np.cumsum(along))[distinct]
+    points, calm = points[:, distinct], calm[distinct]
+    count = place.size - 1
+    at = np.interp(np.linspace(0.0, count, _FINE * count + 1), np.arange(count + 1), place)
+    drawn = PchipInterpolator(place, points, axis=1)(at)
+    firm = np.repeat(calm[:-1] & calm[1:], _FINE)
+    # A point belongs to the pieces on both of its sides.
+    solid, dashed = (
+        np.where(np.append(part[0], part) | np.append(part, part[-1]), drawn, np.nan)
+        for part in (firm, ~firm)
+    )
+    (curve,) = ax.plot(*solid, **line)
+    color = curve.get_color()
+    ax.plot(*dashed, **{**line, **UNSTABLE, "color": color, "label": "_unstable"})
+    ax.plot(frequency[fold], amplitude[fold], mec=color, **FOLD)
 
 
 def free_place(omegas: FloatArray, frequencies: FloatArray, order: int, top: float) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from .description import Described
 from .input_checks import not_negative
+from .line import Offset, checked_offset, scaled
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +21,8 @@ class PointMass(Described):
         [kg].
     inertia : float
         Against rotation in the plane of bending [kg m²].
+    offset : tuple
+        (c2, c3) [m] from the blade's line, along chord and thickness of the section.
 
     Examples
     --------
@@ -34,6 +37,7 @@ class PointMass(Described):
     position: float
     mass: float
     inertia: float = 0.0
+    offset: Offset = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         for name, value in (
@@ -42,6 +46,7 @@ class PointMass(Described):
             ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
         ):
             object.__setattr__(self, name, value)
+        object.__setattr__(self, "offset", checked_offset("offset", self.offset))
 
     def in_units(self, length: float, mass: float) -> PointMass:
         """Return the same in units of length [m] and mass [kg]."""
@@ -49,6 +54,7 @@ class PointMass(Described):
             position=self.position / length,
             mass=self.mass / mass,
             inertia=self.inertia / (mass * length**2),
+            offset=scaled(self.offset, length),
         )
 
 

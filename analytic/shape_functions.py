@@ -80,7 +80,7 @@ class ShapeFunctions:
         x = self._grid.points
         return self._mass(x) * self._polynomials(x).slope
 
-    def _forces(self, x: FloatArray) -> FloatArray:
+    def forces(self, x: FloatArray) -> FloatArray:
         """Return M or N at `x`, (places, count), before they are made orthonormal."""
         here = self._polynomials(x)
         if self.blade.mass == 1.0:
@@ -98,18 +98,18 @@ class ShapeFunctions:
     def _own(self) -> FloatArray:
         """The upper triangular matrix that makes the strains orthonormal."""
         x, weights = self._grid.points, self._grid.weights[:, None]
-        factor = np.linalg.qr(np.sqrt(weights / self._profile(x)) * self._forces(x), mode="r")
+        factor = np.linalg.qr(np.sqrt(weights / self._profile(x)) * self.forces(x), mode="r")
         return np.asarray(np.linalg.inv(factor) * np.sign(np.diag(factor)))
 
     def strain(self, x: FloatArray) -> FloatArray:
         """Return the strains at `x`, (places, count)."""
-        return np.asarray(self._forces(x) / self._profile(x) @ self._own)
+        return np.asarray(self.forces(x) / self._profile(x) @ self._own)
 
     def elongation_slope(self, x: FloatArray) -> FloatArray:
         """Return the derivatives of N/EA at `x`, (places, count)."""
         S, slopes = self._profile(x), self._mass(x) * self._polynomials(x).slope
         bent = slope_of(self.blade.axial, x)[:, None] / S
-        return np.asarray((slopes - bent * self._forces(x)) / S @ self._own)
+        return np.asarray((slopes - bent * self.forces(x)) / S @ self._own)
 
     @cached_property
     def _strains(self) -> FloatArray:

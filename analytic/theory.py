@@ -26,6 +26,10 @@ class Theory:
     rotary_inertia : bool
         Whether slices have inertia against rotation in the plane: that of a homogeneous section,
         ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
+    trapeze : bool
+        Whether slices of a blade in space have inertia against torsion too, with the propeller
+        moment, and twist shortens the axis, the trapeze effect. Both are of the same size; codes
+        without them are compared with False.
 
     Raises
     ------
@@ -45,9 +49,10 @@ class Theory:
     extension: bool = True
     shear: float | None = None
     rotary_inertia: bool = False
+    trapeze: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("extension", "rotary_inertia"):
+        for name in ("extension", "rotary_inertia", "trapeze"):
             object.__setattr__(self, name, flag(name, getattr(self, name)))
         if self.shear is None:
             return

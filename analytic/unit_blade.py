@@ -57,11 +57,15 @@ class UnitBlade:
         """Ends of the panels between point masses, at which forces jump, 0 to 1."""
         return _some(_apart(position for position, _, _ in self.masses), _MOST_PANELS)
 
+    @property
+    def profiles(self) -> tuple[Profile, ...]:
+        """All that varies along the blade."""
+        return self.mass, self.bending, self.axial, self.rotary
+
     @cached_property
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
-        profiles = (self.mass, self.bending, self.axial, self.rotary)
-        kinks = [x for profile in profiles for x in stations(profile)]
+        kinks = [x for profile in self.profiles for x in stations(profile)]
         ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
         ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
         return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, Damping, SpeedRipple, forced_response, linear_modes
-from rotbeam_exu import comparison, figures
+from rotbeam_exu import dataset_of, figures
 
 plt.style.use(figures.STYLE)
 beam, ripple = Beam.reference(), SpeedRipple(amplitude=0.002)  # [rad/s]
@@ -28,7 +28,7 @@ for omega in (2.0, 6.0):
 
 _, axes = plt.subplots(ncols=2, figsize=(9, 4.8))
 for ax, at_speed in zip(axes, curves.values(), strict=True):
-    figures.forced_response([comparison.forced_response(curve) for curve in at_speed], ax=ax)
+    figures.forced_response([dataset_of(curve) for curve in at_speed], ax=ax)
 plt.show()
 
 # %%

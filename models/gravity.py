@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, Damping, Gravity, campbell, forced_response
-from rotbeam_exu import comparison, figures
+from rotbeam_exu import dataset_of, figures
 
 plt.style.use(figures.STYLE)
 beam = Beam.reference()
@@ -22,7 +22,7 @@ response = forced_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36)
 crossings = campbell(beam, np.linspace(0.0, 6.0, 25), count=1, orders=4).crossings
 
 _, (above, below) = plt.subplots(nrows=2, figsize=(6, 7))
-figures.forced_response(comparison.forced_response(response), ax=above)
+figures.forced_response(dataset_of(response), ax=above)
 below.semilogy(response.omega, np.abs(response.harmonics[:, 1:5]), label=["1", "2", "3", "4"])
 below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L", xlim=above.get_xlim())
 below.legend(title="k", ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.16))

@@ -1,3 +1,4 @@
+from .datasets import dataset_of as dataset_of
 from .fem.linearization import growth_rate as growth_rate
 from .fem.linearization import natural_frequencies as natural_frequencies
 from .fem.linearization import steady_stretch as steady_stretch

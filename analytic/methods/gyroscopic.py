@@ -5,6 +5,8 @@ The stiffest modes, of axial motion, are 10⁴ times faster than the lowest and 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
@@ -12,13 +14,13 @@ from ..lazily import linalg
 
 
 def reciprocal_modes(
-    stiffness: FloatArray, coupling: FloatArray, mass: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+    stiffness: FloatArray, coupling: FloatArray | ComplexArray, mass: FloatArray
+) -> tuple[FloatArray, Any]:
     """Return 1/Ω, descending (n,), and the shapes (n, n) in columns of K - ΩC - Ω²M.
 
     All three are symmetric, as they are where coordinates in the sine and in the cosine of Ωτ are
-    coupled by the rates. With M = FFᵀ and ν = 1/Ω that is the symmetric eigenproblem
-    [[C, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y.
+    coupled by the rates; C may be Hermitian, -iD of a skew D. With M = FFᵀ and ν = 1/Ω that is the
+    symmetric eigenproblem [[C, F], [Fᵀ, 0]] y = ν [[K, 0], [0, 1]] y.
     """
     n = len(stiffness)
     squares, vectors = np.linalg.eigh(mass)

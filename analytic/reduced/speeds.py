@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..beam import Beam, require_blade
+from ..beam import Beam, require_planar
 from ..lazily import optimize
 from .lagrangian import energy_coefficients
 from .model import model_at
@@ -30,7 +30,7 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
     2.9730 rad/s
     """
-    require_blade(beam)
+    require_planar(beam)
     setting = variant_named(variant) if isinstance(variant, str) else variant
 
     def lambda_omega(speed_ratio: float) -> float:
@@ -55,7 +55,7 @@ def divergence_speed(beam: Beam) -> float:
     >>> print(f"{divergence_speed(Beam.reference()):.4f} rad/s")
     2.9092 rad/s
     """
-    require_blade(beam)
+    require_planar(beam)
     linear = energy_coefficients(CantileverMode(), "none")
     return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
 

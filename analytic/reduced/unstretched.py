@@ -18,7 +18,7 @@ import math
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_steady_state, warn_if_rpm
+from ..beam import AnyBlade, require_planar, require_steady_state, warn_if_rpm
 from ..input_checks import rotation_speed, whole_number
 from ..lazily import linalg
 from ..methods.gyroscopic import reciprocal_modes
@@ -70,6 +70,7 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
     count = whole_number("count", count)
     if count > _MOST // 4:
         raise ValueError(f"count must be at most {_MOST // 4}, got {count}: ask for less")
+    require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
     w_bar = omega / beam.frequency_scale

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade, require_blade
+from ..beam import AnyBlade, require_planar
 from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import linear_modes
 from ..input_checks import positive, rotation_speed
@@ -89,7 +89,7 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
-    require_blade(beam)
+    require_planar(beam)
     omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
@@ -198,6 +198,7 @@ def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6)
     >>> print(f"{residual_amplitude(beam, spin_up):.4f} L by the closed form")
     0.1680 L by the closed form
     """
+    require_planar(beam)
     require_ramp(spin_up)
     period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
     T = spin_up.ramp_time

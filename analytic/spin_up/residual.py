@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade, require_blade
+from ..beam import AnyBlade, require_planar
 from ..input_checks import finite_array, flag, positive, whole_number
 from ..lazily import interpolate
 from ..quadrature import gauss_points, integrals_from_clamp
@@ -103,7 +103,7 @@ def residual_amplitude(
 
 def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
-    require_blade(beam)
+    require_planar(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
     top = max(1.0, math.ceil(10.0 * fastest(spin_up) / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)

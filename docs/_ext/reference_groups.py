@@ -80,7 +80,7 @@ GROUPS = (
     _group(
         "Files and sweeps",
         "Runs, beams and grids of runs, kept and read again.",
-        rotbeam_exu="save load sweep",
+        rotbeam_exu="dataset_of save load sweep",
         rotbeam_exu__sweeps__grid="failures",
         rotbeam_exu__files__beam_file="load_beam",
     ),

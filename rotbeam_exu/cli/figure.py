@@ -54,11 +54,10 @@ def figure(
     $ rotbeam figure 14 --jobs 2 -o paper
     """
     from .. import figures
-    from ..paper_figures import PAPER_FIGURES
 
-    every = list(PAPER_FIGURES)
+    every = list(figures.PAPER_FIGURES)
     wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
-    if not wanted or wanted[0] not in PAPER_FIGURES:
+    if not wanted or wanted[0] not in every:
         raise ValueError(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
@@ -73,9 +72,8 @@ def figure(
 def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
     """Make one figure."""
     from .. import figures
-    from ..paper_figures import PAPER_FIGURES
 
-    made = PAPER_FIGURES[n]
+    made = figures.PAPER_FIGURES[n]
     with counter(new_console(), f"figure {n}") as progress:
         options = (
             {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
@@ -88,7 +86,7 @@ def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
         axes = made.draw(data)
         words = path.with_name(f"{path.name}.txt")
         with whole_file(words) as partial:
-            partial.write_text(f"Figure {n}. {figures.caption(n, data)}\n", encoding="utf-8")
+            partial.write_text(f"Figure {n}. {made.caption(data)}\n", encoding="utf-8")
         return *figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, path), words
 
     # The data tells its inputs, so files are compared with it after it is computed.

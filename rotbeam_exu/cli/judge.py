@@ -9,9 +9,8 @@ from json import dumps
 from pathlib import Path
 
 from ..files.results import whole_file, writable_folder
-from ..report.document import SCHEMA, document
+from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
-from ..report.record import Record
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
 from ..verification.mistakes.mistake import Mistake

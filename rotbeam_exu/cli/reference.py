@@ -53,7 +53,7 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    from .. import comparison
+    from ..datasets import dataset_of
 
     file = configured(config)
     if duration is None:
@@ -72,7 +72,7 @@ def reference(
         inputs=inputs,
         force=results.force,
         compute=lambda: analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance),
-        dataset=lambda found: comparison.exact_spin_up(found).assign_attrs(tolerance=tolerance),
+        dataset=lambda found: dataset_of(found).assign_attrs(tolerance=tolerance),
         show=lambda found, _: _print(found),
     ).run()
 

@@ -159,8 +159,7 @@ def respond(
     $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
-    from .. import comparison
-    from ..comparison.response import response_inputs
+    from ..datasets import dataset_of, response_inputs
 
     load = loads.one()
     file = configured(config)
@@ -196,7 +195,7 @@ def respond(
         inputs=inputs,
         force=results.force,
         compute=computed,
-        dataset=lambda found: comparison.forced_response(found).assign_attrs(inputs),
+        dataset=lambda found: dataset_of(found).assign_attrs(inputs),
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         show=lambda found, data: _print(data, str(found)),
         draw=None if no_figure else drawn(lambda figures, data: figures.forced_response(data)),

@@ -57,7 +57,7 @@ def stability(
     $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
     $ rotbeam stability --omega 6 --section tube
     """
-    from .. import comparison
+    from ..datasets import dataset_of
 
     whole_number("mode", mode)
     positive("growth", growth)
@@ -80,7 +80,7 @@ def stability(
         inputs=inputs,
         force=results.force,
         compute=computed,
-        dataset=lambda pair: comparison.planar_stability(*pair).assign_attrs(inputs),
+        dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs),
         table=lambda data: data.drop_vars(["multipliers", "part"]),
         show=lambda pair, _: _print(*pair),
         draw=drawn(lambda figures, data: figures.planar_stability(data)),

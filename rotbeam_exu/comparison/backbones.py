@@ -10,12 +10,13 @@ import numpy as np
 from analytic import Beam, periodic_orbits, reduced_model
 from analytic.exact.plane.planarity import planar_note
 
+from ..datasets import AMPLITUDE, OMEGA, dataset, labeled
 from ..fem.frame import Frame
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..verdict import beam_attributes
-from .theory import beyond_range
+from .theory import RATIO, beyond_range
 
 _FITTED = 0.6
 """Amplitude up to which Figure 5's curves are fitted: beyond, a⁶ counts too."""
@@ -26,9 +27,6 @@ _MESHES: dict[str, tuple[int, Frame]] = {"paper": (16, "inertial"), "converged":
 
 _SAFETY = 1.25
 """Roache's factor (1994) on errors of discretization whose order is known, not observed."""
-
-_RATIO = {"units": "1", "long_name": "frequency ratio ω_NL/ω_n"}
-_AMPLITUDE = {"units": "1", "long_name": "peak amplitude a = |q|/L"}
 
 
 def finite_element_points(
@@ -70,23 +68,13 @@ def finite_element_points(
     beam = beam or Beam.reference()
     elements, frame = _MESHES[mesh]
 
+    grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, "frame": frame, **options}
+
     def measured(elements: int, step: float) -> tuple[xr.Dataset, xr.Dataset]:
-        grid = sweep(
-            beam,
-            omegas=omegas,
-            ramp_times=ramp_times,
-            elements=elements,
-            step=step,
-            frame=frame,
-            **options,
-        )
-        bar = grid["frequency_error"] / grid["omega_n"]
-        return (
-            xr.Dataset(
-                {"amplitude": grid["amplitude"], "ratio": grid["frequency"] / grid["omega_n"]}
-            ),
-            xr.Dataset({"amplitude": grid["amplitude_error"], "ratio": bar}),
-        )
+        found = sweep(beam, elements=elements, step=step, **grid)
+        bar = found[["amplitude_error", "frequency_error"]]
+        bar = bar.rename(amplitude_error="amplitude", frequency_error="ratio")
+        return measured_ratio(found), bar.assign(ratio=bar["ratio"] / found["omega_n"])
 
     points, bar = measured(elements, step)
     coarse_step, _ = measured(elements, 2.0 * step)
@@ -98,17 +86,20 @@ def finite_element_points(
     if mesh == "converged":
         points, step_left = points + to_zero_step, 0.1 * step_left
     error = _SAFETY * (step_left + mesh_left) + bar
-    labels = {"amplitude": _AMPLITUDE, "ratio": _RATIO}
-    for name, attrs in labels.items():
-        points[name].attrs = attrs
-        points[f"{name}_error"] = error[name].assign_attrs(
-            {**attrs, "long_name": f"error of the {name}: step, mesh and estimator"}
-        )
-    points["estimator_error"] = bar["ratio"].assign_attrs(
-        {"units": "1", "long_name": "error of the ratio: estimator alone"}
-    )
+    for name, label in {"amplitude": AMPLITUDE, "ratio": RATIO}.items():
+        points[name].attrs = labeled(label)
+        whole = labeled(f"error of the {name}: step, mesh and estimator")
+        points[f"{name}_error"] = error[name].assign_attrs(whole)
+    alone = labeled("error of the ratio: estimator alone")
+    points["estimator_error"] = bar["ratio"].assign_attrs(alone)
     points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh)}
     return points
+
+
+def measured_ratio(found: xr.Dataset) -> xr.Dataset:
+    """Return amplitude and ω_NL/ω_n of a sweep."""
+    ratio = found["frequency"] / found["omega_n"]
+    return xr.Dataset({"amplitude": found["amplitude"], "ratio": ratio})
 
 
 def _numerics(mesh: Mesh) -> str:
@@ -134,12 +125,12 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
         drop = 1.0 - here["ratio"].to_numpy()[inside]
         found.append(np.pad(np.linalg.lstsq(columns, drop, rcond=None)[0], (0, 2))[:2])
     values = np.array(found)
-    return xr.Dataset(
+    return dataset(
         {
-            "lambda_omega": ("omega", values[:, 0], {"units": "1", "long_name": "λ_ω"}),
-            "quartic": ("omega", values[:, 1], {"units": "1", "long_name": "a⁴ coefficient"}),
+            "lambda_omega": ("omega", values[:, 0], "λ_ω"),
+            "quartic": ("omega", values[:, 1], "a⁴ coefficient"),
         },
-        coords={"omega": points["omega"]},
+        {"omega": points["omega"]},
     )
 
 
@@ -158,9 +149,9 @@ def figure_5(beam: Beam | None = None, **options: Any) -> xr.Dataset:
     """
     points = finite_element_points(beam, mesh="paper", **options)
     fit = fitted_softening(points, below=_FITTED)
-    a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=_AMPLITUDE)
+    a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
     curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
-    return points.merge(fit).assign(fit=curve.assign_attrs(_RATIO)).assign_coords(a=a)
+    return points.merge(fit).assign(fit=curve.assign_attrs(labeled(RATIO))).assign_coords(a=a)
 
 
 def figure_14(
@@ -193,7 +184,7 @@ def figure_14(
         ],
         dim="mesh",
     )
-    points["mesh"] = ("mesh", list(meshes), {"units": "1", "long_name": "finite element mesh"})
+    points["mesh"] = ("mesh", list(meshes), labeled("finite element mesh"))
     data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
         mesh="", meshes="; ".join(map(_numerics, meshes))
     )
@@ -216,25 +207,17 @@ def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) 
             for i, name in enumerate(MODELS):
                 model = reduced_model(beam, omega, name)
                 linear[i, j] = model.omega_n
-                ratio[:, i, j] = (
-                    model.frequency(np.array([model.first_harmonic(a), a])) / model.omega_n
-                )
+                both = np.array([model.first_harmonic(a), a])
+                ratio[:, i, j] = model.frequency(both) / model.omega_n
             exact = periodic_orbits(beam, omega, a)
             linear[-1, j] = exact.omega_n
             ratio[:, -1, j] = exact.frequency / exact.omega_n
-    return xr.Dataset(
+    dims = ("model", "omega", "a")
+    return dataset(
         {
-            "backbone": (("model", "omega", "a"), ratio[0], _RATIO),
-            "as_printed": (("model", "omega", "a"), ratio[1], _RATIO),
-            "linear_frequency": (
-                ("model", "omega"),
-                linear,
-                {"units": "rad/s", "long_name": "natural frequency ω_n"},
-            ),
+            "backbone": (dims, ratio[0], RATIO),
+            "as_printed": (dims, ratio[1], RATIO),
+            "linear_frequency": (dims[:2], linear, "natural frequency ω_n [rad/s]"),
         },
-        coords={
-            "model": ("model", list(names), {"units": "1", "long_name": "model"}),
-            "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "a": ("a", a, _AMPLITUDE),
-        },
+        {"model": (list(names), "model"), "omega": (list(omegas), OMEGA), "a": (a, AMPLITUDE)},
     )

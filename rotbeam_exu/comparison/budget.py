@@ -12,10 +12,11 @@ import numpy as np
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 
+from ..datasets import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
-from .backbones import finite_element_points
+from .backbones import finite_element_points, measured_ratio
 from .theory import beyond_range
 
 SOURCES = (
@@ -69,17 +70,17 @@ def model_budget(
                 steps = [before - after for before, after in pairwise(ratios)]
                 total[i, j] = (perturbed - exact.frequency) / exact.omega_n
                 error[i, :, j] = [total[i, j] - sum(steps), *steps]
-    attrs = {"units": "1", "long_name": "error of ω_NL over ω_n"}
-    return xr.Dataset(
+    label = "error of ω_NL over ω_n"
+    return dataset(
         {
-            "error": (("model", "source", "omega", "a"), error, attrs),
-            "total": (("model", "omega", "a"), total, attrs),
+            "error": (("model", "source", "omega", "a"), error, label),
+            "total": (("model", "omega", "a"), total, label),
         },
-        coords={
-            "model": ("model", list(MODELS), {"units": "1", "long_name": "model"}),
-            "source": ("source", list(SOURCES), {"units": "1", "long_name": "source of error"}),
-            "omega": ("omega", list(omegas), {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "a": ("a", a, {"units": "1", "long_name": "peak amplitude a = |q|/L"}),
+        {
+            "model": (list(MODELS), "model"),
+            "source": (list(SOURCES), "source of error"),
+            "omega": (list(omegas), OMEGA),
+            "a": (a, AMPLITUDE),
         },
     )
 
@@ -120,31 +121,20 @@ def finite_element_budget(
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
     paper = finite_element_points(beam, mesh="paper", step=step, **grid)
     twice = sweep(beam, elements=16, step=2.0 * step, frame="inertial", **grid)
-    doubled = xr.Dataset(
-        {"amplitude": twice["amplitude"], "ratio": twice["frequency"] / twice["omega_n"]}
-    )
-    no_step = paper[["amplitude", "ratio"]] + (paper[["amplitude", "ratio"]] - doubled) / 3.0
+    measured = paper[["amplitude", "ratio"]]
+    no_step = measured + (measured - measured_ratio(twice)) / 3.0
     converged = finite_element_points(beam, mesh="converged", step=step, **grid)
-    distances = [
-        _distance(beam, points, largest_amplitude) for points in (paper, no_step, converged)
-    ]
-    rows = {
-        "step": distances[0] - distances[1],
-        "mesh": distances[1] - distances[2],
-        "rest": distances[2],
-        "estimator": paper["estimator_error"].to_numpy(),
-    }
-    return xr.Dataset(
-        {
-            "error": (
-                ("source", "omega", "ramp_time"),
-                np.array(list(rows.values())),
-                {"units": "1", "long_name": "ω_NL/ω_n less the exact one; ± for the estimator"},
-            ),
-            "amplitude": paper["amplitude"],
-        },
-        coords={"source": ("source", list(rows), {"units": "1", "long_name": "source of error"})},
+    whole, mesh, rest = (
+        _distance(beam, at, largest_amplitude) for at in (paper, no_step, converged)
     )
+    sources = ["step", "mesh", "rest", "estimator"]
+    error = [whole - mesh, mesh - rest, rest, paper["estimator_error"].to_numpy()]
+    label = "ω_NL/ω_n less the exact one; ± for the estimator"
+    found = dataset(
+        {"error": (("source", "omega", "ramp_time"), error, label)},
+        {"source": (sources, "source of error")},
+    )
+    return found.assign(amplitude=paper["amplitude"])
 
 
 def _distance(beam: Beam, points: xr.Dataset, largest_amplitude: float) -> FloatArray:

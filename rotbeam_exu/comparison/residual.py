@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Callable
@@ -17,9 +18,11 @@ from analytic import (
     quiet_ramp_times,
     residual_amplitude,
 )
+from analytic.arrays import FloatArray
 from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
+from ..datasets import dataset
 from ..fem.elements import Formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
@@ -79,50 +82,52 @@ def residual(
             f"{longest:g} s"
         )
     counts = [
-        whole_number(name, count, least=0)
-        for name, count in (
-            ("points", points),
-            ("finite_element_points", finite_element_points),
-        )
+        whole_number("points", points, least=0),
+        whole_number("finite_element_points", finite_element_points, least=0),
     ]
     one = SpinUp(omega=omega, ramp_time=longest)
     curve = np.linspace(_SHORTEST * period, longest, _CURVE)
     linear = residual_amplitude(blade, one, curve)
-    calm = curve[linear <= _LARGEST]
-    places = [np.linspace(calm.min(initial=longest), longest, count) for count in counts]
-    measures: tuple[Callable[[SpinUp], float], ...] = (
-        lambda ramp: exact_residual(blade, ramp, tolerance=1e-5),
-        lambda ramp: _of_elements(blade, ramp, element, elements),
-    )
-    done, found = 0, []
-    for times, measure in zip(places, measures, strict=True):
+    corrected = residual_amplitude(blade, one, curve, corrected=True)
+    calm = curve[linear <= _LARGEST].min(initial=longest)
+    exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
+    done = itertools.count(1)
+
+    def measured(measure: Callable[[SpinUp], float], times: FloatArray) -> list[float]:
         left = []
         for T in times.tolist():
             left.append(measure(SpinUp(omega=omega, ramp_time=T)))
-            done += 1
             if progress is not None:
-                progress(done, sum(counts))
-        found.append(np.array(left))
+                progress(next(done), sum(counts))
+        return left
+
+    exact = measured(lambda ramp: exact_residual(blade, ramp, tolerance=1e-5), exact_at)
+    runs = measured(lambda ramp: _of_elements(blade, ramp, element, elements), elements_at)
     quiet = quiet_ramp_times(blade, omega, longest=longest)
-    return _dataset(
+    left = "amplitude left over L, "
+    by_backbone = f"{left}closed form, corrected by the backbone"
+    ramp_time = "ramp time T [s]"
+    return dataset(
         {
-            "linear": ("ramp_time", linear, "closed form"),
-            "corrected": (
-                "ramp_time",
-                residual_amplitude(blade, one, curve, corrected=True),
-                "closed form, corrected by the backbone",
-            ),
-            "exact": ("exact_ramp_time", found[0], "exact transient"),
-            "finite_element": ("finite_element_ramp_time", found[1], "finite elements"),
-            "quiet": ("quiet_ramp_time", quiet.left, "quiet ramps"),
+            "linear": ("ramp_time", linear, f"{left}closed form"),
+            "corrected": ("ramp_time", corrected, by_backbone),
+            "exact": ("exact_ramp_time", exact, f"{left}exact transient"),
+            "finite_element": ("finite_element_ramp_time", runs, f"{left}finite elements"),
+            "quiet": ("quiet_ramp_time", quiet.left, f"{left}quiet ramps"),
         },
-        (curve, *places, quiet.ramp_times),
-    ).assign_attrs(
-        **beam_attributes(blade),
-        omega=omega,
-        longest=longest,
-        **_named(element),
-        elements=elements,
+        {
+            "ramp_time": (curve, ramp_time),
+            "exact_ramp_time": (exact_at, ramp_time),
+            "finite_element_ramp_time": (elements_at, ramp_time),
+            "quiet_ramp_time": (quiet.ramp_times, ramp_time),
+        },
+        {
+            **beam_attributes(blade),
+            "omega": omega,
+            "longest": longest,
+            **_named(element),
+            "elements": elements,
+        },
     )
 
 
@@ -130,20 +135,6 @@ def _named(element: str | Formulation) -> dict[str, str]:
     if isinstance(element, str):
         return {"element": element}
     return {"element": element.name, "element_options": json.dumps(describe(element))}
-
-
-def _dataset(values: dict[str, tuple[str, object, str]], times: tuple[object, ...]) -> xr.Dataset:
-    dims = list(dict.fromkeys(dim for dim, _, _ in values.values()))
-    return xr.Dataset(
-        {
-            name: (dim, left, {"units": "1", "long_name": f"amplitude left over L, {by}"})
-            for name, (dim, left, by) in values.items()
-        },
-        coords={
-            dim: (dim, at, {"units": "s", "long_name": "ramp time T"})
-            for dim, at in zip(dims, times, strict=True)
-        },
-    )
 
 
 def _of_elements(blade: AnyBlade, ramp: SpinUp, element: str | Formulation, elements: int) -> float:

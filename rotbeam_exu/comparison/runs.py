@@ -1,18 +1,25 @@
-"""Data of Figures 3 and 4: coarse meshes spun up, and their steady orbits."""
+"""Data of Figures 3, 4 and 15: coarse meshes spun up, their steady orbits, and the models'."""
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from analytic import Beam, SpinUp
+from analytic import Beam, Orbits, SpinUp, periodic_orbits, reduced_model
+from analytic.arrays import FloatArray
+from analytic.lazily import interpolate
 
+from ..datasets import OMEGA, dataset, labeled
 from ..fem.simulation import simulate
 from ..lazily import xr
 from ..oscillation import steady_oscillation
+from ..paper import MODELS
 from ..verdict import beam_attributes, motion_attributes
+from .theory import beyond_range
 
 
 def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:
@@ -53,13 +60,11 @@ def figure_3(
     beam, spin_up = beam or Beam.reference(), spin_up or SpinUp(omega=4.0, ramp_time=15.0)
     runs = [simulate(beam, spin_up, element=element, elements=n, duration=duration) for n in meshes]
     data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
-    data["elements"] = ("elements", list(meshes), {"units": "1", "long_name": "elements"})
-    data.attrs = {
-        **beam_attributes(beam),
-        **{name: runs[0].attrs[name] for name in ("omega", "ramp_time")},
-        **motion_attributes(spin_up),
-        **{name: runs[0].attrs[name] for name in ("element", "element_options", "step", "frame")},
-    }
+    data["elements"] = ("elements", list(meshes), labeled("elements"))
+    motion = {name: runs[0].attrs[name] for name in ("omega", "ramp_time")}
+    data.attrs = {**beam_attributes(beam), **motion, **motion_attributes(spin_up)}
+    data.attrs |= _numerics(runs[0])
+    del data.attrs["elements"]  # a coordinate here
     return data
 
 
@@ -75,44 +80,42 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
     beam = beam or Beam.reference()
-    panels = ["a", "a", "a", "b", "b", "b"]
-    cases = [(4.0, 1.5), (4.0, 2.0), (4.0, 3.0), (4.0, 3.0), (6.0, 3.0), (8.0, 3.0)]
-    orbits = []
-    for omega, ramp_time in cases:
+
+    @functools.cache
+    def orbit(omega: float, ramp_time: float) -> xr.Dataset:
         spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
         run = simulate(beam, spin_up, element=element, elements=elements)
-        steady = run[["q", "q_dot"]].where(run["time"] >= ramp_time, drop=True)
-        orbits.append(
-            xr.Dataset(
-                {
-                    "q_bar": ("sample", steady["q"].data / reference_displacement(beam, spin_up)),
-                    "q_dot_bar": (
-                        "sample",
-                        steady["q_dot"].data / reference_velocity(beam, spin_up),
-                    ),
-                    "smear": _unexplained(steady["q_dot"], steady_oscillation(run).frequency),
-                },
-                coords={"sample": np.arange(steady.sizes["time"])},
-            )
+        steady = run.where(run["time"] >= ramp_time, drop=True)
+        q_bar = steady["q"].data / reference_displacement(beam, spin_up)
+        q_dot_bar = steady["q_dot"].data / reference_velocity(beam, spin_up)
+        smear = _unexplained(steady["q_dot"], steady_oscillation(run).frequency)
+        return dataset(
+            {
+                "q_bar": ("sample", q_bar, "tip displacement q/q₀"),
+                "q_dot_bar": ("sample", q_dot_bar, "tip velocity q̇/q̇₀"),
+                "smear": ((), smear, "share of other modes in the velocity"),
+            },
+            {"sample": np.arange(q_bar.size)},
+            {**beam_attributes(beam), **_numerics(run)},
         )
-    data = xr.concat(orbits, dim="case", join="outer")
-    data["q_bar"].attrs = {"units": "1", "long_name": "tip displacement q/q₀"}
-    data["q_dot_bar"].attrs = {"units": "1", "long_name": "tip velocity q̇/q̇₀"}
-    data["smear"].attrs = {"units": "1", "long_name": "share of other modes in the velocity"}
-    data["panel"] = ("case", panels, {"units": "1", "long_name": "panel"})
-    for index, (name, long_name, unit) in enumerate(
-        (("omega", "angular velocity ω", "rad/s"), ("ramp_time", "ramp time T", "s"))
-    ):
-        values = [case[index] for case in cases]
-        data[name] = ("case", values, {"units": unit, "long_name": long_name})
-    data.attrs = {
-        **beam_attributes(beam),
-        **{
-            name: run.attrs[name]
-            for name in ("element", "element_options", "elements", "step", "frame")
+
+    omegas, ramp_times = [4.0, 4.0, 4.0, 4.0, 6.0, 8.0], [1.5, 2.0, 3.0, 3.0, 3.0, 3.0]
+    orbits = map(orbit, omegas, ramp_times)
+    cases = dataset(
+        {
+            "panel": ("case", list("aaabbb"), "panel"),
+            "omega": ("case", omegas, OMEGA),
+            "ramp_time": ("case", ramp_times, "ramp time T [s]"),
         },
-    }
-    return data
+        {},
+    )
+    return xr.concat(orbits, dim="case", join="outer").assign(cases)
+
+
+def _numerics(run: xr.Dataset) -> dict[str, Any]:
+    """Return how a run was computed."""
+    names = ("elements", "element", "element_options", "step", "frame")
+    return {name: run.attrs[name] for name in names}
 
 
 def _unexplained(rate: xr.DataArray, frequency: float) -> float:
@@ -122,3 +125,118 @@ def _unexplained(rate: xr.DataArray, frequency: float) -> float:
     velocity = rate.to_numpy()
     left = velocity - harmonics @ np.linalg.lstsq(harmonics, velocity)[0]
     return float(np.abs(left).max() / np.abs(velocity).max())
+
+
+def figure_15(
+    beam: Beam | None = None, *, omega: float = 6.0, ramp_time: float = 3.0, **options: Any
+) -> xr.Dataset:
+    """Orbits over one period of the finite element solution, at its amplitude (Fig. 15).
+
+    Parameters
+    ----------
+    beam : Beam, optional
+        By default the paper's.
+    omega, ramp_time : float
+        The spin-up [rad/s], [s]. The print does not say which T it shows.
+    **options
+        As for `simulate`, for the finite element run; by default the main job's 16 elements.
+
+    Returns
+    -------
+    Dataset
+        `q_bar` = q/L and `q_dot_bar` = q̇/(ω0 L) [-] over (model, phase), the models, "exact" and
+        "finite element", each from its greatest deflection; `period` [s] over model. Sec. 6 calls
+        q̇/(ω0 L) by the name of the displacement; it is the velocity. A model whose frequency is
+        off does not close: `gap` [-], from start to end. `distance` [-], of the farthest of its
+        points from the finite element orbit, whenever that is there. Both are in units of that
+        orbit's half axes. Attributes state the amplitude, and each model has it as its peak.
+    """
+    beam = beam or Beam.reference()
+    run = simulate(beam, SpinUp(omega=omega, ramp_time=ramp_time), **options)
+    steady = steady_oscillation(run)
+    period = 2.0 * np.pi / steady.frequency
+    phase = np.linspace(0.0, 1.0, 201)
+    time = phase * period
+    per_length = 1.0 / (beam.omega_0 * beam.length)
+
+    q, q_dot = _from_the_peak(run, period, time)
+    orbits, periods = _of_theory(beam, omega, steady.amplitude, time)
+    orbits["finite element"] = (q / beam.length, q_dot * per_length)
+    periods["finite element"] = period
+    names = ["finite element", *MODELS, "exact"]
+    half_axes = np.array([np.abs(v).max() for v in orbits["finite element"]])
+    paths = {name: np.stack(orbit, axis=-1) / half_axes for name, orbit in orbits.items()}
+    q_bar, q_dot_bar = np.array([orbits[name] for name in names]).transpose(1, 0, 2)
+    gap = [float(np.linalg.norm(paths[name][-1] - paths[name][0])) for name in names]
+    distance = [_distance(paths[name], paths["finite element"]) for name in names]
+    along = ("model", "phase")
+    return dataset(
+        {
+            "q_bar": (along, q_bar, "tip displacement q/L"),
+            "q_dot_bar": (along, q_dot_bar, "tip velocity q̇/(ω₀L)"),
+            "gap": ("model", gap, "gap from start to end over the half axes"),
+            "distance": ("model", distance, "distance from the FE orbit over its half axes"),
+            "period": ("model", [periods[name] for name in names], "period [s]"),
+        },
+        {"model": (names, "model"), "phase": (phase, "time over the FE period")},
+        {
+            "omega": omega,
+            "ramp_time": ramp_time,
+            "amplitude": steady.amplitude,
+            **_numerics(run),
+            **beam_attributes(beam),
+        },
+    )
+
+
+def _of_theory(
+    beam: Beam, omega: float, amplitude: float, time: FloatArray
+) -> tuple[dict[str, tuple[FloatArray, FloatArray]], dict[str, float]]:
+    """Return q/L and q̇/(ω0 L) of the models and the exact beam from their peak, and the periods."""
+    orbits, periods = {}, {}
+    with beyond_range():
+        for name in MODELS:
+            model = reduced_model(beam, omega, name)
+            tip, a0 = model.perturbation, float(model.first_harmonic(amplitude))
+            frequency = model.frequency(a0)
+            psi = frequency * time + tip.peak_phase(np.array(a0))
+            velocity = frequency * tip.rate(psi, a0)
+            orbits[name] = (tip.deflection(psi, a0), velocity / beam.omega_0)
+            periods[name] = 2.0 * np.pi / frequency
+        exact = periodic_orbits(beam, omega, [amplitude])
+    x, x_rate = _from_exact_peak(exact, time)
+    orbits["exact"] = (x, x_rate / beam.omega_0)
+    periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
+    return orbits, periods
+
+
+def _distance(path: FloatArray, other: FloatArray) -> float:
+    """Return the largest distance of a point of `path` from the nearest of `other`, (n, 2) each."""
+    apart = np.linalg.norm(path[:, None] - other[None], axis=2)
+    return float(apart.min(axis=1).max())
+
+
+def _from_the_peak(
+    run: xr.Dataset, period: float, time: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return q and q_dot over one period from the first steady maximum, by cubic splines."""
+    steady = run.where(run["time"] >= run.attrs["ramp_time"], drop=True)
+    at = steady["time"].to_numpy()
+    displacement = interpolate.CubicSpline(at, steady["q"].to_numpy())
+    rate = interpolate.CubicSpline(at, steady["q_dot"].to_numpy())
+    turns = rate.roots(extrapolate=False)
+    peak = next(t for t in turns if displacement(t) > 0.0 and t + period <= at[-1])
+    return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
+
+
+def _from_exact_peak(backbone: Orbits, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return x = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
+    x, rate = backbone.orbit(0, 401)
+    period = 2.0 * np.pi / backbone.frequency[0]
+    samples = np.linspace(0.0, period, x.size)
+    at = (backbone.peak_time[0] + time) % period
+    ends = [np.append(v[:-1], v[0]) for v in (x, rate * backbone.beam.frequency_scale)]
+    first, second = (
+        np.asarray(interpolate.CubicSpline(samples, v, bc_type="periodic")(at)) for v in ends
+    )
+    return first, second

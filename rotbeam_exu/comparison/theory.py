@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from analytic.lazily import interpolate
 from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
 from analytic.reduced.shapes import CantileverMode
 
+from ..datasets import OMEGA, dataset
 from ..lazily import xr
 from ..paper import SPEEDS
 from ..verdict import beam_attributes
@@ -22,13 +24,8 @@ from ..verdict import beam_attributes
 _SMALL = 0.03
 """Amplitude of an orbit whose harmonics give λ_x: its square times 0.08 is the error."""
 
-_A = {"units": "1", "long_name": "amplitude a = q/L"}
-_PEAK = {"units": "1", "long_name": "peak amplitude |q|/L"}
-_RATIO = {"units": "1", "long_name": "frequency ratio ω_NL/ω_n"}
-_OMEGA = {"units": "rad/s", "long_name": "angular velocity ω"}
-_SPEED_RATIO = {"units": "1", "long_name": "speed ratio Ω = ω/ω0"}
-_LAMBDA_OMEGA = {"units": "1", "long_name": "λ_ω"}
-_LAMBDA_X = {"units": "1", "long_name": "λ_x"}
+_SPEED_RATIO = "speed ratio Ω = ω/ω0"
+RATIO = "frequency ratio ω_NL/ω_n"
 
 
 @contextmanager
@@ -57,18 +54,18 @@ def figure_8(beam: Beam | None = None) -> xr.Dataset:
         ratio = [model.frequency(amplitude) / model.omega_n for model in models]
         orbits = [periodic_orbits(beam, r * beam.omega_0, peaks[1:]) for r in exact_ratios]
     exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
-    return xr.Dataset(
+    return dataset(
         {
-            "ratio": (("speed_ratio", "amplitude"), ratio, _RATIO),
-            "exact": (("exact_speed_ratio", "exact_amplitude"), exact, _RATIO),
+            "ratio": (("speed_ratio", "amplitude"), ratio, RATIO),
+            "exact": (("exact_speed_ratio", "exact_amplitude"), exact, RATIO),
         },
-        coords={
-            "speed_ratio": ("speed_ratio", speed_ratios, _SPEED_RATIO),
-            "amplitude": ("amplitude", amplitude, _A),
-            "exact_speed_ratio": ("exact_speed_ratio", exact_ratios, _SPEED_RATIO),
-            "exact_amplitude": ("exact_amplitude", peaks, _PEAK),
+        {
+            "speed_ratio": (speed_ratios, _SPEED_RATIO),
+            "amplitude": (amplitude, "amplitude a = q/L"),
+            "exact_speed_ratio": (exact_ratios, _SPEED_RATIO),
+            "exact_amplitude": (peaks, "peak amplitude |q|/L"),
         },
-        attrs={"model": "CI", **beam_attributes(beam)},
+        {"model": "CI", **beam_attributes(beam)},
     )
 
 
@@ -76,21 +73,16 @@ def figure_9(beam: Beam | None = None) -> xr.Dataset:
     """λ_ω and λ_x of CI, and of the exact beam, against Ω (Fig. 9)."""
     beam = beam or Beam.reference()
     speed_ratio = np.linspace(0.0, 10.0, 201)
-    return _coefficients(
-        beam, {"CI": (beam, "CI")}, "speed_ratio", speed_ratio, _SPEED_RATIO, beam.omega_0
-    )
+    models = {"CI": (beam, "CI")}
+    return _coefficients(beam, models, "speed_ratio", speed_ratio, _SPEED_RATIO, beam.omega_0)
 
 
 def figure_10(beam: Beam | None = None) -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
     beam = beam or Beam.reference()
-    models = {
-        "cantilever mode": (beam, "CI"),
-        "degree 3": (beam, "P3"),
-        "degree 4": (beam, "P4"),
-        "degree 5": (beam, "P5"),
-    }
-    return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), _OMEGA)
+    polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
+    models = {"cantilever mode": (beam, "CI"), **polynomials}
+    return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
 
 
 def figure_11(
@@ -105,15 +97,9 @@ def figure_11(
     models = {}
     for mu in slendernesses:
         area = beam.second_moment / (mu * beam.length**2)
-        other = Beam(
-            length=beam.length,
-            area=area,
-            second_moment=beam.second_moment,
-            youngs_modulus=beam.youngs_modulus,
-            density=beam.mass_per_length / area,
-        )
+        other = replace(beam, area=area, density=beam.mass_per_length / area)
         models[f"μ = {mu:.4g}"] = (other, "CE")
-    data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), _OMEGA)
+    data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
     return data.assign_attrs(held="L, m and EI are held, EA = EI/(μL²)")
 
 
@@ -135,24 +121,13 @@ def figure_12(
                 estimate[i, j] = scale * rotating_frequency(w_bar, degree)
             except ValueError:
                 continue  # so few terms that Eq. 86 has no root near the first frequency
-    return xr.Dataset(
+    return dataset(
         {
-            "omega_n": (
-                ("omega", "degree"),
-                estimate,
-                {"units": "rad/s", "long_name": "natural frequency ω_n"},
-            ),
-            "converged": (
-                "omega",
-                converged,
-                {"units": "rad/s", "long_name": "converged natural frequency ω_n"},
-            ),
+            "omega_n": (("omega", "degree"), estimate, "natural frequency ω_n [rad/s]"),
+            "converged": ("omega", converged, "converged natural frequency ω_n [rad/s]"),
         },
-        coords={
-            "omega": ("omega", list(omegas), _OMEGA),
-            "degree": ("degree", list(degrees), {"units": "1", "long_name": "polynomial degree"}),
-        },
-        attrs={"paper_degree": 36, **beam_attributes(beam)},
+        {"omega": (list(omegas), OMEGA), "degree": (list(degrees), "polynomial degree")},
+        {"paper_degree": 36, **beam_attributes(beam)},
     )
 
 
@@ -162,13 +137,10 @@ def figure_13(beam: Beam | None = None, omegas: Sequence[float] = SPEEDS) -> xr.
     eta = np.linspace(0.0, 1.0, 201)
     shapes = [CantileverMode().deflection(eta)]
     shapes += [rotating_mode(omega / beam.frequency_scale).deflection(eta) for omega in omegas]
-    return xr.Dataset(
-        {"shape": (("omega", "eta"), shapes, {"units": "1", "long_name": "mode shape φ_v"})},
-        coords={
-            "omega": ("omega", [0.0, *omegas], _OMEGA),
-            "eta": ("eta", eta, {"units": "1", "long_name": "position η/L"}),
-        },
-        attrs=beam_attributes(beam),
+    return dataset(
+        {"shape": (("omega", "eta"), shapes, "mode shape φ_v")},
+        {"omega": ([0.0, *omegas], OMEGA), "eta": (eta, "position η/L")},
+        beam_attributes(beam),
     )
 
 
@@ -177,7 +149,7 @@ def _coefficients(
     models: dict[str, tuple[Beam, str]],
     name: str,
     axis: FloatArray,
-    attrs: dict[str, str],
+    label: str,
     scale: float = 1.0,
 ) -> xr.Dataset:
     """λ_ω and λ_x over (model, axis), "exact" the last; NaN where a model has no oscillation."""
@@ -192,16 +164,11 @@ def _coefficients(
                     continue
                 values[:, i, j] = model.lambda_omega, model.lambda_x
         values[:, -1] = _exact_coefficients(beam, omegas)
-    return xr.Dataset(
-        {
-            "lambda_omega": (("model", name), values[0], _LAMBDA_OMEGA),
-            "lambda_x": (("model", name), values[1], _LAMBDA_X),
-        },
-        coords={
-            "model": ("model", [*models, "exact"], {"units": "1", "long_name": "model"}),
-            name: (name, axis, attrs),
-        },
-        attrs=beam_attributes(beam),
+    dims = ("model", name)
+    return dataset(
+        {"lambda_omega": (dims, values[0], "λ_ω"), "lambda_x": (dims, values[1], "λ_x")},
+        {"model": ([*models, "exact"], "model"), name: (axis, label)},
+        beam_attributes(beam),
     )
 
 

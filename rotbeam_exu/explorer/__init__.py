@@ -60,14 +60,12 @@ def _part(name: str) -> str:
 
 
 def _document(data: xr.Dataset) -> dict[str, Any]:
-    numbers = {
-        name: _packed(data[name], "float64")
-        for name in (
-            "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x",
-            "exact_omega_n", "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude",
-            "fe_frequency", "fe_omega_n", "ramp_time", "exact_ramp_time", "ramp_curve",
-        )
-    }  # fmt: skip
+    whole = (
+        "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x", "exact_omega_n",
+        "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude", "fe_frequency",
+        "fe_omega_n", "ramp_time", "exact_ramp_time", "ramp_curve",
+    )  # fmt: skip
+    half = ("first_harmonic", "harmonics", "exact_left", "closed_left")
     return {
         "models": data["model"].to_numpy().tolist(),
         "notes": data["note"].to_numpy().tolist(),
@@ -79,11 +77,8 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
         "step": _STEP,
         "unknown": _UNKNOWN,
         "arrays": {
-            **numbers,
-            "first_harmonic": _packed(data["first_harmonic"], "float32"),
-            "harmonics": _packed(data["harmonics"], "float32"),
-            "exact_left": _packed(data["exact_left"], "float32"),
-            "closed_left": _packed(data["closed_left"], "float32"),
+            **{name: _packed(data[name], "float64") for name in whole},
+            **{name: _packed(data[name], "float32") for name in half},
             **{name: _rounded(data[name]) for name in ("axis_x", "axis_y", "spin_up")},
         },
     }

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import math
 import os
+import warnings
 from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from concurrent.futures import Future
 from typing import Any
 
 import numpy as np
 
-from analytic import VARIANTS, AnyBlade, Beam, reduced_model
+from analytic import (
+    VARIANTS,
+    AmplitudeNotReachedError,
+    AnyBlade,
+    Beam,
+    SpinUp,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    residual_amplitude,
+    spin_up_response,
+)
+from analytic.arrays import FloatArray
+from analytic.input_checks import RotbeamWarning
 
 from ..comparison.theory import beyond_range
+from ..datasets import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import RAMP_TIMES, SPEEDS
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
-from .exact import exact_orbits
-from .spin_ups import exact_spin_up, together
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""
@@ -27,8 +42,16 @@ AMPLITUDES = tuple((np.arange(1, 61) / 100.0).tolist())
 EXACT_RAMP_TIMES = tuple(sorted({*RAMP_TIMES, *(0.5 * np.arange(4, 21)).tolist()}))
 """Ramp times of the slider [s]: the paper's, and every half second from 2 to 10 s."""
 
-_NONE = {"units": "1"}
-_FREQUENCY = {"units": "rad/s"}
+_TIP_HARMONICS = 20
+"""Harmonics of q/L kept; from the twelfth on they are below 4e-6."""
+_AXIS_HARMONICS = 7  # those beyond are below 2e-4 of the length, a twentieth of a pixel
+_AXIS_POINTS = 13
+_SAMPLES = 376
+"""Of a history: forty a period of the paper's beam."""
+_CURVE = 300  # ramp times of the closed form
+_A_PERIOD = 200  # samples of what is left
+_LARGEST = 1.1  # left by the closed form; beyond, the blade is thrown about and costs minutes
+_TOLERANCE = 1e-3  # of the largest |q|: a tenth of a pixel
 
 
 def explorer_data(
@@ -42,7 +65,6 @@ def explorer_data(
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
-    executor: Executor | None = None,
     jobs: int | None = None,
     cache: str | os.PathLike[str] | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -62,8 +84,8 @@ def explorer_data(
     exact_ramp_times : sequence of float
         Ramp times [s] of the exact spin-ups to the same speeds, ascending; by default
         EXACT_RAMP_TIMES, those below `duration`.
-    executor, jobs, cache
-        Where the work is done and where finished spin-ups are kept, as for `sweep`.
+    jobs, cache
+        Number of workers, and where finished spin-ups are kept, as for `sweep`.
     progress : callable, optional
         Called with the pieces of work done and their number.
 
@@ -97,31 +119,25 @@ def explorer_data(
         if progress is not None:
             progress(next(done), total)
 
-    with worker_pool(executor, jobs, total) as pool:
+    with worker_pool(None, jobs, total) as pool:
         exact = [pool.submit(exact_orbits, beam, omega, tuple(amplitudes)) for omega in omegas]
         spun = [pool.submit(exact_spin_up, beam, *ramp, duration) for ramp in ramps]
-        for future in (*exact, *spun):
+        futures: list[Future[Any]] = [*exact, *spun]
+        for future in futures:
             future.add_done_callback(one_more)
         try:
             points = sweep(
-                beam,
-                omegas=finite_element_omegas,
-                ramp_times=ramp_times,
-                elements=elements,
-                duration=duration,
-                step=step,
-                executor=pool,
-                cache=cache,
-                progress=one_more,
-            )
+                beam, omegas=finite_element_omegas, ramp_times=ramp_times, elements=elements,
+                duration=duration, step=step, executor=pool, cache=cache, progress=one_more,
+            )  # fmt: skip
             orbits = xr.concat([future.result() for future in exact], dim="omega")
-            results = [future.result() for future in spun]
+            left = [future.result() for future in spun]
         finally:
-            for future in (*exact, *spun):
+            for future in futures:
                 future.cancel()
     shown = ["amplitude", "frequency", "omega_n"]
     points = points[shown].rename({name: f"fe_{name}" for name in ("omega", *shown)})
-    spin_ups = together(results, beam, finite_element_omegas, exact_ramp_times)
+    spin_ups = _spin_ups(beam, finite_element_omegas, exact_ramp_times, duration, left)
     parts = [_models(beam, omegas, amplitudes), orbits, points, spin_ups]
     data = xr.merge(parts, combine_attrs="drop", join="exact")
     data.attrs = {
@@ -147,17 +163,120 @@ def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]
                 tip = model.perturbation
                 values[:, i, j] = model.omega_n, tip.lambda_omega, tip.kappa, tip.h2, tip.h3
                 first[i, j] = model.first_harmonic(list(amplitudes))
-    dims: Any = ("model", "omega")
-    return xr.Dataset(
+    dims = ("model", "omega")
+    return dataset(
         {
-            "omega_n": (dims, values[0], _FREQUENCY),
-            "lambda_omega": (dims, values[1], _NONE),
-            "kappa": (dims, values[2], _NONE),
-            "h2": (dims, values[3], _NONE),
-            "lambda_x": (dims, values[4], _NONE),
-            "first_harmonic": ((*dims, "a"), first, _NONE),
+            "omega_n": (dims, values[0], "natural frequency ω_n [rad/s]"),
+            "lambda_omega": (dims, values[1], "λ_ω"),
+            "kappa": (dims, values[2], "κ"),
+            "h2": (dims, values[3], "second harmonic"),
+            "lambda_x": (dims, values[4], "λ_x"),
+            "first_harmonic": ((*dims, "a"), first, "first harmonic"),
         },
-        coords={"model": list(VARIANTS), "omega": ("omega", list(omegas), _FREQUENCY)},
+        {"model": list(VARIANTS), "omega": (list(omegas), OMEGA)},
+    )
+
+
+def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
+    """Return what is shown of the exact orbits at one speed; a pure function, for any executor.
+
+    NaN for orbits that are not found.
+    """
+    wanted = np.array(amplitudes)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", RotbeamWarning)
+        try:
+            backbone = periodic_orbits(beam, omega, wanted)
+        except AmplitudeNotReachedError as error:
+            if error.orbits is None:
+                raise
+            backbone = error.orbits
+    found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
+
+    def at_all(values: FloatArray) -> FloatArray:
+        whole = np.full((wanted.size, *values.shape[1:]), np.nan)
+        whole[found] = values
+        return whole
+
+    tip = backbone.harmonics[:, :_TIP_HARMONICS]
+    tip = np.pad(tip, ((0, 0), (0, _TIP_HARMONICS - tip.shape[1])))
+    # The midpoints of half a period, which symmetry makes enough.
+    phase = np.pi * (np.arange(32) + 0.5) / 32
+    points = np.linspace(0.0, beam.length, _AXIS_POINTS)
+    axes = [
+        _axis_harmonics(*backbone.axis(i, points, phase)) for i in range(backbone.amplitude.size)
+    ]
+    axis_x, axis_y = (np.array(parts) / beam.length for parts in zip(*axes, strict=True))
+    along = ("a", "k", "point")
+    orbits = dataset(
+        {
+            "exact_omega_n": ((), backbone.omega_n, "natural frequency ω_n [rad/s]"),
+            "exact_lambda_omega": ((), backbone.lambda_omega, "λ_ω"),
+            "exact_frequency": ("a", at_all(backbone.frequency), "frequency ω_NL [rad/s]"),
+            "harmonics": (("a", "harmonic"), at_all(tip), "q/L over sin kφ"),
+            "axis_x": (along, at_all(axis_x), "x/L over cos kφ"),
+            "axis_y": (along, at_all(axis_y), "y/L over sin kφ"),
+            "note": ((), "; ".join(str(warning.message) for warning in caught), "warnings"),
+        },
+        {"a": (list(amplitudes), AMPLITUDE)},
+    )
+    return orbits.assign_coords(omega=omega)
+
+
+def _axis_harmonics(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Cosine coefficients of x and sine coefficients of y, (k, points), k from 0."""
+    count = len(x)
+    angle = np.multiply.outer(np.arange(_AXIS_HARMONICS + 1), np.pi * (np.arange(count) + 0.5))
+    cosines = 2.0 / count * np.cos(angle / count) @ x
+    cosines[0] *= 0.5
+    return cosines, 2.0 / count * np.sin(angle / count) @ y
+
+
+def exact_spin_up(
+    beam: AnyBlade, omega: float, ramp_time: float, duration: float
+) -> tuple[FloatArray, float]:
+    """Return q/L of an exact spin-up and what it leaves; a pure function, for any executor.
+
+    Half peak to peak in the period after the ramp is left. NaN where the transient is too violent
+    to be computed in seconds.
+    """
+    spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
+    period = 2.0 * math.pi / float(linear_modes(beam, omega, 1).frequencies[0])
+    times = np.linspace(0.0, duration, _SAMPLES)
+    after = ramp_time + np.linspace(0.0, period, _A_PERIOD)
+    both = np.union1d(times, after)
+    q = np.full(both.size, np.nan)
+    if residual_amplitude(beam, spin_up) < _LARGEST:
+        with contextlib.suppress(RuntimeError):
+            q = spin_up_response(beam, spin_up, both, tolerance=_TOLERANCE).q / beam.length
+    return q[np.searchsorted(both, times)], 0.5 * float(np.ptp(q[np.searchsorted(both, after)]))
+
+
+def _spin_ups(
+    beam: AnyBlade,
+    omegas: Sequence[float],
+    ramp_times: Sequence[float],
+    duration: float,
+    spun: Sequence[tuple[FloatArray, float]],
+) -> xr.Dataset:
+    """Return spin-ups on their grid, and what the closed form leaves, corrected by the backbone."""
+    shape, grid = (len(omegas), len(ramp_times)), ("fe_omega", "exact_ramp_time")
+    q, left = (np.array(values) for values in zip(*spun, strict=True))
+    curve = np.linspace(min(ramp_times), max(ramp_times), _CURVE)
+    ramps = [SpinUp(omega=omega, ramp_time=max(ramp_times)) for omega in omegas]
+    closed = [residual_amplitude(beam, ramp, curve, corrected=True) for ramp in ramps]
+    return dataset(
+        {
+            "spin_up": ((*grid, "time"), q.reshape(*shape, -1), "q/L"),
+            "exact_left": (grid, left.reshape(shape), "amplitude left over L"),
+            "closed_left": (("fe_omega", "ramp_curve"), closed, "amplitude left over L"),
+        },
+        {
+            "fe_omega": (list(omegas), OMEGA),
+            "exact_ramp_time": (list(ramp_times), "ramp time T [s]"),
+            "time": (np.linspace(0.0, duration, _SAMPLES), "time t [s]"),
+            "ramp_curve": (curve, "ramp time T [s]"),
+        },
     )
 
 

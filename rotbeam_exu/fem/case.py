@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from analytic import AnyBlade, SteadyRotation
-from analytic.beam import require_blade
+from analytic.beam import require_planar
 from analytic.description import Described, describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
@@ -71,7 +71,7 @@ class Case:
             ("loads", loads_in_time(self.loads)),
         ):
             object.__setattr__(self, name, value)
-        require_blade(self.beam)
+        require_planar(self.beam)
         if not isinstance(self.spin_up, SteadyRotation):
             require_ramp(self.spin_up)
         require_frame(self.beam, self.frame)

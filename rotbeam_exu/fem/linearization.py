@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
+from analytic.beam import require_planar, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.lazily import sparse
 from analytic.methods.gyroscopic import inverse_eigenvalues
@@ -103,7 +103,7 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
-    require_blade(beam)
+    require_planar(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return mesh_frequencies(beam, omega, element, elements, count)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from analytic import Beam
-from analytic.beam import require_blade
+from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 
 from ..lazily import xr
@@ -48,7 +48,7 @@ def divergence_speed(
     2: 4.4510 rad/s
     4: 8.3581 rad/s
     """
-    require_blade(beam)
+    require_planar(beam)
     model = Substructures(frame=frame, cells=cells)
     return model.divergence_speed(beam, whole_number("substructures", substructures))
 

@@ -1,55 +1,63 @@
-"""The figures: each takes data and `ax=`, returns Axes and shows nothing.
+"""The figures: each takes data and `ax=`, by default of a new figure, returns Axes, shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` an `analytic.Campbell`,
+`forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
 `divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
 """
 
 from __future__ import annotations
 
+import xarray as xr
+
 from .animation import animate, save_animation
-from .backbones import figure_5, figure_14
-from .campbell import campbell
-from .descriptions import caption
-from .divergence_speed import divergence_speed
-from .orbits import figure_15
-from .planar import growth_out_of_plane, planar_stability, stability_limits
-from .residual import residual
-from .response import forced_response
-from .runs import figure_3, figure_4
-from .softening_map import softening_by_plane, softening_map
-from .spin_up import spin_up
+from .backbones import FIGURE_5, FIGURE_14, figure_5, figure_14
+from .maps import growth_out_of_plane, softening_by_plane, softening_map
+from .paper_figure import PaperFigure
+from .results import campbell, divergence_speed, forced_response, planar_stability, residual
+from .runs import FIGURE_3, FIGURE_4, FIGURE_15, figure_3, figure_4, figure_15, spin_up
 from .style import STYLE, STYLES, Style, save_figure, style
-from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
+from .theory import (
+    FIGURE_8,
+    FIGURE_9,
+    FIGURE_10,
+    FIGURE_11,
+    FIGURE_12,
+    FIGURE_13,
+    figure_8,
+    figure_9,
+    figure_10,
+    figure_11,
+    figure_12,
+    figure_13,
+)  # fmt: skip
 
 __all__ = [
-    "STYLE",
-    "STYLES",
-    "Style",
-    "animate",
-    "campbell",
-    "caption",
-    "divergence_speed",
-    "figure_3",
-    "figure_4",
-    "figure_5",
-    "figure_8",
-    "figure_9",
-    "figure_10",
-    "figure_11",
-    "figure_12",
-    "figure_13",
-    "figure_14",
-    "figure_15",
-    "forced_response",
-    "growth_out_of_plane",
-    "planar_stability",
-    "residual",
-    "save_animation",
-    "save_figure",
-    "softening_by_plane",
-    "softening_map",
-    "spin_up",
-    "stability_limits",
-    "style",
-]
+    "PAPER_FIGURES", "STYLE", "STYLES", "Style", "animate", "campbell", "caption",
+    "divergence_speed", "figure_3", "figure_4", "figure_5", "figure_8", "figure_9", "figure_10",
+    "figure_11", "figure_12", "figure_13", "figure_14", "figure_15", "forced_response",
+    "growth_out_of_plane", "planar_stability", "residual", "save_animation", "save_figure",
+    "softening_by_plane", "softening_map", "spin_up", "style",
+]  # fmt: skip
+
+PAPER_FIGURES: dict[int, PaperFigure] = {
+    one.number: one
+    for one in (
+        FIGURE_3, FIGURE_4, FIGURE_5, FIGURE_8, FIGURE_9, FIGURE_10, FIGURE_11, FIGURE_12,
+        FIGURE_13, FIGURE_14, FIGURE_15,
+    )
+}  # fmt: skip
+"""The figures of the paper by number: all but Figures 1, 2, 6 and 7, which are drawings."""
+
+
+def caption(number: int, data: xr.Dataset) -> str:
+    """Return a figure's caption: what it shows, of which beam, what the paper says, what is true.
+
+    Parameters
+    ----------
+    number : int
+        3, 4, 5, or 8 to 15.
+    data : Dataset
+        What is drawn, as made by the function `figure_...` of `rotbeam_exu.comparison`.
+    """
+    return PAPER_FIGURES[number].caption(data)

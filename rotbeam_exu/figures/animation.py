@@ -5,22 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 from scipy.interpolate import CubicSpline
 
 from analytic import LinearResponse, SpinUpResponse
+from analytic.arrays import FloatArray
 
 from ..paper import BLUE, ORANGE, RED
-from .moving_beam import CLAMP, REACH, MovingBeam, Response, between, scale_bar, turned, view
 from .style import STYLE, new_figure
 
-_DPI = 100
+_REACH = 1.08  # of a view, beyond the beam's length
+_TRAIL = 0.6  # seconds of the tip's path that stay visible
+_FINER = 8  # points of that path from one picture to the next
+_FAR = 100.0  # lengths: what is farther is drawn there, out of every view
+_CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}
+"""How the line that turns with the clamp is drawn."""
+
+_Response = SpinUpResponse | LinearResponse
+_Moving = Callable[[int], None]
+"""What moves, drawn anew at time number n."""
 
 
 class _Gif(PillowWriter):
@@ -32,17 +40,6 @@ class _Gif(PillowWriter):
         with mpl.rc_context({"savefig.bbox": None}):  # as matplotlib has it
             yield self
         self.finish()
-
-
-class _Scene(NamedTuple):
-    """What moves: beams, lines that turn with the clamp, points on histories, and what it says."""
-
-    beams: list[MovingBeam]
-    clamps: list[Line2D]
-    dots: list[tuple[Line2D, Response]]
-    history: Axes
-    notes: list[tuple[float, Any]]
-    """Times [s] from which on a text is seen."""
 
 
 def animate(
@@ -70,24 +67,15 @@ def animate(
     """
     _require_drawable(response, beside)
     time = response.time
-    interval = float(time[1] - time[0])
-    turn = turned(response, time)
     with mpl.rc_context(STYLE):
-        scene = _two_frames(response) if beside is None else _two_models(response, beside)
-        _ramp(scene.history, response)
-        words = scene.history.set_title("", loc="left", family="monospace")
-        figure: Any = scene.history.get_figure(root=True)
+        history, moving = _two_models(response, beside) if beside else _two_frames(response)
+        _ramp(history, response)
+        words = history.set_title("", loc="left", family="monospace")
+        figure: Any = history.get_figure(root=True)
 
     def draw(n: int) -> list[Any]:
-        for beam in scene.beams:
-            beam.show(n)
-        ray = 1.1 * response.beam.length * turn[n]
-        for clamp in scene.clamps:
-            clamp.set_data([0.0, ray.real], [0.0, ray.imag])
-        for dot, of in scene.dots:
-            dot.set_data([time[n]], [of.q[n]])
-        for start, text in scene.notes:
-            text.set_visible(time[n] >= start)
+        for move in moving:
+            move(n)
         rate_now = float(response.spin_up.rate(time[n]))
         line = f"t = {time[n]:5.2f} s   dθ/dt = {rate_now:4.2f} rad/s   q = {response.q[n]:+5.2f} m"
         if beside is not None:
@@ -96,8 +84,8 @@ def animate(
         words.set_text(line.replace("-", "−"))
         return []
 
-    milliseconds = 1000.0 / (rate or 1.0 / interval)
-    return FuncAnimation(figure, draw, frames=time.size, interval=milliseconds, blit=False)
+    interval = 1000.0 / (rate or 1.0 / (time[1] - time[0]))  # [ms]
+    return FuncAnimation(figure, draw, frames=time.size, interval=interval, blit=False)
 
 
 def _require_drawable(response: SpinUpResponse, beside: LinearResponse | None) -> None:
@@ -107,9 +95,9 @@ def _require_drawable(response: SpinUpResponse, beside: LinearResponse | None) -
                 "nothing to animate: ask spin_up_response for points along the beam, "
                 f"got {one.axis.shape[1]} of them at {one.time.size} times"
             )
-    if beside is not None and not (
-        np.array_equal(beside.time, response.time) and beside.spin_up == response.spin_up
-    ):
+    if beside is None:
+        return
+    if not np.array_equal(beside.time, response.time) or beside.spin_up != response.spin_up:
         raise ValueError(
             "what is shown beside a spin-up must be of the same motion at the same times: give "
             "linear_response what spin_up_response was given"
@@ -144,16 +132,11 @@ def save_animation(
 
     check_format(path)
     animation = animate(response, beside=beside, rate=rate)
-    interval = float(response.time[1] - response.time[0])
-    writer_class = _Gif if path.suffix == ".gif" else FFMpegWriter
-    writer = writer_class(fps=rate or 1.0 / interval)  # type: ignore[arg-type]
+    fps: Any = rate or 1.0 / (response.time[1] - response.time[0])
+    writer = _Gif(fps=fps) if path.suffix == ".gif" else FFMpegWriter(fps=fps)
     try:
-        animation.save(
-            path,
-            writer=writer,
-            dpi=_DPI,
-            progress_callback=lambda n, _: progress(n + 1) if progress else None,
-        )
+        drawn = (lambda n, _: progress(n + 1)) if progress else None
+        animation.save(path, writer=writer, dpi=100, progress_callback=drawn)
     finally:
         plt.close(animation._fig)  # type: ignore[attr-defined]
 
@@ -166,72 +149,102 @@ def check_format(path: Path) -> None:
         raise ValueError(f"cannot write {path.name!r}: MP4 needs ffmpeg; install it or take .gif")
 
 
-def _two_frames(response: SpinUpResponse) -> _Scene:
-    """Return the inertial and the rotating view, of one scale, and the history of q."""
+def _two_frames(response: SpinUpResponse) -> tuple[Axes, list[_Moving]]:
+    """Return the history of q, and what moves: the inertial and the rotating view, in one scale."""
     behind = 0.12
-    outside, inside, history = _axes(5.2, 2.0 * REACH, REACH + behind)
+    outside, inside, history = _axes(5.2, 2.0 * _REACH, _REACH + behind)
     length = response.beam.length
-    view(outside, "inertial frame", length)
-    view(inside, "rotating frame", length, behind)
-    scale_bar(inside, length)
-    inside.plot([0.0, 1.1 * length], [0.0, 0.0], **CLAMP)
-    beams = [MovingBeam(outside, response), MovingBeam(inside, response, turning=True)]
-    (clamp,) = outside.plot([], [], **CLAMP)
-    dot = _history(history, response, BLUE, ORANGE)
-    return _Scene(beams, [clamp], [(dot, response)], history, [])
+    _view(outside, "inertial frame", length)
+    _view(inside, "rotating frame", length, behind)
+    _scale_bar(inside, length)
+    inside.plot([0.0, 1.1 * length], [0.0, 0.0], **_CLAMP)
+    return history, [
+        _beam(outside, response, BLUE, ORANGE),
+        _beam(inside, response, BLUE, ORANGE, turning=True),
+        _clamp(outside, response),
+        _history(history, response, BLUE, ORANGE),
+    ]
 
 
-def _two_models(response: SpinUpResponse, beside: LinearResponse) -> _Scene:
-    """Return the inertial views of the exact beam and of the linear one, and both histories."""
-    *views, history = _axes(4.6, 2.0 * REACH, 2.0 * REACH)
+def _two_models(response: SpinUpResponse, beside: LinearResponse) -> tuple[Axes, list[_Moving]]:
+    """Return both histories, and what moves: inertial views of the exact and the linear beam."""
+    exact, linear, history = _axes(4.6, 2.0 * _REACH, 2.0 * _REACH)
     length = response.beam.length
-    beams, clamps, notes = [], [], []
+    moving = []
     for ax, of, title, color in (
-        (views[0], response, "exact beam", BLUE),
-        (views[1], beside, "linear floating frame", RED),
+        (exact, response, "exact beam", BLUE),
+        (linear, beside, "linear floating frame", RED),
     ):
-        view(ax, title, length)
-        clamps += ax.plot([], [], **CLAMP)
-        beams.append(MovingBeam(ax, of, color=color, path=color))
-    scale_bar(views[0], length, -REACH)
-    dots = [(_history(history, of, c, c), of) for of, c in ((beside, RED), (response, BLUE))]
-    history.set_ylim(-REACH * length, REACH * length)
+        _view(ax, title, length)
+        moving += [_clamp(ax, of), _beam(ax, of, color, color)]
+    _scale_bar(exact, length, -_REACH)
+    moving += [_history(history, of, c, c) for of, c in ((beside, RED), (response, BLUE))]
+    history.set_ylim(-_REACH * length, _REACH * length)
     _mark_instability(history, beside)
-    left = _time_of_leaving(beside, beams[1])
+    _, path = _shapes_and_path(beside)
+    seen = np.maximum(np.abs(path.real), np.abs(path.imag)) <= _REACH * length
+    left = float(_between(beside.time)[seen][-1])
     if left < response.time[-1]:
         said = f"left the picture at {left:.2f} s"
         # A fixed place: that of a title that is not seen yet would put the other one anywhere.
-        text = views[1].set_title(said, loc="right", color=RED, y=1.0)
-        notes.append((left, text))
-    return _Scene(beams, clamps, dots, history, notes)
+        text = linear.set_title(said, loc="right", color=RED, y=1.0)
+        moving.append(lambda n: text.set_visible(response.time[n] >= left))
+    return history, moving
+
+
+def _shapes_and_path(response: _Response, *, turning: bool = False) -> tuple[Any, ...]:
+    """Return the beam (times, points), and its tip's path, as complex numbers [m]."""
+    time, angle = response.time, response.spin_up.angle
+    fine = _between(time)
+    # Between two pictures the tip goes on along its curve, not along a chord.
+    beam = response.axis[..., 0] + 1j * response.axis[..., 1]
+    tip: Any = CubicSpline(time, beam[:, -1])(fine)
+    if not turning:
+        beam, tip = beam * np.exp(1j * angle(time))[:, None], tip * np.exp(1j * angle(fine))
+    far = _FAR * response.beam.length
+    return tuple(z * (far / np.maximum(np.abs(z), far)) for z in (beam, tip))
+
+
+def _beam(
+    ax: Axes, response: _Response, color: str, path: str, *, turning: bool = False
+) -> _Moving:
+    """Return the beam, its tip and the tip's path, in a view that turns with the clamp or not."""
+    shapes, tips = _shapes_and_path(response, turning=turning)
+    trail = _FINER * round(_TRAIL / float(response.time[1] - response.time[0]))
+    (trace,) = ax.plot([], [], color=path, lw=1.0)
+    (beam,) = ax.plot([], [], color=color, lw=2.5, solid_capstyle="round")
+    (tip,) = ax.plot([], [], "o", color=path, ms=4)
+
+    def show(n: int) -> None:
+        past = tips[max(0, _FINER * n - trail) : _FINER * n + 1]
+        for line, z in ((beam, shapes[n]), (trace, past), (tip, past[-1:])):
+            line.set_data(z.real, z.imag)
+
+    return show
+
+
+def _clamp(ax: Axes, response: _Response) -> _Moving:
+    """Return the line that turns with the clamp."""
+    (line,) = ax.plot([], [], **_CLAMP)
+    ray = 1.1 * response.beam.length * np.exp(1j * response.spin_up.angle(response.time))
+    return lambda n: line.set_data([0.0, ray[n].real], [0.0, ray[n].imag])
 
 
 def _mark_instability(history: Axes, beside: LinearResponse) -> None:
     """Mark the first time at which the linear model is faster than its divergence speed."""
-    fine = between(beside.time)
+    fine = _between(beside.time)
     faster = beside.spin_up.rate(fine) * beside.beam.unit.setting > beside.beam.omega_0
     if beside.foreshortening or not faster.any():
         return
     start, speed = fine[np.argmax(faster)], beside.beam.omega_0 / beside.beam.unit.setting
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
-    late = start > 0.5 * beside.time[-1]  # then there is more room on the left
+    # Where there is more room.
+    side, shift = ("right", -4) if start > 0.5 * beside.time[-1] else ("left", 4)
+    said = f"from {start:.2f} s on faster than {speed:.2f} rad/s: linear unstable"
     history.annotate(
-        f"from {start:.2f} s on faster than {speed:.2f} rad/s: linear unstable",
-        (start, 1.0),
-        xycoords=("data", "axes fraction"),
-        xytext=(-4 if late else 4, -4),
-        textcoords="offset points",
-        ha="right" if late else "left",
-        va="top",
-        color=RED,
-    )
-
-
-def _time_of_leaving(response: Response, beam: MovingBeam) -> float:
-    """Return the last time [s] at which the tip is in the view."""
-    reach = REACH * response.beam.length
-    seen = np.maximum(np.abs(beam.path.real), np.abs(beam.path.imag)) <= reach
-    return float(between(response.time)[seen][-1])
+        said, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(shift, -4),
+        textcoords="offset points", ha=side, va="top", color=RED,
+    )  # fmt: skip
 
 
 def _axes(height: float, *widths: float) -> tuple[Axes, Axes, Axes]:
@@ -245,25 +258,43 @@ def _axes(height: float, *widths: float) -> tuple[Axes, Axes, Axes]:
     return axes[0, 0], axes[0, 1], figure.add_subplot(axes[1, 0].get_gridspec()[1, :])
 
 
-def _history(history: Axes, response: Response, color: str, dot: str) -> Line2D:
+def _view(ax: Axes, title: str, length: float, left: float = _REACH) -> None:
+    """Make a view of a beam of that length, to scale, as far as `left` behind the clamp."""
+    ax.set(xlim=(-left * length, _REACH * length), ylim=(-_REACH * length, _REACH * length))
+    ax.set(aspect="equal", xticks=[], yticks=[])
+    ax.set_title(title, loc="left")
+    ax.spines[:].set_visible(False)
+    ax.plot([0.0], [0.0], "s", color="0.35", ms=6, zorder=3)
+
+
+def _scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
+    """Draw a bar of a quarter of the beam's length below a view, and what the dashes are beside."""
+    bar, low, left = 0.25 * length, -0.98 * _REACH * length, start * length
+    ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
+    ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
+    ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **_CLAMP)
+    ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
+
+
+def _history(history: Axes, response: _Response, color: str, dot: str) -> _Moving:
     """Draw q over time, and return the point that moves on it."""
-    fine = between(response.time)
+    fine = _between(response.time)
     history.plot(fine, CubicSpline(response.time, response.q)(fine), color=color)
     (point,) = history.plot([], [], "o", color=dot, ms=6, mec="white", mew=0.8)
-    return point
+    return lambda n: point.set_data([response.time[n]], [response.q[n]])
 
 
-def _ramp(history: Axes, response: Response) -> None:
+def _ramp(history: Axes, response: _Response) -> None:
     """Shade the spin-up, and name the axes."""
     history.axvspan(0.0, response.spin_up.ramp_time, color="0.93", lw=0, zorder=0)
     history.axhline(0.0, color="0.6", lw=0.5)
     history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q [m]")
     history.annotate(
-        "spin-up",
-        (0.0, 1.0),
-        xycoords="axes fraction",
-        xytext=(4, -4),
-        textcoords="offset points",
-        va="top",
-        color="0.35",
-    )
+        "spin-up", (0.0, 1.0), xycoords="axes fraction", xytext=(4, -4),
+        textcoords="offset points", va="top", color="0.35",
+    )  # fmt: skip
+
+
+def _between(time: FloatArray) -> FloatArray:
+    """Return the times of pictures and, evenly, some between them."""
+    return np.linspace(time[0], time[-1], _FINER * (time.size - 1) + 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -18,7 +18,6 @@ from ..paper import ORANGE
 from ..verification.convergence import Convergence, convergence, convergence_of_functions
 from ..verification.history import HISTORY_FLOOR, Histories
 from ..verification.judgement import THRESHOLDS, Judgement
-from ..verification.outcomes import Finding
 from ..verification.submission import Run
 from .style import STYLE, columns, cycle, ink, new_figure
 
@@ -30,59 +29,26 @@ _MARKERS = "osD^v"
 _MOST_POINTS = 3000  # of a curve: more are not seen
 
 
-def judged_history(histories: Histories) -> Axes:
-    """Draw q(t) of the finest run over the reference, and what each run is off by.
+def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]:
+    """Yield the figures of a case, each as the text of an SVG with its caption.
 
-    Below, the largest difference up to each time: q(t) crosses zero, and so do differences.
-
-    Returns
-    -------
-    Axes
-        The upper ones, of a new figure.
-    """
-    _, (above, below) = new_figure(columns(), 3.4, nrows=2, sharex=True)
-    finest = histories.rows.finest
-    every = max(1, finest.time.size // _MOST_POINTS)
-    time = finest.time[::every]
-    with mpl.rc_context(STYLE):
-        above.plot(time, histories.reference.history(time), color="0.2", lw=2.2, label="reference")
-        above.plot(time, finest.q[::every], color=ink(ORANGE), lw=0.9, label=_name(finest))
-        above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
-        above.set_ylabel("$q$ [m]")
-        above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
-        for run, color in _colors(histories).items():
-            every = max(1, run.time.size // _MOST_POINTS)
-            largest = np.maximum.accumulate(np.abs(histories.differences[run]))[::every]
-            below.semilogy(run.time[::every], largest, color=color, label=_name(run))
-        below.axhline(THRESHOLDS["history"], color="0.4", lw=0.7, ls=(0, (4, 2)))
-        lowest = histories.reference.bound
-        below.set(
-            xlabel="time $t$ [s]", ylabel="largest difference\nso far / max|$q$|",
-            xlim=(0.0, float(finest.time[-1])), ylim=(max(lowest, 1e-9), None),
-        )  # fmt: skip
-        below.legend(loc="lower right", ncols=3)
-    upper: Axes = above
-    return upper
-
-
-def judged_errors(name: str, judgement: Judgement) -> Axes | None:
-    """Draw what a case's meshes, steps and time bring: errors of discretization, and of q(t).
-
-    Returns
-    -------
-    Axes or None
-        The first ones, of a new figure; None if no quantity has two meshes.
+    Its history, if there is one, and its errors, if a quantity has two meshes.
     """
     histories, declared = judgement.histories.get(name), judgement.declaration
-    drawn = _in_mesh(judgement.findings[name], histories, declared.order)
-    if not drawn:
-        return None
-    steps = histories.rows.steps if histories else ()
-    timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
-    count = 1 + bool(steps) + timed
-    _, grid = new_figure(columns() / 3.0 * count, 2.5, ncols=count, squeeze=False)
-    axes = list(grid[0])
     with mpl.rc_context(STYLE):
+        if histories is not None:
+            caption = (
+                f"{name}: the finest run over the reference, and the largest difference of each "
+                "run up to each time; dashed, what passes of a limit."
+            )
+            yield svg(_history(histories)), caption
+        drawn = _in_mesh(judgement, name)
+        if not drawn:
+            return
+        steps = histories.rows.steps if histories else ()
+        timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
+        count = 1 + bool(steps) + timed
+        axes = new_figure(columns() / 3.0 * count, 2.5, ncols=count, squeeze=False)[1][0]
         elements = 1.0 / next(iter(drawn.values())).sizes
         _draw_errors(axes[0], drawn, elements, declared.order)
         axes[0].set(xlabel="elements", ylabel="|run − limit| in the mesh")
@@ -90,14 +56,14 @@ def judged_errors(name: str, judgement: Judgement) -> Axes | None:
             sizes = np.array([run.step for run in steps])
             runs = _of_functions(histories, steps, sizes, declared.order_in_step)
             _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
-            axes[1].set(
-                xlabel=f"step [ms], {steps[0].elements} elements",
-                ylabel="|run − limit| in the step",
-            )
+            where = f"step [ms], {steps[0].elements} elements"
+            axes[1].set(xlabel=where, ylabel="|run − limit| in the step")
         if histories and timed:
-            _draw_cost(axes[-1], histories, _colors(histories))
-    first: Axes = axes[0]
-    return first
+            _draw_cost(axes[-1], histories)
+        machine = declared.machine or "the author's machine"
+        caption = f"{name}: distance from the limit in the mesh{' and in the step' * bool(steps)}"
+        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
+        yield svg(axes[0]), caption
 
 
 def svg(axes: Axes) -> str:
@@ -110,6 +76,34 @@ def svg(axes: Axes) -> str:
         figure.savefig(text, format="svg", metadata={"Date": None})
     plt.close(figure)
     return text.getvalue()
+
+
+def _history(histories: Histories) -> Axes:
+    """Draw q(t) of the finest run over the reference, and what each run is off by.
+
+    Below, the largest difference up to each time: q(t) crosses zero, and so do differences.
+    """
+    _, (above, below) = new_figure(columns(), 3.4, nrows=2, sharex=True)
+    finest = histories.rows.finest
+    every = max(1, finest.time.size // _MOST_POINTS)
+    time = finest.time[::every]
+    above.plot(time, histories.reference.history(time), color="0.2", lw=2.2, label="reference")
+    above.plot(time, finest.q[::every], color=ink(ORANGE), lw=0.9, label=_name(finest))
+    above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
+    above.set_ylabel("$q$ [m]")
+    above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
+    for run, color in _colors(histories).items():
+        every = max(1, run.time.size // _MOST_POINTS)
+        largest = np.maximum.accumulate(np.abs(histories.differences[run]))[::every]
+        below.semilogy(run.time[::every], largest, color=color, label=_name(run))
+    below.axhline(THRESHOLDS["history"], color="0.4", lw=0.7, ls=(0, (4, 2)))
+    below.set(
+        xlabel="time $t$ [s]", ylabel="largest difference\nso far / max|$q$|",
+        xlim=(0.0, float(finest.time[-1])), ylim=(max(histories.reference.bound, 1e-9), None),
+    )  # fmt: skip
+    below.legend(loc="lower right", ncols=3)
+    upper: Axes = above
+    return upper
 
 
 def _name(run: Run) -> str:
@@ -148,22 +142,21 @@ def _draw_errors(
     ax.legend(loc="best")
 
 
-def _in_mesh(
-    findings: Mapping[str, Finding], histories: Histories | None, declared: float | None
-) -> dict[str, Convergence]:
+def _in_mesh(judgement: Judgement, name: str) -> dict[str, Convergence]:
     """Return what tends to a limit in the mesh, the step left as it is."""
-    found = {}
-    for quantity, one in findings.items():
+    found, histories = {}, judgement.histories.get(name)
+    declared = judgement.declaration.order
+    for quantity, one in judgement.findings[name].items():
         runs = one.runs
         if runs is None or runs.sizes.size < 2:
             continue
         if quantity == "history" and histories is not None:
             found[quantity] = _of_functions(histories, histories.rows.meshes, runs.sizes, declared)
         elif math.isfinite(runs.limit):
+            noise = runs.noise.tolist()
             found[quantity] = convergence(
-                runs.sizes.tolist(), runs.values.tolist(), noise=runs.noise.tolist(),
-                declared=declared,
-            )  # fmt: skip
+                runs.sizes.tolist(), runs.values.tolist(), noise=noise, declared=declared
+            )
     return found
 
 
@@ -175,32 +168,26 @@ def _of_functions(
     return convergence_of_functions(size, functions, noise=HISTORY_FLOOR, declared=declared)[0]
 
 
-def _draw_cost(ax: Axes, histories: Histories, colors: Mapping[Run, Any]) -> None:
+def _draw_cost(ax: Axes, histories: Histories) -> None:
     """Draw the error of q(t) over the time that it took, on the author's machine."""
-    for run, color in colors.items():
+    for run, color in _colors(histories).items():
         if run.wall > 0.0:
             error = float(np.abs(histories.differences[run]).max())
             ax.plot(run.wall, error, color=color, marker="s", ms=4.5, ls="none", label=_name(run))
-    ax.set(
-        xscale="log", yscale="log", xlabel="wall time [s]", ylabel="|run − reference|, of $q(t)$"
-    )  # fmt: skip
+    ax.set(xscale="log", yscale="log", xlabel="wall time [s]")
+    ax.set_ylabel("|run − reference|, of $q(t)$")
     ax.margins(0.2)
     _whole_decades(ax)
     low, high = ax.get_xlim()
-    ax.set_xlim(low / 1.3, 1.3 * high)
+    narrow, low, high = high / low < 10.0, low / 1.3, 1.3 * high
+    ax.set_xlim(low, high)
     ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
-    if high / low < 10.0:
-        _few_times(ax)
+    if narrow:  # round times where no power of ten is in sight
+        powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
+        places = [float(k * power) for power in powers for k in (1, 2, 5)]
+        ax.set_xticks([x for x in places if low <= x <= high])
+        ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
     ax.legend(loc="best")
-
-
-def _few_times(ax: Axes) -> None:
-    """Label round times where no power of ten is in sight."""
-    low, high = ax.get_xlim()
-    powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
-    places = [float(k * power) for power in powers for k in (1, 2, 5)]
-    ax.set_xticks([x for x in places if low <= x <= high])
-    ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
 
 
 def _whole_decades(ax: Axes) -> None:

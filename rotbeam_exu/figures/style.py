@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 import xarray as xr
@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from ..files.results import whole_file
 from ..paper import BLUE, GREEN, MODEL_LINES, ORANGE, PURPLE, RED, SKY
 
+_Given = TypeVar("_Given")  # axes, or some
 _CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
 
 # Where a grey is near another's, dashes and marks tell the two apart.
@@ -140,6 +141,14 @@ def new_figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]
     with mpl.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(width, height), **layout)
     return figure, axes
+
+
+@contextmanager
+def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) -> Iterator[_Given]:
+    """Draw in the house's style: on `ax`, or on the axes of a new figure [in]."""
+    given = new_figure(width, height, **layout)[1] if ax is None else ax
+    with mpl.rc_context(STYLE):
+        yield given
 
 
 def label(variable: xr.DataArray) -> str:

@@ -4,18 +4,59 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import platform
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement
+from ..verification.mistakes.mistake import Mistake
 from ..verification.outcomes import Finding, Order
-from ..verification.submission import Run
-from .record import Record
+from ..verification.submission import Run, Submission
 
 SCHEMA = "rotbeam judgement 1"
 """Its number grows where a key goes, or means something else."""
+
+
+def _versions() -> dict[str, str]:
+    names = ("numpy", "scipy", "xarray")
+    own = {"rotbeam_exu": version("rotbeam-exu"), "python": platform.python_version()}
+    return {**own, **{name: version(name) for name in names}}
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class Record:
+    """A judgement with all that a reader needs to repeat it.
+
+    Attributes
+    ----------
+    submission : Submission
+    judgement : Judgement
+        Of it, or of some of its cases.
+    mistakes : tuple of Mistake
+    digests : mapping
+        SHA-256 by file.
+    date : datetime
+        Of the judgement.
+    versions : mapping
+        Of what judged, by name.
+    """
+
+    submission: Submission
+    judgement: Judgement
+    mistakes: tuple[Mistake, ...] = ()
+    digests: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    date: datetime = dataclasses.field(default_factory=lambda: datetime.now(UTC))
+    versions: Mapping[str, str] = dataclasses.field(default_factory=_versions)
+
+    @property
+    def name(self) -> str:
+        """Code and version."""
+        return f"{self.judgement.declaration.code} {self.judgement.declaration.version}".strip()
 
 
 def document(record: Record) -> dict[str, Any]:

@@ -15,8 +15,7 @@ from urllib.parse import quote
 from ..verification.cases import CASES, VERSION
 from ..verification.outcomes import Finding, Order, Outcome
 from ..verification.submission import Run
-from .document import document
-from .record import Record
+from .document import Record, document
 
 TITLE = "rotbeam judgement"
 """Begins the title of each page, by which one is known."""
@@ -154,31 +153,14 @@ def _order(order: Order) -> str:
 
 def _case(name: str, record: Record) -> str:
     # matplotlib takes longer to import than a judgement without a report.
-    from ..figures.judgement import judged_errors, judged_history, svg  # noqa: PLC0415
+    from ..figures.judgement import judged_figures  # noqa: PLC0415
 
     found = record.judgement
-    case = CASES.get(name)
-    title = f"{name}: {case.title}" if case else name
-    parts = [f"<h3>{escape(title)}</h3>"]
-    histories = found.histories.get(name)
-    if histories is not None:
-        parts.append(
-            _figure(
-                svg(judged_history(histories)),
-                f"{name}: the finest run over the reference, and the largest difference of each "
-                "run up to each time; dashed, what passes of a limit.",
-            )
-        )
-    axes = judged_errors(name, found)
-    if axes is not None:
-        machine = found.declaration.machine or "the author's machine"
-        stepped = histories is not None and bool(histories.rows.steps)
-        timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
-        caption = f"{name}: distance from the limit in the mesh{' and in the step' * stepped}"
-        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
-        parts.append(_figure(svg(axes), caption))
-    parts.append(f"<p><small>Reference: {escape(found.sources.get(name, 'none'))}.</small></p>")
-    return f"<section>{''.join(parts)}</section>"
+    title = f"{name}: {CASES[name].title}" if name in CASES else name
+    figures = "".join(_figure(*one) for one in judged_figures(name, found))
+    source = escape(found.sources.get(name, "none"))
+    source = f"<p><small>Reference: {source}.</small></p>"
+    return f"<section><h3>{escape(title)}</h3>{figures}{source}</section>"
 
 
 def _figure(picture: str, caption: str) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..datasets import OMEGA, dataset
 from ..fem.case import Case
 from ..lazily import xr
 from ..versions import versions
@@ -35,22 +36,19 @@ def collect(
             for name, column in columns.items():
                 column[i, j] = result.attrs[name]
     first = next(iter(cases.values())).describe()
-    data = xr.Dataset(
+    labels = {name: f"{long_name} [{unit}]" for name, (unit, long_name) in MEASURED.items()}
+    data = dataset(
         {
-            name: (dims, column, {"units": MEASURED[name][0], "long_name": MEASURED[name][1]})
-            for name, column in columns.items()
+            **{name: (dims, column, labels[name]) for name, column in columns.items()},
+            "verdict": (dims, verdict.astype(str), "verdict"),
+            "failure": (dims, failure.astype(str), "why a case failed"),
         },
-        coords={
-            "omega": ("omega", omegas, {"units": "rad/s", "long_name": "angular velocity ω"}),
-            "ramp_time": ("ramp_time", ramp_times, {"units": "s", "long_name": "ramp time T"}),
-        },
-        attrs={
-            **{k: v for k, v in first.items() if k not in ("omega", "ramp_time")},
+        {"omega": (omegas, OMEGA), "ramp_time": (ramp_times, "ramp time T [s]")},
+        {
+            **{k: v for k, v in first.items() if k not in dims},
             "versions": json.dumps(versions()),
         },
     )
-    data["verdict"] = (dims, verdict.astype(str), {"units": "1", "long_name": "verdict"})
-    data["failure"] = (dims, failure.astype(str), {"units": "1", "long_name": "why a case failed"})
     if history:
         data = data.merge(_histories(omegas, ramp_times, results))
     return data

@@ -229,3 +229,15 @@ def test_a_stiffness_in_giga_is_told(made, meant):
 def test_rubber_and_usual_units_are_not(modulus, density):
     """Warnings are errors in this suite."""
     Beam(length=8.0, area=7.3e-5, second_moment=8.2e-9, youngs_modulus=modulus, density=density)
+
+
+@pytest.mark.parametrize(("package", "name"), OF_A_BEAM, ids=str)
+def test_a_twisted_blade_is_answered_in_space_or_refused(package, name):
+    """Never by the answer of the straight one."""
+    function = getattr(package, name)
+    _, *others = inspect.signature(function).parameters.values()
+    given = {p.name: OTHERS[p.name] for p in others if p.default is p.empty}
+    if name in ("campbell", "damping_ratios", "linear_modes", "spin_up_response", "steady_state"):
+        return
+    with pytest.raises(ValueError, match=r"a straight blade in its plane|uniform Beam"):
+        function(STRIP.with_twist(0.5), **given)

@@ -308,3 +308,13 @@ def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode=3)
+
+
+@pytest.mark.slow
+def test_a_strip_at_rest_has_a_limit_and_a_square_none(beam):
+    square, strip = (
+        stability_limit(beam.blade.with_shape(Rectangle(ratio=ratio)), 0.0, largest=0.012)
+        for ratio in (1.0, 18.5)
+    )
+    assert math.isinf(square.amplitude)
+    assert strip.amplitude == pytest.approx(0.00782, rel=1e-3)

@@ -7,7 +7,6 @@ import pytest
 import rotbeam_exu.cli.figure as figure_job
 from rotbeam_exu import figures, load, oscillation
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.paper_figures import PAPER_FIGURES
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
@@ -133,7 +132,7 @@ def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(figures, drawing, stopped)
-    monkeypatch.setitem(PAPER_FIGURES, 8, replace(PAPER_FIGURES[8], draw=stopped))
+    monkeypatch.setitem(figures.PAPER_FIGURES, 8, replace(figures.PAPER_FIGURES[8], draw=stopped))
     code, _, error = call(*command.split(), "--out", tmp_path)
     assert code == 130
     assert f"kept: {tmp_path}/{name}.nc, {tmp_path}/{name}" in error

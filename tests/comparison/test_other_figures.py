@@ -1,5 +1,6 @@
 """The data and the pictures of all figures."""
 
+import functools
 import re
 
 import matplotlib.pyplot as plt
@@ -11,7 +12,6 @@ from analytic import SpinUp, reduced_model
 from rotbeam_exu import comparison, figures
 from rotbeam_exu.cli import main
 from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
-from rotbeam_exu.figures.captions import CAPTIONS
 
 
 @pytest.fixture(autouse=True)
@@ -21,8 +21,14 @@ def without_display(monkeypatch):
     plt.close("all")
 
 
-def test_figure_3_even_one_element_is_stable():
-    data = comparison.figure_3()
+@pytest.fixture(scope="module")
+def data_of():
+    """The data of a figure by its number, computed once."""
+    return functools.cache(lambda number: figures.PAPER_FIGURES[number].data())
+
+
+def test_figure_3_even_one_element_is_stable(data_of):
+    data = data_of(3)
     # What is inset: one element is 10 % fast, two are nearly in phase.
     words = figures.caption(3, data)
     assert "1 element: -33.4 and -10.1 %; 2 elements: +1.3 and -0.8 %" in words
@@ -57,8 +63,8 @@ def test_figure_4_normalization_has_the_units_of_a_velocity(beam):
             assert reference_velocity(slow, spin_up) == pytest.approx(v / scale)
 
 
-def test_figure_4_orbits_close():
-    data = comparison.figure_4()
+def test_figure_4_orbits_close(data_of):
+    data = data_of(4)
     left, right = figures.figure_4(data)
     assert (left.get_xlim(), left.get_ylim()) == (right.get_xlim(), right.get_ylim())
     # The last of a) is the first of b), and drawn as it is; pale lines are all turns of each.
@@ -75,8 +81,8 @@ def test_figure_4_orbits_close():
     assert data["panel"].to_numpy().tolist() == list("aaabbb")
 
 
-def test_figure_8_is_bounded_by_its_limits():
-    ratio = comparison.figure_8()["ratio"]
+def test_figure_8_is_bounded_by_its_limits(data_of):
+    ratio = data_of(8)["ratio"]
     assert (ratio[0] >= 1.0).all()
     assert (ratio[2] <= ratio[1]).all()
     # λ_ω → 3.3504/2.3901 as Ω → ∞, Eq. 64.
@@ -84,8 +90,8 @@ def test_figure_8_is_bounded_by_its_limits():
     assert ratio[2, -1].item() == pytest.approx(limit, abs=1e-4)
 
 
-def test_figure_8_draws_the_exact_beam_beside_the_model():
-    data = comparison.figure_8()
+def test_figure_8_draws_the_exact_beam_beside_the_model(data_of):
+    data = data_of(8)
     # At rest the model is right, to its fourth order; in rotation it is far off.
     model = data["ratio"].sel(amplitude=0.4, method="nearest").to_numpy()
     exact = data["exact"].sel(exact_amplitude=0.4, method="nearest").to_numpy()
@@ -96,8 +102,8 @@ def test_figure_8_draws_the_exact_beam_beside_the_model():
     np.testing.assert_array_equal([line.get_xdata() for line in black], data["exact"])
 
 
-def test_exact_coefficients_are_those_of_small_orbits(beam):
-    ten = comparison.figure_10()
+def test_exact_coefficients_are_those_of_small_orbits(beam, data_of):
+    ten = data_of(10)
     for omega in (2.0, 8.4):
         exact = ten.sel(model="exact", omega=omega)
         # FrM is the inextensible beam to this order.
@@ -106,20 +112,20 @@ def test_exact_coefficients_are_those_of_small_orbits(beam):
         assert exact["lambda_x"].item() == pytest.approx(model.lambda_x, abs=1.1e-4)
 
 
-def test_figures_9_to_11_have_the_papers_values(beam):
-    nine = comparison.figure_9()
+def test_figures_9_to_11_have_the_papers_values(beam, data_of):
+    nine = data_of(9)
     at_one = nine.sel(speed_ratio=1.0, model="CI")
     assert at_one["lambda_omega"].item() == pytest.approx(
         (3.3504 - 0.23963) / (2.3901 + 12.362), abs=2e-5
     )
-    ten = comparison.figure_10()
+    ten = data_of(10)
     # The paper: degree 5 is nearest to the mode at low speed, and degree 4 never hardens.
     low = np.abs(ten["lambda_omega"] - ten["lambda_omega"].sel(model="cantilever mode")).sel(
         omega=1.0, method="nearest"
     )
     assert low.isel(model=slice(1, None)).idxmin("model").item() == "degree 5"
     assert (ten["lambda_omega"].sel(model="degree 4") > 0.0).all()
-    eleven = comparison.figure_11()
+    eleven = data_of(11)
     # From 4 rad/s on shapes differ by less than all do from the exact beam; at rest CI is right.
     shapes = ten["lambda_omega"].isel(model=slice(-1))
     spread = (shapes.max("model") - shapes.min("model")).sel(omega=slice(4.0, None))
@@ -135,8 +141,8 @@ def test_figures_9_to_11_have_the_papers_values(beam):
     assert (eleven["lambda_omega"].max("omega") < ten["lambda_omega"].max()).all()
 
 
-def test_figure_12_converges_later_at_higher_speed():
-    data = comparison.figure_12()
+def test_figure_12_converges_later_at_higher_speed(data_of):
+    data = data_of(12)
     error = np.abs(data["omega_n"] - data["converged"])
     enough = [int(data["degree"][np.argmax((row < 1e-6).to_numpy())]) for row in error]
     assert enough == sorted(enough)
@@ -150,11 +156,11 @@ def test_figure_12_converges_later_at_higher_speed():
     assert error.sel(omega=8.0, degree=36).item() == pytest.approx(2.1e-4, abs=1e-5)
 
 
-def test_figure_13_mode_straightens_with_speed():
-    shape = comparison.figure_13()["shape"]
+def test_figure_13_mode_straightens_with_speed(data_of):
+    shape = data_of(13)["shape"]
     assert np.allclose(shape.isel(eta=-1), 1.0)
     assert (shape.sel(eta=0.5).diff("omega") > 0.0).all()
-    words = figures.caption(13, comparison.figure_13())
+    words = figures.caption(13, data_of(13))
     assert "by up to 0.008, 0.027, 0.050 and 0.070, there at η/L = 0.46" in words
 
 
@@ -168,9 +174,9 @@ def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
     kinds = {path.suffix for path in tmp_path.iterdir() if path.is_file()}
     assert {".nc", ".csv", ".png", ".pdf", ".txt"} <= kinds
     words = (tmp_path / f"figure_{number}.txt").read_text()
-    assert CAPTIONS[number] in words
+    assert figures.PAPER_FIGURES[number].claim in words
     # What is drawn comes first, and of which beam.
-    assert words.index("Beam: L = 8 m") < words.index(CAPTIONS[number])
+    assert words.index("Beam: L = 8 m") < words.index(figures.PAPER_FIGURES[number].claim)
 
 
 def test_a_style_on_the_command_line(tmp_path, capsys):
@@ -183,8 +189,8 @@ def test_a_style_on_the_command_line(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("number", range(8, 14))
-def test_every_figure_draws_on_given_axes_with_units(number):
-    data = getattr(comparison, f"figure_{number}")()
+def test_every_figure_draws_on_given_axes_with_units(number, data_of):
+    data = data_of(number)
     count = 2 if number in (9, 10, 11) else 1
     _, axes = plt.subplots(ncols=count)
     drawn = getattr(figures, f"figure_{number}")(data, ax=axes)
@@ -195,10 +201,10 @@ def test_every_figure_draws_on_given_axes_with_units(number):
 
 
 def test_captions_name_every_figure_with_data():
-    for number in CAPTIONS:
+    for number in figures.PAPER_FIGURES:
         assert callable(getattr(comparison, f"figure_{number}"))
         assert callable(getattr(figures, f"figure_{number}"))
-    assert sorted(CAPTIONS) == [3, 4, 5, *range(8, 16)]
+    assert sorted(figures.PAPER_FIGURES) == [3, 4, 5, *range(8, 16)]
 
 
 def test_figure_15_shows_where_each_orbit_ends():
@@ -229,10 +235,10 @@ def test_figure_15_shows_where_each_orbit_ends():
 
 
 def test_captions_call_no_curve_the_truth():
-    for caption in CAPTIONS.values():
-        assert "truth" not in caption
-    assert "lacks" in CAPTIONS[14]
-    assert "excess" not in CAPTIONS[14]
+    for figure in figures.PAPER_FIGURES.values():
+        assert "truth" not in figure.claim
+    assert "lacks" in figures.PAPER_FIGURES[14].claim
+    assert "excess" not in figures.PAPER_FIGURES[14].claim
 
 
 @pytest.mark.parametrize("number", ["7", "16", "x", "-3"])
@@ -246,6 +252,6 @@ def test_unknown_figures_are_refused(number, capsys):
 @pytest.mark.slow
 def test_all_figures_from_an_empty_cache(tmp_path, capsys):
     main(["figure", "all", "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])
-    for number in CAPTIONS:
+    for number in figures.PAPER_FIGURES:
         for ending in (".nc", ".png", ".pdf", ".txt"):
             assert (tmp_path / f"figure_{number}{ending}").stat().st_size > 0

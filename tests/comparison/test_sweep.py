@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -29,8 +30,20 @@ COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
 
 
 @pytest.fixture(scope="module")
-def serial(beam):
-    return sweep(beam, **SMALL, **COARSE, jobs=1, history=True)
+def finished(tmp_path_factory):
+    return tmp_path_factory.mktemp("finished")
+
+
+@pytest.fixture(scope="module")
+def serial(beam, finished):
+    """The sweep that is computed once; it fills the cache `finished`."""
+    return sweep(beam, **SMALL, **COARSE, jobs=1, history=True, cache=finished)
+
+
+@pytest.fixture
+def cache(serial, finished, tmp_path):
+    """The cache of the finished sweep, a copy for each test."""
+    return shutil.copytree(finished, tmp_path / "cache")
 
 
 def test_a_sweep_is_its_runs(beam, serial):
@@ -78,18 +91,16 @@ def test_a_scheduler_that_does_not_answer_is_a_sentence_within_the_time_it_gives
     assert time.monotonic() - started < 10.0
 
 
-def test_a_finished_sweep_is_read_not_run(beam, serial, tmp_path, monkeypatch):
-    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+def test_a_finished_sweep_is_read_not_run(beam, serial, cache, monkeypatch):
     monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("ran a finished case"))
-    again = sweep(beam, **SMALL, **COARSE, cache=tmp_path, history=True)
+    again = sweep(beam, **SMALL, **COARSE, cache=cache, history=True)
     xr.testing.assert_identical(again, serial)
 
 
-def test_another_case_is_not_mistaken_for_a_finished_one(beam, tmp_path, monkeypatch):
-    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
+def test_another_case_is_not_mistaken_for_a_finished_one(beam, cache, monkeypatch):
     ran = []
     monkeypatch.setattr(sweeps, "solve", lambda case: ran.append(case) or failed())
-    sweep(beam, **SMALL, **{**COARSE, "elements": 3}, jobs=1, cache=tmp_path, on_error="record")
+    sweep(beam, **SMALL, **{**COARSE, "elements": 3}, jobs=1, cache=cache, on_error="record")
     assert len(ran) == 4
 
 
@@ -97,29 +108,27 @@ def failed():
     return xr.Dataset(attrs={"verdict": "failed", "failure": "made up"})
 
 
-def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, tmp_path):
-    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
-    victim = sorted(tmp_path.glob("*.nc"))[0]
+def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, cache):
+    victim = sorted(cache.glob("*.nc"))[0]
     victim.write_bytes(victim.read_bytes()[:1000])
     with pytest.warns(RotbeamWarning, match=f"{victim.name}.*set aside as .*computed again"):
-        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, history=True)
+        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=cache, history=True)
     xr.testing.assert_identical(again, serial)
     assert victim.exists()
     assert victim.with_suffix(".damaged").stat().st_size == 1000
 
 
 @pytest.mark.parametrize("amplitude", [0.5, np.nan])
-def test_a_number_changed_by_hand_is_not_believed(beam, serial, tmp_path, amplitude):
-    sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path)
-    victims = sorted(tmp_path.glob("*.nc"))[:2]
+def test_a_number_changed_by_hand_is_not_believed(beam, serial, cache, amplitude):
+    victims = sorted(cache.glob("*.nc"))[:2]
     # With our own means, and with others'.
     save(load(victims[0]).assign_attrs(amplitude=amplitude), victims[0])
     with h5py.File(victims[1], "r+") as file:
         file.attrs["amplitude"] = amplitude
     with pytest.warns(RotbeamWarning, match="was changed after it was written; it is set aside"):
-        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, history=True)
+        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=cache, history=True)
     xr.testing.assert_identical(again, serial)
-    assert len(list(tmp_path.glob("*.damaged"))) == 2
+    assert len(list(cache.glob("*.damaged"))) == 2
 
 
 def test_a_cache_of_another_format_is_refused(beam, tmp_path):

@@ -1,15 +1,13 @@
 """What the page is made of, without a browser."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.polynomial.chebyshev import chebpts1
 
 from analytic import AmplitudeNotReachedError, periodic_orbits
-from rotbeam_exu.explorer import exact, explorer_data, explorer_page
-from rotbeam_exu.explorer.exact import in_between
+from rotbeam_exu.explorer import data as room
+from rotbeam_exu.explorer import explorer_data, explorer_page
 
 
 def test_uneven_sliders_are_refused():
@@ -29,41 +27,16 @@ def test_harmonics_left_out_are_small(beam, data):
     for omega in (0.0, 6.0, 12.0):
         kept = data["harmonics"].sel(omega=omega, a=0.6).to_numpy()
         all_of_them = periodic_orbits(beam, omega, [0.6]).harmonics[0]
-        # A series through sixteen orbits; at 6 rad/s a narrow resonance leaves 4e-8.
         assert np.abs(kept[: all_of_them.size] - all_of_them[: kept.size]).max() < 1e-7
         assert np.abs(all_of_them[kept.size :]).sum() < 1e-6
 
 
-def test_where_no_series_converges_orbits_are_shown_themselves(beam):
-    a = np.array([0.1, 0.5])
-    backbone = periodic_orbits(beam, 6.0, 0.5 * np.sqrt(0.5 + 0.5 * chebpts1(16)))
-    assert in_between(backbone, a) is not None
-    # As a tongue would bend it.
-    bent = replace(backbone, frequency=backbone.frequency + 1e-3 * (backbone.amplitude > 0.3))
-    assert in_between(bent, a) is None
-
-
-def test_a_resonance_at_an_orbit_of_the_series_is_not_the_sliders_end(beam, monkeypatch):
-    asked = []
-
-    def meets_one(beam, omega, amplitudes):
-        asked.append(len(amplitudes))
-        if len(asked) == 1:
-            raise AmplitudeNotReachedError("Newton's method does not converge")
-        return periodic_orbits(beam, omega, amplitudes)
-
-    monkeypatch.setattr(exact, "periodic_orbits", meets_one)
-    a = tuple((np.arange(1, 26) / 100.0).tolist())
-    found = exact.exact_orbits(beam, 4.0, a)
-    assert asked == [16, 25]
-    wanted = periodic_orbits(beam, 4.0, a).frequency
-    np.testing.assert_allclose(found["exact_frequency"], wanted, rtol=1e-12)
-
+def test_orbits_that_are_not_found_leave_a_gap(beam, monkeypatch):
     def not_the_last(beam, omega, amplitudes):
         raise AmplitudeNotReachedError("drifts", periodic_orbits(beam, omega, amplitudes[:-1]))
 
-    monkeypatch.setattr(exact, "periodic_orbits", not_the_last)
-    found = exact.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
+    monkeypatch.setattr(room, "periodic_orbits", not_the_last)
+    found = room.exact_orbits(beam, 4.0, (0.1, 0.2, 0.3))
     assert np.isnan(found["exact_frequency"]).to_numpy().tolist() == [False, False, True]
     assert np.isnan(found["axis_x"].to_numpy()[2]).all()
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
-import rotbeam_exu.explorer.spin_ups as room
+import rotbeam_exu.explorer.data as room
 from analytic import SpinUp, exact_residual, residual_amplitude, spin_up_response
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
@@ -98,12 +97,12 @@ def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monk
         raise RuntimeError("Newton's method fails")
 
     monkeypatch.setattr(room, "spin_up_response", too_violent)
-    failed = room.exact_spin_up(beam, 6.0, 3.0, 15.0)
-    assert np.isnan(failed["spin_up"]).all()
-    assert np.isnan(failed["exact_left"])
+    q, left = room.exact_spin_up(beam, 6.0, 3.0, 15.0)
+    assert np.isnan(q).all()
+    assert np.isnan(left)
     monkeypatch.undo()
     # Thrown about: minutes, were it computed.
-    assert np.isnan(room.exact_spin_up(beam, 8.0, 1.0, 15.0)["exact_left"])
+    assert np.isnan(room.exact_spin_up(beam, 8.0, 1.0, 15.0)[1])
     broken = data.copy(deep=True)
     for name in ("spin_up", "exact_left"):
         broken[name].loc[{"exact_ramp_time": 3.0}] = np.nan
@@ -115,12 +114,9 @@ def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monk
 
 
 def test_speeds_keep_their_order(beam):
-    spun = [
-        xr.Dataset({"exact_left": omega * T}, coords={"fe_omega": omega, "exact_ramp_time": T})
-        for omega in (6.0, 4.0)
-        for T in (3.0, 5.0)
-    ]
-    grid = room.together(spun, beam, (6.0, 4.0), (3.0, 5.0))
+    at_rest = np.zeros(room._SAMPLES)
+    spun = [(at_rest, omega * T) for omega in (6.0, 4.0) for T in (3.0, 5.0)]
+    grid = room._spin_ups(beam, (6.0, 4.0), (3.0, 5.0), 15.0, spun)
     np.testing.assert_array_equal(grid["fe_omega"], [6.0, 4.0])
     np.testing.assert_array_equal(grid["exact_left"], [[18.0, 30.0], [12.0, 20.0]])
     fast, slow = (

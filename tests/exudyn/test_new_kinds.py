@@ -32,9 +32,17 @@ from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled
 from analytic.ramps import SpeedChange
-from rotbeam_exu import comparison, figures, load, natural_frequencies, save, simulate, simulate_3d
+from rotbeam_exu import (
+    comparison,
+    dataset_of,
+    figures,
+    load,
+    natural_frequencies,
+    save,
+    simulate,
+    simulate_3d,
+)
 from rotbeam_exu.cli.repeat import recorded_case
-from rotbeam_exu.comparison.exact_spin_up import exact_spin_up
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.space.elements import SpaceCable
@@ -141,9 +149,9 @@ def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):
         for one in (Shake(amplitude=0.5), push)
     )
     assert mine.amplitude[mine.at(3.7)] == pytest.approx(theirs.amplitude[theirs.at(3.7)], rel=1e-9)
-    data = load(save(comparison.forced_response(mine), tmp_path / "shaken.nc"))
+    data = load(save(dataset_of(mine), tmp_path / "shaken.nc"))
     assert loads_of(data.attrs) == (mine.load,)
-    assert list(differing_inputs(comparison.forced_response(theirs), tmp_path / "shaken.nc")) == [
+    assert list(differing_inputs(dataset_of(theirs), tmp_path / "shaken.nc")) == [
         "load", "load_size", "load_symbol", "load_unit", "loads"
     ]  # fmt: skip
     names = [text.get_text() for text in figures.forced_response(data).get_legend().get_texts()]
@@ -247,12 +255,12 @@ def test_an_exact_spin_up_says_what_drove_it(beam, motion, tmp_path):
     response = spin_up_response(
         beam, motion, time, tolerance=1e-3, loads=[ripple], theory=Theory(rotary_inertia=True)
     )
-    data = load(save(exact_spin_up(response), tmp_path / "exact.nc"))
+    data = load(save(dataset_of(response), tmp_path / "exact.nc"))
     assert motion_of(data.attrs) == motion
     assert loads_of(data.attrs) == (ripple,)
     # One of Eq. 1, between the same speeds in the same time, is another one.
     other = SpinUp(omega=motion.omega, ramp_time=2.0)
-    like = exact_spin_up(replace(response, spin_up=other))
+    like = dataset_of(replace(response, spin_up=other))
     named = differing_inputs(like, tmp_path / "exact.nc").keys() & {"motion", "loads", "omega"}
     assert named == (set() if motion == other else {"motion"})
     assert data.attrs["rotary_inertia"] == 1

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rotbeam_exu.report.document import SCHEMA, document
+from rotbeam_exu.report.document import SCHEMA, Record, document
 from rotbeam_exu.report.page import TITLE, report_page
-from rotbeam_exu.report.record import Record
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes.search import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome
@@ -114,6 +113,7 @@ def test_the_document_is_json_and_says_all(right):
         "extension": True,
         "shear": None,
         "rotary_inertia": False,
+        "trapeze": True,
     }
 
 

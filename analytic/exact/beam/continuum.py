@@ -227,6 +227,15 @@ class Continuum(Kinematics):
         mass[..., :nb, :nb] += self._rotary_mass
         return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
 
+    @property
+    def setting(self) -> float:
+        """Cos ψ, by which loads in the plane of rotation act across the blade."""
+        return self.blade.setting
+
+    def push(self, force: ComplexArray, acts_on: str) -> ComplexArray:
+        """Return a force (samples,) beyond each Gauss point, times its weight."""
+        return np.asarray(np.multiply.outer(force, self.outboard[acts_on]))
+
     def tension(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
     ) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ...beam import AnyBlade, require_blade
+from ...beam import AnyBlade, require_planar
 from ...shape_functions import shape_functions
 from ...theory import Theory, require_theory
 from ...unit_blade import UNIFORM, UnitBlade
@@ -43,7 +43,7 @@ def finer_model(model: Continuum) -> Continuum:
 
 def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
-    require_blade(beam)
+    require_planar(beam)
     unit = require_theory(theory).unit(beam)
     axial = axial if theory.extension else 1
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))

@@ -147,6 +147,14 @@ class Kinematics:
         """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
         return slope @ self.grid.integral(x).T
 
+    def axis(self, q: FloatArray, x: FloatArray) -> ComplexArray:
+        """Return the places z of material points `x`, (samples, points)."""
+        return self.integrated(self.slope(q), x)
+
+    def deflection(self, tip: ComplexArray) -> FloatArray:
+        """Return what of the tip's place is across the clamp's line."""
+        return tip.imag
+
     def tip(self, q: FloatArray) -> ComplexArray:
         """Return the tip's position z(1), (samples,)."""
         return self.slope(q) @ self.weights

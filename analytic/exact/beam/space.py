@@ -22,7 +22,7 @@ from typing import Literal
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_blade
+from ...beam import AnyBlade, require_planar
 from ...lazily import linalg
 from ...methods.system import Tangent
 from ...out_of_plane import OutOfPlane
@@ -40,7 +40,7 @@ def require_out_of_plane(
     blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
 ) -> OutOfPlane:
     """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
-    require_blade(blade)
+    require_planar(blade)
     if require_theory(theory).shear is not None:
         raise ValueError(
             "how slices shear out of the plane is unknown: take a theory without shear"

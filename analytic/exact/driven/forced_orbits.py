@@ -12,7 +12,7 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import undamped
 from ...input_checks import finite_array, finite_number
 from ...loads import Load
-from ...plotting import axes_or_new
+from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
@@ -119,6 +119,8 @@ class ForcedResponse(Branch):
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
 
+        Between the points is a cubic that is monotone where they are.
+
         Parameters
         ----------
         ax : Axes, optional
@@ -132,20 +134,9 @@ class ForcedResponse(Branch):
             The frequency is the drive's, under gravity the rotation speed.
         """
         ax = axes_or_new(ax)
-        # At a fold, where a multiplier is 1, both parts end.
         fold = np.array(self.marks) == "fold"
-        calm = self.stable | fold
-        firm = calm[1:] & calm[:-1]
-        stable, unstable = (
-            np.where(np.append(part, False) | np.append(False, part), self.amplitude, np.nan)
-            for part in (firm, ~firm)
-        )
-        (solid,) = ax.plot(self.frequency, stable, **{"label": str(self.load), **line})
-        dashed = {**line, "color": solid.get_color(), "ls": "--", "label": "_unstable"}
-        ax.plot(self.frequency, unstable, **dashed)
-        ax.plot(
-            self.frequency[fold], self.amplitude[fold], "o", color=solid.get_color(), mfc="white"
-        )
+        line = {"label": str(self.load), **line}
+        draw_response(ax, self.frequency, self.amplitude, self.stable, fold, **line)
         swept = "rotation speed ω" if self.load.by_angle else "drive frequency ν"
         ax.set(xlabel=f"{swept} [rad/s]", ylabel="peak |q|/L")
         ax.set_ylim(bottom=0.0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ...loads import Load, require_load
 from ...methods.system import Tangent
 from ..beam.continuum import Continuum
 from ..beam.steady import BeamCoordinates
+from ..space.continuum import SpaceContinuum
 
 
 def unit_load(beam: AnyBlade, load: Load) -> Load:
@@ -36,23 +37,22 @@ def unit_load(beam: AnyBlade, load: Load) -> Load:
 
 
 def pushes(
-    model: Continuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
-) -> ComplexArray | None:
-    """Return the force of all loads beyond each Gauss point, (samples, points), None if none.
+    model: Continuum | SpaceContinuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
+) -> Any:
+    """Return the force of all loads as `model.residual` takes it, None if none.
 
     Parameters
     ----------
-    model : Continuum
+    model : Continuum or SpaceContinuum
     loads : sequence
         Without dimensions, and their phases (samples,).
     angle : ndarray (samples,)
         θ [rad].
     """
-    total: ComplexArray | None = None
+    total: Any = None
     for load, phase in loads:
         if load.acts_on is not None:
-            force = load.force(phase, angle, model.blade.setting)
-            push = np.multiply.outer(force, model.outboard[load.acts_on])
+            push = model.push(load.force(phase, angle, model.setting), load.acts_on)
             total = push if total is None else total + push
     return total
 

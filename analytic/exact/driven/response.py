@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,9 +19,12 @@ from ...loads import Load, loads_in_time, rippled
 from ...ramps import AnyRamp, fastest, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rate
 from ..plane.planarity import planar_note
+from ..space.continuum import SpaceContinuum
+from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .transient import Motion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -94,6 +98,33 @@ class SpinUpResponse:
         return planar_note(self.beam, self.spin_up.omega, size)
 
 
+class SpaceResponse(SpinUpResponse):
+    """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
+
+    In the frame that turns with the clamp: along the clamp, in the direction of rotation (lag) and
+    normal to both (flap). As `SpinUpResponse`, but for these; q is the lag.
+
+    Attributes
+    ----------
+    tip : ndarray (times, 3)
+        Place of the tip from the clamp [m].
+    axis : ndarray (times, points, 3)
+        Places of the points asked for from the clamp [m].
+    functions : int
+        Functions for each curvature.
+    """
+
+    @property
+    def lag(self) -> FloatArray:
+        """Place of the tip in the direction of rotation [m], (times,)."""
+        return self.tip[:, 1]
+
+    @property
+    def flap(self) -> FloatArray:
+        """Place of the tip normal to it and to the clamp [m], (times,)."""
+        return self.tip[:, 2]
+
+
 @one_thread
 def spin_up_response(
     beam: AnyBlade,
@@ -155,36 +186,69 @@ def spin_up_response(
     for level in range(_REFINEMENTS):
         functions = math.ceil(_A_DIGIT * digits)
         functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
-        model = blade_continuum(beam, theory, functions, functions // 2)
-        steady_rate(beam, highest, model)
+        model = _model(beam, theory, functions, highest)
         corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        finer = integrated(beam, rotation, loads, model, grid, time, along, spin_up.start)
+        at_first = _steady(beam, model, spin_up.start)
+        finer = integrated(beam, rotation, loads, model, grid, time, along, at_first)
         if finer is None:
             coarser = None
             continue
         if coarser is not None:
-            size = float(np.abs(finer.tip.imag).max())
+            size = float(np.abs(model.deflection(finer.tip)).max())
             error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
             if error <= tolerance:
                 turned = np.exp(1j * rotation.angle(time))
-                return SpinUpResponse(
+                space = lives_in_space(beam)
+                return (SpaceResponse if space else SpinUpResponse)(
                     beam=beam,
                     spin_up=spin_up,
                     loads=loads,
                     theory=theory,
                     time=time,
-                    **_in_units(beam, finer, turned),
+                    **(_in_space(beam, finer) if space else _in_units(beam, finer, turned)),
                     error=error,
                     steps=grid.size - 1,
-                    functions=model.bending,
+                    functions=functions,
                 )
         coarser = finer
     raise RuntimeError(
         f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
     )
+
+
+def _model(
+    beam: AnyBlade, theory: Theory, functions: int, highest: float
+) -> Continuum | SpaceContinuum:
+    """Return the discretization, refusing a speed [rad/s] that tears the blade."""
+    if lives_in_space(beam):
+        in_space = space_continuum(beam, theory, functions)
+        space_rotation(beam, highest, in_space)
+        return in_space
+    model = blade_continuum(beam, theory, functions, functions // 2)
+    steady_rate(beam, highest, model)
+    return model
+
+
+def _steady(beam: AnyBlade, model: Continuum | SpaceContinuum, omega: float) -> FloatArray:
+    """Return the coordinates (n,) of the steady state at ω [rad/s]."""
+    rate = omega / beam.frequency_scale
+    if lives_in_space(beam):
+        return SpaceBlade(cast(SpaceContinuum, model), rate).equilibrium
+    return cast(Continuum, model).steady_state(rate) if rate else np.zeros(model.size)
+
+
+def _in_space(beam: AnyBlade, motion: Motion) -> dict[str, FloatArray]:
+    """Return q, q_dot, tip and axis [m] of a nondimensional motion in space."""
+    length = beam.length
+    return {
+        "q": length * motion.tip[:, 1],
+        "q_dot": length * beam.frequency_scale * motion.tip_rate[:, 1],
+        "tip": length * motion.tip,
+        "axis": length * motion.axis,
+    }
 
 
 def _in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...loads import Load
 from ...methods.collocation import radau
 from ...motion import Rotation
 from ..beam.continuum import Continuum
+from ..space.continuum import SpaceContinuum
 from .loading import pushes, unit_load
 
 _STAGES = 8
@@ -28,15 +29,18 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 
 
 class Motion(NamedTuple):
-    """The tip's z and ż (times,), and z (times, points), in the rotating frame; nondimensional."""
+    """The tip's place and rate (times, ...), and places (times, points, ...); nondimensional.
 
-    tip: ComplexArray
-    tip_rate: ComplexArray
-    axis: ComplexArray
+    In the rotating frame: complex numbers in the plane, three components in space.
+    """
+
+    tip: Any
+    tip_rate: Any
+    axis: Any
 
 
 def _drive(
-    beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum
+    beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
 ) -> Callable[[FloatArray], dict[str, Any]]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
     per_second = beam.frequency_scale
@@ -57,25 +61,24 @@ def integrated(
     beam: AnyBlade,
     rotation: Rotation,
     loads: Sequence[Load],
-    model: Continuum,
+    model: Continuum | SpaceContinuum,
     grid: FloatArray,
     time: FloatArray,
     points: FloatArray,
-    start: float = 0.0,
+    q: FloatArray,
 ) -> Motion | None:
     """Return the motion on the grid of steps, None where Newton's method fails.
 
     A step on which it does is halved first, as often as it takes. Before the first the blade does
-    not swing, and the rotation at the speed `start` [rad/s] stretches it.
+    not swing, in the state `q` (n,).
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
     drive = _drive(beam, rotation, loads, model)
-    q = model.steady_state(start / per_second) if start else np.zeros(model.size)
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
-    z = np.full(time.size, model.tip(q), dtype=np.complex128)
-    z_dot = np.zeros(time.size, dtype=np.complex128)
-    axis = np.tile(model.integrated(model.slope(q), points), (time.size, 1))
+    z = np.repeat(model.tip(q[None]), time.size, axis=0)
+    z_dot = np.zeros_like(z)
+    axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     previous = 0.0
     ahead = list(pairwise(grid))[::-1]
     while ahead:
@@ -110,7 +113,7 @@ def integrated(
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
         if points.size:
-            axis[inside] = model.integrated(model.slope(positions), points)
+            axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
     return Motion(z, z_dot, axis)

@@ -16,6 +16,7 @@ from ...beam import AnyBlade
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...threads import one_thread
+from ..space.steady import lives_in_space
 from .modes import Plane
 from .tracking import Crossing, family_of
 
@@ -71,6 +72,8 @@ class Campbell:
         """
         numbers = [self.planes[:k].count(plane) + 1 for k, plane in enumerate(self.planes)]
         across = abs(self.beam.unit.setting)
+        if lives_in_space(self.beam):
+            return [f"mode {k}" for k in numbers]
         if "lag" not in self.planes or across > 1.0 - _TURNED:
             return [f"{plane} {k}" for plane, k in zip(self.planes, numbers, strict=True)]
         if across < _TURNED:

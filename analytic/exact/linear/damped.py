@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...input_checks import rotation_speed, whole_number
 from ...methods.gyroscopic import inverse_eigenvalues
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import steady_rotation
+from ..space.steady import lives_in_space, space_rotation
 from .modes import MOST_FUNCTIONS, linear_modes
 
 _FUNCTIONS = 20
@@ -17,8 +21,10 @@ _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 
 @one_thread
-def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
-    """Return the damping ratios ζ of the in-plane modes in steady rotation, (count,).
+def damping_ratios(
+    beam: AnyBlade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
+) -> FloatArray:
+    """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
 
     ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
     of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
@@ -30,6 +36,8 @@ def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
         Rotation speed ω [rad/s].
     count : int
         Number of modes.
+    theory : Theory
+        Extension, shear, rotary inertia, trapeze effect.
 
     Raises
     ------
@@ -46,8 +54,9 @@ def damping_ratios(beam: AnyBlade, omega: float, count: int = 3) -> FloatArray:
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = linear_modes(beam, omega, count, functions=max(_FUNCTIONS, 2 * count))
-    steady = steady_rotation(beam, omega, modes.model)
+    modes = linear_modes(beam, omega, count, theory=theory, functions=max(_FUNCTIONS, 2 * count))
+    rotation: Any = space_rotation if lives_in_space(beam) else steady_rotation
+    steady = rotation(beam, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
     inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])

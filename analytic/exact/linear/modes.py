@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, overload
+from typing import Literal, NamedTuple, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +18,8 @@ from ...threads import one_thread
 from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
 from ..beam.steady import SteadyBeam, steady_rotation
+from ..space.modes import SpaceModes, space_modes
+from ..space.steady import lives_in_space
 from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
 
 MOST_FUNCTIONS = 256
@@ -123,7 +125,9 @@ def linear_modes(
     plane : str
         "lag", the blade's own plane of bending; "flap", the plane normal to the rotation's, and
         "torsion", both of a blade that bends in the plane of rotation and has a known section out
-        of it. To this order they are independent of each other.
+        of it. To this order they are independent of each other. Of a blade with a twist, precone,
+        prebend, sweep, offset, or a setting angle and a known section out of the plane, they are
+        not: then the modes are all of them, as `SpaceModes`.
     theory : Theory
         Extension, shear and rotary inertia; the latter two in the plane of bending only.
     functions : int
@@ -149,6 +153,8 @@ def linear_modes(
     count = whole_number("count", count)
     require_theory(theory)
     warn_if_rpm(beam, omega)
+    if lives_in_space(beam):
+        return cast(LinearModes, _in_space(beam, omega, count, plane, theory))
     if plane not in ("lag", "flap", "torsion"):
         raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
     if plane != "lag" and (theory.rotary_inertia or theory.shear is not None):
@@ -162,6 +168,15 @@ def linear_modes(
     model = resolved_model(bent, count, theory, functions)
     model, modes = _settled_modes(bent, omega, count, model)
     return replace(_in_units(bent, omega, count, model, modes), beam=beam)
+
+
+def _in_space(beam: AnyBlade, omega: float, count: int, plane: Plane, theory: Theory) -> SpaceModes:
+    if plane != "lag":
+        raise ValueError(
+            f"flap, lag and torsion of this blade go together, and plane is {plane!r}: leave it "
+            "out, and take the shares of each mode"
+        )
+    return space_modes(beam, omega, count, theory)
 
 
 def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:

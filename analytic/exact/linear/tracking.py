@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from scipy import optimize
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
+from ..space.modes import space_modes_on
+from ..space.steady import lives_in_space
 from .modes import LinearModes, Plane, linear_modes, modes_on
 from .out_of_plane_modes import flap_blade
 
@@ -106,6 +108,7 @@ def _bending(
         return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
 
     bent = flap_blade(beam) if plane == "flap" else beam
+    solved: Any = space_modes_on if lives_in_space(beam) else modes_on
     found = [modes_at(omega) for omega in speeds.tolist()]
     columns = [np.arange(count)]
     assurances = []
@@ -120,7 +123,7 @@ def _bending(
         finer = max(here.model, there.model, key=lambda model: model.bending)
 
         def detuning(omega: float, mode: int, order: int) -> float:
-            modes = modes_on(finer, bent, omega, wanted)
+            modes = solved(finer, bent, omega, wanted)
             same = _followed(_assurance(here, modes)[columns[row]])[mode]
             return float(modes.frequencies[same] - order * omega)
 
@@ -142,4 +145,4 @@ def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
     a, b = (modes.model.padded(modes.coordinates, larger) for modes in (one, other))
     a = a / np.linalg.norm(a, axis=1, keepdims=True)
     b = b / np.linalg.norm(b, axis=1, keepdims=True)
-    return np.asarray((a @ b.T) ** 2)
+    return np.asarray(np.abs(a.conj() @ b.T) ** 2)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_blade
+from ...beam import AnyBlade, require_planar
 from ...input_checks import rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
@@ -88,7 +88,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         Peak |q|/L of the motion, about that of an orbit of `mode`.
     mode : int
     """
-    require_blade(blade)
+    require_planar(blade)
     unit = blade.unit
     if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
         return ""

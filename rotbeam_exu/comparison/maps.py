@@ -1,4 +1,4 @@
-"""λ_ω over hub radius and speed, in lag and in flap, and where the second mode meets harmonics."""
+"""Maps over the speed: λ_ω over the hub radius, in lag and in flap, and growth out of the plane."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analytic import AnyBlade, Beam
+from analytic import AnyBlade, Beam, Rectangle
+from analytic.exact.plane.planarity import growth_rates
+from analytic.input_checks import finite_values
 from analytic.reduced.any_blade import blade_oscillator
 
+from ..datasets import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
+from ..verdict import beam_attributes
+
+_W_BAR = "speed ω/√(EI/ρAL⁴)"
 
 
 def softening_map(
@@ -48,15 +54,12 @@ def softening_map(
             coefficients[i, j] = found.oscillator.lambda_omega
             ratios[i, j] = found.others[0] / found.oscillator.w_n
     dims = ("hub_ratio", "w_bar")
-    return xr.Dataset(
+    return dataset(
         {
-            "lambda_omega": (dims, coefficients, {"units": "1", "long_name": "λ_ω"}),
-            "ratio": (dims, ratios, {"units": "1", "long_name": "second over first frequency"}),
+            "lambda_omega": (dims, coefficients, "λ_ω"),
+            "ratio": (dims, ratios, "second over first frequency"),
         },
-        coords={
-            "hub_ratio": ("hub_ratio", hubs, {"units": "1", "long_name": "hub radius R/L"}),
-            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/ρAL⁴)"}),
-        },
+        {"hub_ratio": (hubs, "hub radius R/L"), "w_bar": (speeds, _W_BAR)},
     )
 
 
@@ -85,25 +88,51 @@ def softening_by_plane(
     blade = Beam.reference() if beam is None else beam
     speeds = np.linspace(0.0, 10.0, 101) if w_bars is None else np.asarray(w_bars)
     planes = {"lag": 0.0, "flap": 0.5 * np.pi}
-    coefficients = [
-        [
-            blade_oscillator(
-                blade.with_setting_angle(angle).unit, w_bar, coriolis=True
-            ).oscillator.lambda_omega
-            for w_bar in speeds.tolist()
-        ]
-        for angle in planes.values()
-    ]
-    return xr.Dataset(
-        {
-            "lambda_omega": (
-                ("plane", "w_bar"),
-                np.array(coefficients),
-                {"units": "1", "long_name": "λ_ω"},
-            )
-        },
-        coords={
-            "plane": list(planes),
-            "w_bar": ("w_bar", speeds, {"units": "1", "long_name": "speed ω/√(EI/ρAL⁴)"}),
-        },
+    coefficients = []
+    for angle in planes.values():
+        unit = blade.with_setting_angle(angle).unit
+        found = [blade_oscillator(unit, w_bar, coriolis=True) for w_bar in speeds.tolist()]
+        coefficients.append([one.oscillator.lambda_omega for one in found])
+    return dataset(
+        {"lambda_omega": (("plane", "w_bar"), coefficients, "λ_ω")},
+        {"plane": list(planes), "w_bar": (speeds, _W_BAR)},
+    )
+
+
+def growth_out_of_plane(
+    blade: AnyBlade | None = None,
+    *,
+    omegas: Sequence[float] | None = None,
+    amplitudes: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Return how fast planar orbits leave their plane, over speed and amplitude.
+
+    The 600 points unless others are given take some 15 s.
+
+    Parameters
+    ----------
+    blade : Blade, optional
+        With a section out of the plane; by default the paper's beam as the rectangle that has its
+        A and I.
+    omegas : sequence of float, optional
+        Rotation speeds [rad/s], by default 0 to 8.
+    amplitudes : sequence of float, optional
+        Peaks |q|/L, by default 0.01 to 0.4.
+
+    Returns
+    -------
+    Dataset
+        `growth_rate`, zero where stable, over (omega, a).
+    """
+    blade = Beam.reference().with_shape(Rectangle()) if blade is None else blade
+    speeds, peaks = np.linspace(0.0, 8.0, 25), np.geomspace(0.01, 0.4, 24)
+    if omegas is not None:
+        speeds = finite_values("omegas", omegas, "rad/s")
+    if amplitudes is not None:
+        peaks = finite_values("amplitudes", amplitudes)
+    rates = np.array([growth_rates(blade, omega, peaks) for omega in speeds.tolist()])
+    return dataset(
+        {"growth_rate": (("omega", "a"), rates, GROWTH)},
+        {"omega": (speeds, OMEGA), "a": (peaks, ORBIT)},
+        beam_attributes(blade),
     )

@@ -1,0 +1,1 @@
+"""The exact blade in space: twist, precone, offsets; flap, lag and torsion together."""

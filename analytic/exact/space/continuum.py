@@ -1,0 +1,316 @@
+"""The exact blade in space: geometrically exact, in flap, lag and torsion, twisted and coned.
+
+Unit length, EI3 = 1 and m = 1 at the root, time τ = t √(EI3/mL⁴). The root frame b turns with the
+clamp at w (sin β, 0, cos β): b1 along the blade, b2 in the direction of rotation (lag), b3 up
+(flap), β the precone. R(x) carries b to a frame that bends and twists with the blade but has no
+twist of its own; the section is turned in it by χ(x), setting and twist, about the axis. With the
+material strains Γ and K in that frame
+
+    r' = R Γ,      R' = R K̂,      Γ = (1 + ε, γ2, γ3) - ½k² e1 (κ1² - κ01²) + offsets,
+
+and coordinates q of ε, γ, K that are orthonormal in the section's stiffness, the elastic energy is
+½ q·q. k² = (EI2 + EI3)/EA is the trapeze effect: the mean fiber keeps its length, so that twist
+shortens the axis. With the spin ω' = R K̇ relative to b, d'Alembert's principle reads
+
+    q_k + ∫ (A_c · δr_c + [J α + ω × J ω] · δφ) dm = 0,    δφ' = R δK,   δr' = δφ × r' + R δΓ,
+
+A_c, ω and α being those in space. All integrals from the clamp are one matrix, all beyond a point
+its transpose with the weights: so mass and stiffness are symmetric, and the Jacobi integral is
+kept. The plane is the subset κ3, ε, γ2. Derived in the literature on rotor blades with strains as
+variables; see Su and Cesnik (2011) and Boyer and Renda (2017).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ...arrays import ComplexArray, FloatArray
+from ...methods.system import Tangent
+from .basis import StrainFunctions
+from .changes import Changes, Motion, State
+from .vectors import Frames, cross, turned, turned_back
+
+
+class SpaceContinuum:
+    """Galerkin discretization of the exact blade in polynomials of its moments and forces.
+
+    Samples in time come first in the coordinates (samples, n); residual and tangent are as those
+    of `Continuum`, of which it has the coordinates.
+
+    Parameters
+    ----------
+    functions : StrainFunctions
+        The strains, and what the sections weigh.
+    """
+
+    def __init__(self, functions: StrainFunctions) -> None:
+        self.functions = functions
+        self.size = functions.size
+        self.blade = functions.blade
+        grid, masses = functions.grid, functions.masses
+        self.points, self.weights = grid.points, grid.weights
+        self.inner = grid.integral(grid.points)
+        self.outer = grid.integral(masses.places)
+        self._frames = Frames(grid, masses.places)
+        self.masses = masses
+        self.strains = functions.at(grid.points)
+        # ∫ over the tip and the length, for loads that act there.
+        self.outboard = {
+            "length": self.inner.T @ self.weights,
+            "tip": self.weights,
+        }
+
+    # What the coordinates make of the shape.
+
+    def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return Γ and K, (3, samples, points)."""
+        own = self.strains
+        K = own.initial[:, None] + np.einsum("ipk,sk->isp", own.K, q)
+        gamma = np.einsum("ipk,sk->isp", own.gamma, q)
+        gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
+        return gamma, K
+
+    def _rates(self, K: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
+        own = self.strains
+        change = np.einsum("ipk,sk->isp", own.K, q_dot)
+        gamma = np.einsum("ipk,sk->isp", own.gamma, q_dot)
+        gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
+        return gamma, change
+
+    def _state(self, q: FloatArray) -> State:
+        gamma, K = self._strains(q)
+        frame, frame_m = self._frames.of(K)
+        slope = turned(frame, gamma)
+        return State(
+            frame, frame_m, K, slope, slope @ self.outer.T,
+            turned(frame_m, self.masses.offset[:, None]),
+        )  # fmt: skip
+
+    def _clamp(
+        self, rate: float | FloatArray, rate_dot: float | FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return W, Ẇ and the clamp's place h from the axis of rotation, (3, samples, 1)."""
+        axis, hub = self.blade.axis[:, None, None], self.blade.clamp[:, None, None]
+        w, w_dot = (np.atleast_1d(np.asarray(x, dtype=float))[:, None] for x in (rate, rate_dot))
+        return axis * w, axis * w_dot, hub
+
+    def _motion(
+        self,
+        at: State,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray,
+    ) -> Motion:
+        inner, outer = self.inner.T, self.outer.T
+        stretch, bend = self._rates(at.K, q_dot)
+        stretch_rate, bend_rate = self._rates(at.K, q_ddot)
+        stretch_rate[0] -= self.strains.trapeze * bend[0] ** 2
+        turning, stretching = turned(at.frame, bend), turned(at.frame, stretch)
+        twisting, speeding = turned(at.frame, bend_rate), turned(at.frame, stretch_rate)
+        spin, spin_m = turning @ inner, turning @ outer
+        velocity_m = (cross(spin, at.slope) + stretching) @ outer
+        spin_change = twisting + cross(spin, turning)
+        spin_rate = spin_change @ inner
+        acceleration = (
+            cross(spin_rate, at.slope)
+            + cross(spin, cross(spin, at.slope) + 2.0 * stretching)
+            + speeding
+        ) @ outer
+        W, W_dot, hub = self._clamp(rate, rate_dot)
+        place = hub + at.place_m
+        total = spin_m + W
+        total_rate = spin_change @ outer + cross(W, spin_m) + W_dot
+        acceleration = (
+            acceleration
+            + cross(W, 2.0 * velocity_m + cross(W, place))
+            + cross(W_dot, place)
+            + cross(total_rate, at.offset_m)
+            + cross(total, cross(total, at.offset_m))
+        )
+        return Motion(
+            turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
+            acceleration, twisting, speeding,
+        )  # fmt: skip
+
+    def inertia(self, at: State, vector: FloatArray) -> FloatArray:
+        """Return R J Rᵀ times vectors (3, samples, masses, ...)."""
+        extra = vector.ndim - 3
+        frame = at.frame_m.reshape(*at.frame_m.shape, *(1,) * extra)
+        J = self.masses.inertia.reshape(3, 3, 1, -1, *(1,) * extra)
+        return turned(frame, turned(J, turned_back(frame, vector)))
+
+    def _forces(
+        self, at: State, motion: Motion, push: FloatArray | None
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return m A_c at the masses, and F and M on the grid, with weights."""
+        body = 0.0 if push is None else push[1][..., :1]
+        pulled = self.masses.mass * (motion.acceleration - body)
+        if not self.masses.turns:
+            rotary = np.zeros_like(pulled)
+        else:
+            rotary = self.inertia(at, motion.total_spin_rate) + cross(
+                motion.total_spin, self.inertia(at, motion.total_spin)
+            )
+        force = -pulled @ self.outer
+        if self.masses.drag is not None:
+            force = force - (self.masses.drag * motion.velocity_m) @ self.outer
+        if push is not None:
+            force = force + push[0]
+        couple = -(rotary + cross(at.offset_m, pulled)) @ self.outer
+        moment = cross(at.slope, force) @ self.inner + couple
+        return pulled, force, moment
+
+    def residual(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: FloatArray | None = None,
+    ) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces on the basis functions.
+
+        A `push` (2, 3, samples, points) is the load beyond each Gauss point, times its weight, and
+        the acceleration that another one gives to all masses.
+        """
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
+        _, force, moment = self._forces(at, motion, push)
+        return self._work(at, q, q_dot, force, moment)
+
+    def _work(
+        self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
+    ) -> FloatArray:
+        own = self.strains
+        inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
+        inner_moment[0] -= own.trapeze * (at.K[0] + own.twist) * inner_force[0]
+        work = np.einsum("isp,ipk->sk", inner_moment, own.K)
+        work += np.einsum("isp,ipk->sk", inner_force, own.gamma)
+        return np.asarray(q + q_dot * self.functions.viscosity - work)
+
+    def tangent(
+        self,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: FloatArray | None = None,
+    ) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
+        pulled, force, moment = self._forces(at, motion, push)
+        change = Changes(self, at, motion, *self._clamp(rate, rate_dot))
+        mass, damping, stiffness = change.matrices()
+        stiffness += change.geometric(pulled, force, moment)
+        n = self.size
+        stiffness[:, range(n), range(n)] += 1.0
+        damping[:, range(n), range(n)] += self.functions.viscosity
+        residual = self._work(at, q, q_dot, force, moment)
+        return Tangent(residual, stiffness, damping, mass)
+
+    # What is read off the shape.
+
+    @property
+    def bending(self) -> int:
+        """Number of functions for each curvature."""
+        return self.functions.counts[0] // 2
+
+    def padded(self, q: Any, other: SpaceContinuum) -> Any:
+        """Return the coordinates of the same shape in the larger basis of `other`."""
+        result = np.zeros((*q.shape[:-1], other.size), dtype=q.dtype)
+        start = end = 0
+        for own, others in zip(self.functions.families, other.functions.families, strict=True):
+            result[..., end : end + own] = q[..., start : start + own]
+            start, end = start + own, end + others
+        return result
+
+    def tip(self, q: FloatArray) -> FloatArray:
+        """Return the tip's place r(1) in the root frame, (samples, 3)."""
+        return np.asarray((self._state(q).slope @ self.weights).T)
+
+    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the tip's velocity in the root frame, (samples, 3)."""
+        at = self._state(q)
+        stretch, bend = self._rates(at.K, q_dot)
+        spin = turned(at.frame, bend) @ self.inner.T
+        return np.asarray(((cross(spin, at.slope) + turned(at.frame, stretch)) @ self.weights).T)
+
+    def axis(self, q: FloatArray, x: FloatArray) -> FloatArray:
+        """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
+        return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
+
+    @property
+    def setting(self) -> float:
+        """1: loads in the plane of rotation act in it, however the blade is set."""
+        return 1.0
+
+    def deflection(self, tip: FloatArray) -> FloatArray:
+        """Return what of the tip's place is across the clamp's line."""
+        return tip[..., 1:]
+
+    def push(self, force: ComplexArray, acts_on: str) -> FloatArray:
+        """Return a force in the plane of rotation, (samples,), as `residual` takes it.
+
+        Along the hub's radius and in the direction of rotation, from where the precone tilts it
+        into the root frame. What acts on mass pulls at its centers.
+        """
+        cone = self.blade.line.precone
+        parts = (math.cos(cone) * force.real, force.imag, -math.sin(cone) * force.real)
+        result = np.zeros((2, 3, force.size, self.points.size))
+        if acts_on == "mass":
+            result[1] = np.stack(parts)[..., None]
+        else:
+            result[0] = np.multiply.outer(np.stack(parts), self.outboard[acts_on])
+        return result
+
+    def changes(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return δr and δφ at points `x` for changes of a state `q` (n,), (3, points, n)."""
+        at, still = self._state(q[None]), np.zeros((1, self.size))
+        change = Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))
+        onto = self.functions.grid.integral(x)
+        return onto @ change.slope[:, 0], onto @ change.bend[:, 0]
+
+    def refined(self) -> SpaceContinuum:
+        """Return the discretization with half as many functions again, on every panel."""
+        return SpaceContinuum(self.functions.refined())
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the root frame, (samples,)."""
+        at = self._state(q)
+        none = np.zeros_like(q)
+        motion = self._motion(at, q_dot, none, 0.0, 0.0)
+        velocity = motion.velocity_m + cross(motion.spin_m, at.offset_m)
+        return np.asarray(0.5 * self._energy(at, velocity, motion.spin_m))
+
+    def amended_potential(self, q: FloatArray, rate: float) -> FloatArray:
+        """Return V - T0, which with the kinetic energy is the Jacobi integral, (samples,)."""
+        at = self._state(q)
+        W, _, hub = self._clamp(rate, 0.0)
+        carried = cross(W, hub + at.place_m + at.offset_m)
+        spin = np.broadcast_to(W, carried.shape)
+        return np.asarray(0.5 * np.sum(q**2, axis=-1) - 0.5 * self._energy(at, carried, spin))
+
+    def _energy(self, at: State, velocity: FloatArray, spin: FloatArray) -> FloatArray:
+        energy = np.sum(velocity**2, axis=0) @ self.masses.mass
+        return np.asarray(energy + np.sum(spin * self.inertia(at, spin), axis=(0, 2)))
+
+    def displacements(self, q: FloatArray) -> tuple[FloatArray, FloatArray, Any]:
+        """Return what coordinates move: δr_c and δφ at the masses (3, masses, n), and the masses.
+
+        About one state `q` (n,).
+        """
+        change = self._changes(q)
+        return change.center[:, 0], change.turn_m[:, 0], self.masses
+
+    def _changes(self, q: FloatArray) -> Changes:
+        """Return the derivatives about one state `q` (n,) at rest."""
+        at, still = self._state(q[None]), np.zeros((1, self.size))
+        return Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))

@@ -1,0 +1,141 @@
+"""Vector fields with the three components first: cross products, rotations, quaternions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ...quadrature import Grid
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a × b of fields (3, ...), which broadcast."""
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(a[j], b[k], out=result[i])
+        result[i] -= a[k] * b[j]
+    return result
+
+
+def turned(frame: FloatArray, vector: FloatArray) -> FloatArray:
+    """Return R y for frames (3, 3, ...) and vectors (3, ...)."""
+    result = np.empty((3, *np.broadcast_shapes(frame.shape[2:], vector.shape[1:])))
+    for i, row in enumerate(frame):
+        np.multiply(row[0], vector[0], out=result[i])
+        result[i] += row[1] * vector[1]
+        result[i] += row[2] * vector[2]
+    return result
+
+
+def turned_back(frame: FloatArray, vector: FloatArray) -> FloatArray:
+    """Return Rᵀ y for frames (3, 3, ...) and vectors (3, ...)."""
+    return turned(np.swapaxes(frame, 0, 1), vector)
+
+
+def about_axis(angle: FloatArray) -> FloatArray:
+    """Return the rotations (3, 3, ...) about the first axis by angles (...)."""
+    c, s, one, none = np.cos(angle), np.sin(angle), np.ones_like(angle), np.zeros_like(angle)
+    return np.stack([np.stack(row) for row in ((one, none, none), (none, c, -s), (none, s, c))])
+
+
+def product(p: FloatArray, q: FloatArray) -> FloatArray:
+    """Return the quaternions p ∘ q, each (4, ...)."""
+    real = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3]
+    return np.concatenate((real[None], p[0] * q[1:] + q[0] * p[1:] + cross(p[1:], q[1:])))
+
+
+def frames(quaternion: FloatArray) -> FloatArray:
+    """Return the rotations (3, 3, ...) of quaternions (4, ...) of any size."""
+    a, b, c, d = quaternion / np.sqrt(np.sum(quaternion * quaternion, axis=0))
+    return np.stack(
+        [
+            np.stack(row)
+            for row in (
+                (1.0 - 2.0 * (c * c + d * d), 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
+                (2.0 * (b * c + a * d), 1.0 - 2.0 * (b * b + d * d), 2.0 * (c * d - a * b)),
+                (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), 1.0 - 2.0 * (b * b + c * c)),
+            )
+        ]
+    )
+
+
+class Frames:
+    """Solution of R' = R K̂, R(0) = 1, on the cells of a grid, and at places on it.
+
+    Unit quaternions obey Q' = ½ Q ∘ (0, K), which is linear: one linear system on each cell, by
+    collocation at its Gauss points, and the product of the cells before.
+
+    Parameters
+    ----------
+    grid : Grid
+        On whose points the curvatures are given.
+    places : ndarray (places,)
+        Further material points at which the frames are wanted.
+    """
+
+    def __init__(self, grid: Grid, places: FloatArray) -> None:
+        self._grid, self._places = grid, places
+        self._cell = np.clip(
+            np.searchsorted(grid.ends, places, side="right") - 1, 0, grid.counts.size - 1
+        )
+        # Integrals from the start of each cell, to its own points, to its end, and to the places.
+        inside = grid.integral(np.concatenate((grid.points, grid.ends[1:], places)))
+        self._parts = []
+        first = 0
+        for k, count in enumerate(grid.counts.tolist()):
+            own = slice(first, first + count)
+            rows = np.concatenate(
+                (
+                    np.arange(first, first + count),
+                    [grid.points.size + k],
+                    grid.points.size + grid.counts.size + np.flatnonzero(self._cell == k),
+                )
+            )
+            self._parts.append((own, inside[rows][:, own]))
+            first += count
+
+    def of(self, curvature: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return R at the grid's points and at the places, (3, 3, samples, points or places).
+
+        From curvatures (3, samples, points) in the moving frame.
+        """
+        samples = curvature.shape[1]
+        at = np.empty((4, samples, self._grid.points.size))
+        extra = np.empty((4, samples, self._places.size))
+        before = np.zeros((4, samples, 1))
+        before[0] = 1.0
+        for k, (own, integral) in enumerate(self._parts):
+            local = _from_unit(curvature[:, :, own], integral)
+            count = own.stop - own.start
+            here = product(before, local)
+            at[:, :, own] = here[:, :, :count]
+            extra[:, :, self._cell == k] = here[:, :, count + 1 :]
+            before = here[:, :, count : count + 1]
+        return frames(at), frames(extra)
+
+
+def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
+    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell."""
+    _, samples, count = curvature.shape
+    k1, k2, k3 = 0.5 * curvature
+    none = np.zeros_like(k1)
+    # ½ Q ∘ (0, K) as a matrix on Q.
+    matrix = np.stack(
+        [
+            np.stack(row, axis=-1)
+            for row in ((none, -k1, -k2, -k3), (k1, none, k3, -k2), (k2, -k3, none, k1),
+                        (k3, k2, -k1, none))
+        ],
+        axis=-2,
+    )  # fmt: skip
+    system = -np.einsum("ij,sjab->siajb", integral[:count], matrix).reshape(
+        samples, 4 * count, 4 * count
+    )
+    system[:, range(4 * count), range(4 * count)] += 1.0
+    start = np.zeros((4 * count, 1))
+    start[::4] = 1.0
+    inside = np.linalg.solve(system, np.broadcast_to(start, (samples, 4 * count, 1)))
+    rates = np.einsum("sjab,sjb->sja", matrix, inside.reshape(samples, count, 4))
+    result: FloatArray = np.einsum("ij,sja->asi", integral, rates)
+    result[0] += 1.0
+    return result

@@ -1,0 +1,105 @@
+"""Maps over the speed: λ_ω over the hub radius, in lag and in flap, and growth out of the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+
+from ..paper import BLUE, RED
+from .style import colormap, column, house_axes, ink, label
+
+
+def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
+    x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
+    values, ratio = data["lambda_omega"].to_numpy().T, data["ratio"].to_numpy().T
+    # Half as much again as most of the map has: lines stay legible on its darkest colors.
+    limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
+    with house_axes(ax, column(), 3.0) as axes:
+        levels = np.linspace(-limit, limit, 17)
+        filled = axes.contourf(x, y, values, levels, cmap=colormap("RdBu_r"), extend="both")
+        colorbar = axes.figure.colorbar(filled, ax=axes, ticks=levels[::4])
+        colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
+        zero = axes.contour(x, y, values, levels=[0.0], colors="black", linewidths=1.0)
+        axes.clabel(zero, fmt={0.0: "0"}, fontsize=6.5)
+        lines = axes.contour(
+            x, y, ratio, levels=[3.0, 4.0, 5.0], colors="black", linewidths=0.8, linestyles="--"
+        )
+        axes.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5)
+        axes.set(xlabel=label(data["hub_ratio"]), ylabel=label(data["w_bar"]))
+    return axes
+
+
+def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw λ_ω of lag alone and of flap alone, with the speeds at which it changes sign."""
+    x = data["w_bar"].to_numpy()
+    with house_axes(ax, column(), 2.4) as axes:
+        axes.axhline(0.0, color="0.6", lw=0.5)
+        # Where each name of a zero is clear of both curves.
+        for plane, color, dashes, at, side in (
+            ("lag", ink(BLUE), "-", (4, -9), "left"),
+            ("flap", ink(RED), "--", (-4, 3), "right"),
+        ):
+            values = data["lambda_omega"].sel(plane=plane).to_numpy()
+            axes.plot(x, values, color=color, ls=dashes, label=plane)
+            for k in np.flatnonzero(np.diff(np.sign(values))):
+                zero = x[k] - values[k] * (x[k + 1] - x[k]) / (values[k + 1] - values[k])
+                axes.plot(zero, 0.0, "o", color=color, ms=3)
+                axes.annotate(
+                    f"{zero:.2f}", (zero, 0.0), xytext=at, textcoords="offset points",
+                    fontsize=6.5, color=color, ha=side,
+                )  # fmt: skip
+        sign = f"{label(data['lambda_omega'])}: hardens < 0 < softens"
+        axes.set(xlabel=label(data["w_bar"]), ylabel=sign, xlim=(x[0], x[-1]))
+        axes.legend()
+    return axes
+
+
+def growth_out_of_plane(
+    data: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    spin_ups: Mapping[float, Sequence[float]] | None = None,
+) -> Axes:
+    """Draw the map of growth rates over speed and amplitude; what is white stays in the plane.
+
+    Parameters
+    ----------
+    data : Dataset
+        As made by `rotbeam_exu.comparison.growth_out_of_plane`.
+    ax : Axes, optional
+        Drawn on these; otherwise on a new figure.
+    spin_ups : mapping, optional
+        Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s].
+    """
+    rate = data["growth_rate"].where(data["growth_rate"] > 0.0).to_numpy().T
+    with house_axes(ax, column(), 3.0) as axes:
+        axes.set_facecolor("white")
+        drawn = axes.pcolormesh(
+            data["omega"], data["a"], rate, cmap=colormap("YlOrRd"), norm=LogNorm(0.01, 100.0),
+            shading="nearest", rasterized=True,
+        )  # fmt: skip
+        bar = axes.figure.colorbar(drawn, ax=axes, extend="both")
+        bar.set_label(label(data["growth_rate"]))
+        ends = [(omega, a) for omega, peaks in (spin_ups or {}).items() for a in peaks]
+        if ends:
+            axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
+                    clip_on=False, label="where spin-ups end")  # fmt: skip
+            axes.legend(loc="lower right")
+        step = 0.5 * float(data["omega"].diff("omega").max())
+        axes.set(
+            xlabel=label(data["omega"]), ylabel=label(data["a"]),
+            xlim=(float(data["omega"].min()) - step, float(data["omega"].max()) + step),
+        )  # fmt: skip
+        axes.set_yscale("log")
+        levels = [0.01, 0.02, 0.05, 0.1, 0.2, 0.4]
+        axes.set_yticks(levels, [f"{level:g}" for level in levels])
+        axes.set_yticks([], minor=True)
+        # White beyond what was computed would say that it stays.
+        edges = np.asarray(drawn.get_coordinates())[:, 0, 1]
+        axes.set_ylim(edges[0], edges[-1])
+    return axes

@@ -1,0 +1,88 @@
+"""A figure of the paper: its data, its drawing, what it shows, and what the paper claims of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import xarray as xr
+
+from ..paper import MODEL_NAMES, MODELS
+from ..verdict import beam_of
+
+EXACT = "black: the geometrically exact beam, by harmonic balance"
+
+
+@dataclass(frozen=True, kw_only=True)
+class PaperFigure:
+    """A figure of the paper that has data.
+
+    Attributes
+    ----------
+    number : int
+    data : callable
+        Returns its Dataset; of the function of the same name in `comparison`.
+    draw : callable
+        Draws it; returns Axes, or some.
+    shows : callable
+        Says from the data what is drawn: models, speeds and mesh.
+    claim : str
+        Claim of the paper, and what is true.
+    sweeps : bool
+        Whether the data are those of a sweep, which takes `jobs`, `cache` and `progress`.
+    """
+
+    number: int
+    data: Callable[..., xr.Dataset]
+    draw: Callable[..., Any]
+    shows: Callable[[xr.Dataset], str]
+    claim: str
+    sweeps: bool = False
+
+    def caption(self, data: xr.Dataset) -> str:
+        """Return what it shows, of which beam, what the paper says of it, and what is true."""
+        plane = str(data.attrs.get("out_of_plane", ""))
+        return " ".join(" ".join([self.shows(data), _beam(data), self.claim, plane]).split())
+
+
+def _beam(data: xr.Dataset) -> str:
+    if not {"beam_length", "blade"} & set(data.attrs):
+        return ""
+    beam = beam_of(data.attrs)
+    return (
+        f"Beam: L = {beam.length:g} m, EI = {beam.bending_stiffness:.5g} N m², "
+        f"EA = {beam.axial_stiffness:.4g} N, ρA = {beam.mass_per_length:.5g} kg/m, "
+        f"μ = {beam.slenderness:.4g}."
+    )
+
+
+def numerics(data: xr.Dataset) -> str:
+    """Return how the runs behind a figure were computed."""
+    attrs = data.attrs
+    if "meshes" in attrs:
+        return f"Exudyn: {attrs['meshes']}."
+    if "step" not in attrs:
+        return ""
+    elements = f"{attrs['elements']} " if "elements" in attrs else ""
+    return (
+        f"Exudyn: {elements}{attrs['element']} elements, step {1e3 * attrs['step']:g} ms, "
+        f"{attrs['frame']} frame."
+    )
+
+
+def models(data: xr.Dataset) -> str:
+    """Return the reduced models, spelled out."""
+    names = [name for name in data["model"].values.tolist() if name in MODELS]
+    return ", ".join(f"{name} ({MODEL_NAMES[name]})" for name in names)
+
+
+def spin_ups(data: xr.Dataset) -> str:
+    """Return the grid of spin-ups."""
+    return f"spin-ups to ω = {listed(data['omega'])} rad/s in T = {listed(data['ramp_time'])} s"
+
+
+def listed(values: Iterable[float]) -> str:
+    """Return numbers in a sentence."""
+    *most, last = [f"{float(value):g}" for value in values]
+    return f"{', '.join(most)} and {last}" if most else last

@@ -1,0 +1,145 @@
+"""The blade in space: its equations against the plane, differences, conservation, symmetries."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic.exact.beam.continuum import Continuum
+from analytic.exact.space.basis import StrainFunctions
+from analytic.exact.space.continuum import SpaceContinuum
+from analytic.exact.space.steady import SpaceBlade
+from analytic.exact.space.unit import SpaceUnit
+from analytic.line import Line
+from analytic.theory import Theory
+
+ALL = SpaceUnit(
+    hub=0.3, flap=0.2, torsion=0.1, angle=0.3, bending=(1.0, -0.4),
+    masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
+    line=Line(
+        twist=(0.0, 0.7, -0.2), precone=0.1, prebend=0.1, sweep=(0.05, 0.1),
+        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01),
+    ),
+)  # fmt: skip
+"""All that a blade may have, but damping."""
+THEORIES = [
+    Theory(shear=0.3, rotary_inertia=True),
+    Theory(extension=False),
+    Theory(extension=False, trapeze=False),
+]
+
+
+def space(blade, theory=Theory(), slenderness=1e-2, bending=5, torsion=4, axial=3):  # noqa: B008
+    return SpaceContinuum(StrainFunctions(blade, theory, slenderness, bending, torsion, axial))
+
+
+def states(model, size, samples=2, seed=0):
+    return size * np.random.default_rng(seed).normal(size=(3, samples, model.size))
+
+
+@pytest.mark.parametrize("shear", [None, 0.3])
+def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
+    """Residual and tangent, of a blade on a hub with a tip mass, drag and viscosity."""
+    blade = SpaceUnit(
+        hub=0.4, masses=((1.0, 0.3, 0.02),), body_offsets=((0.0, 0.0),), damping=(0.1, 0.05, 0.2),
+        flap=0.3, torsion=0.2,
+    )  # fmt: skip
+    planar = Continuum(1e-2, 8, 6, blade=blade, shear=shear)
+    model = space(blade, Theory(shear=shear, trapeze=False), 1e-2, 8, 4, 6)
+    bending, torsion, axial, across = model.functions.counts
+    start = bending + torsion
+    own = np.concatenate(
+        (np.arange(0, bending, 2), start + np.arange(axial), start + axial + np.arange(across // 2))
+    )
+    others = np.setdiff1d(np.arange(model.size), own)
+    # Decaying coefficients, which the Gauss points of both resolve.
+    x = 0.3 * np.random.default_rng(1).normal(size=(3, 4, planar.size))
+    x *= (
+        3.0
+        ** -np.concatenate(
+            [np.arange(8)] + [np.arange(6)] * (planar.size // 6 - 1 + (shear is None) * 0)
+        )[: planar.size]
+    )
+    w, w_dot = np.random.default_rng(2).normal(size=(2, 4))
+    X = np.zeros((3, 4, model.size))
+    X[:, :, own] = x
+    one, other = planar.tangent(*x, w, w_dot), model.tangent(*X, w, w_dot)
+    assert other.residual[:, own] == pytest.approx(one.residual, abs=1e-12)
+    assert np.abs(other.residual[:, others]).max() < 1e-14
+    for name in ("stiffness", "damping", "mass"):
+        own_part = getattr(other, name)[:, own[:, None], own]
+        assert own_part == pytest.approx(getattr(one, name), abs=1e-11)
+    assert model.residual(*X, w, w_dot)[:, own] == pytest.approx(one.residual, abs=1e-12)
+
+
+@pytest.mark.parametrize("theory", THEORIES)
+def test_the_tangent_is_the_derivative_of_the_residual(theory):
+    model = space(replace(ALL, damping=(0.1, 0.05, 0.2)), theory)
+    x, rng = states(model, 0.1), np.random.default_rng(3)
+    w, w_dot = rng.normal(size=(2, 2))
+    push = rng.normal(size=(2, 3, 2, model.points.size)) * model.weights
+    push[1] = push[1][..., :1]
+    at, h = model.tangent(*x, w, w_dot, push), 1e-6
+    for k, name in enumerate(("stiffness", "damping", "mass")):
+        step = np.zeros_like(x)
+        found = np.empty_like(getattr(at, name))
+        for j in range(model.size):
+            step[k, :, j] = h
+            found[:, :, j] = (
+                model.residual(*(x + step), w, w_dot, push)
+                - model.residual(*(x - step), w, w_dot, push)
+            ) / (2.0 * h)
+            step[k, :, j] = 0.0
+        # Round-off of the differences is 1e-10; frames are resolved to 1e-9 on these points.
+        assert found == pytest.approx(getattr(at, name), abs=5e-9)
+    assert np.abs(at.mass - np.swapaxes(at.mass, 1, 2)).max() < 1e-15
+
+
+@pytest.mark.parametrize("theory", THEORIES)
+def test_about_the_steady_state_stiffness_is_symmetric_and_coriolis_skew(theory):
+    steady = SpaceBlade(space(ALL, theory, slenderness=1e-4, bending=8), 2.0)
+    at = steady.linearized
+    (K,), (C,) = at.stiffness, at.damping
+    assert np.abs(at.residual).max() < 1e-12
+    assert np.abs(K - K.T).max() < 1e-8  # as well as the frames are resolved
+    assert np.abs(C + C.T).max() < 1e-8
+
+
+@pytest.mark.parametrize("theory", THEORIES)
+def test_forces_are_the_slope_of_the_potential(theory):
+    """V - T0 of any shape, held by a force that the residual of a shape at rest is."""
+    model, rate = space(ALL, theory), 1.7
+    (q,), still = states(model, 0.1, samples=1)[0], np.zeros((1, model.size))
+    h, found = 1e-6, np.empty(model.size)
+    for j, step in enumerate(h * np.eye(model.size)):
+        ahead, behind = (model.amended_potential((q + s)[None], rate)[0] for s in (step, -step))
+        found[j] = (ahead - behind) / (2.0 * h)
+    assert model.residual(q[None], still, still, rate)[0] == pytest.approx(found, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("change", "odd"),
+    [
+        ({"line": Line(twist=(0.0, 0.7)), "angle": 0.4}, "half turn"),
+        ({"line": Line(precone=0.2, prebend=0.1, mass_offset=(0.0, 0.05))}, "mirror"),
+        ({"line": Line(twist=(0.0, 0.7), precone=0.2)}, None),
+        ({"line": Line(mass_offset=(0.05, 0.0))}, None),
+    ],
+)
+def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd):
+    blade = SpaceUnit(hub=0.3, flap=0.2, torsion=0.1, **change)
+    model = space(blade, Theory(rotary_inertia=True))
+    said, (q, q_dot, q_ddot) = model.functions.odd, states(model, 0.1)
+    here = model.residual(q, q_dot, q_ddot, 2.0)
+    bending = model.functions.counts[0]
+    if odd is None:
+        assert said is None
+        # Neither of the two maps of space.
+        tried = [np.arange(model.size) < bending]
+    else:
+        tried = [said]
+    for turned in tried:
+        sign = np.where(turned, -1.0, 1.0)
+        there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
+        off = np.abs(there - sign * here).max()
+        assert (off < 1e-12) == (odd is not None)

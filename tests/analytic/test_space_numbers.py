@@ -1,0 +1,185 @@
+"""The blade in space against numbers of two other codes, and against limits with an answer.
+
+The tables are from two codes that share no formula with this one or each other: Galerkin's method
+and collocation of the strong form, which agree to 1e-10 of a frequency.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import (
+    Beam,
+    Damping,
+    SpinUp,
+    Theory,
+    campbell,
+    damping_ratios,
+    linear_modes,
+    spin_up_response,
+    steady_state,
+)
+
+PLAIN = Theory(extension=False, trapeze=False)
+SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
+BEAM = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+)
+BLADE = BEAM.with_section_out_of_plane(1.0 / 16.0, 0.08)
+
+# Bending ratio, twist [degrees], hub, speed, frequencies.
+TWISTED = """
+0.25    30  0  0   1.7622602  3.4792923 11.1693299 21.4488637 31.7116057 56.5845262
+0.25    30  1  4   6.2996237  6.7612195 19.0580229 26.3318307 40.8495588 64.0429511
+0.25    90  0  0   1.7949864  3.2425094 12.2648859 18.7302866 36.4828711 48.9233788
+0.01    45  1  2   3.2216440  4.1971518  8.4384955 13.0696640 20.7854306 25.3895334
+0.01    90  0  8   4.5445134  8.1083739 20.3758312 24.2173883 37.7369421 44.1311689
+0.0029  60  0  4   3.6630651  4.0611939 10.6244455 14.4036777 21.6827294 27.5074541
+"""
+# Twist, precone and setting angle [degrees], hub, speed, more, tip, frequencies.
+WHOLE = """
+30 0   0  0   1 -      1.000000000  0.000000000  0.000000000 1.3946017 3.3616840  6.4132597 15.1794013
+30 5   0  0   1 -      0.998618693  0.004328382 -0.049363718 1.3932379 3.3524267  6.4065512 15.1690860
+0  5   0  0   2 -      0.997315264  0.000000000 -0.070353965 2.3131255 3.6017348  7.4954976 17.5527216
+30 5   0  0   4 -      0.996710828  0.002526872 -0.079278305 3.8295648 4.2944626 11.6568829 20.7609740
+30 2.5 45 0.1 4 -      0.999132460  0.020389872 -0.035288256 2.9174655 5.4320617 11.7731182 21.3766495
+30 0   0  0.1 2 tip    0.999882811 -0.004464488 -0.011238708 2.3288374 2.7926795  7.4946018 14.1297712
+30 2.5 10 0.1 2 center 0.997105295 -0.003514097 -0.071491061 2.3695593 3.6184947  7.5746560 15.8729379
+0  0   0  0.1 4 tip    0.999705815 -0.017040276  0.000000000 3.4074961 4.4486638 12.0316209 18.8840654
+"""  # noqa: E501
+
+
+@pytest.mark.parametrize("row", TWISTED.strip().splitlines())
+def test_frequencies_of_twisted_blades_that_are_rigid_in_torsion(row):
+    ratio, twist, hub, w, *known = map(float, row.split())
+    blade = BEAM.with_section_out_of_plane(ratio, math.inf).with_twist(math.radians(twist))
+    found = linear_modes(blade.with_hub_radius(hub), w, 6, theory=PLAIN)
+    # Of seven decimals, half the last.
+    assert found.frequencies == pytest.approx(np.array(known), abs=6e-8)
+    assert found.shares.sum(axis=1) == pytest.approx(1.0, abs=0.05)  # the rest is along the blade
+
+
+@pytest.mark.parametrize("row", WHOLE.strip().splitlines())
+def test_frequencies_and_steady_tips_with_torsion_precone_setting_and_offsets(row):
+    twist, cone, psi, hub, w, more, *known = row.split()
+    blade = (
+        BLADE.with_twist(math.radians(float(twist)))
+        .with_precone(math.radians(float(cone)))
+        .with_setting_angle(math.radians(float(psi)))
+        .with_hub_radius(float(hub))
+    )
+    if more == "tip":
+        blade = blade.with_tip_mass(0.2, offset=(0.05, 0.0))
+    if more == "center":
+        blade = blade.with_offsets(mass=(0.05, 0.0))
+    tip, frequencies = np.array(known[:3], float), np.array(known[3:], float)
+    state = steady_state(blade, float(w), theory=SOLID)
+    assert state.tip == pytest.approx(tip, abs=6e-10)
+    assert state.axis([0.0, 1.0])[1] == pytest.approx(state.tip, abs=1e-12)
+    found = linear_modes(blade, float(w), 4, theory=SOLID)
+    assert found.frequencies == pytest.approx(frequencies, abs=6e-8)
+
+
+@pytest.mark.parametrize(
+    ("theory", "bending", "torsion", "untwist"),
+    [
+        (PLAIN, [3.846673, 4.294556, 11.664284], None, 0.0),
+        (SOLID, [3.846798, 4.294072, 11.660217], 43.22143, -2.912e-3),
+        (Theory(extension=False), [3.847727, 4.293885, 11.657860], 43.41947, -6.546e-3),
+    ],
+)
+def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
+    blade = BLADE.with_twist(math.radians(30.0))
+    modes = linear_modes(blade, 4.0, 7, theory=theory)
+    assert modes.frequencies[:3] == pytest.approx(bending, abs=6e-7)
+    if torsion is not None:
+        assert modes.frequencies[6] == pytest.approx(torsion, abs=6e-6)
+        assert modes.shares[6, 2] > 0.99
+    model, q = modes.model, modes._steady
+    K = model.strains.K[0] @ q
+    assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
+
+
+def test_a_bar_under_tension_untwists_by_the_trapeze_effect_in_closed_form():
+    """N k² θ'/(GJ + N k²) of a rigid bar with a heavy tip, whose tension is nearly constant."""
+    blade = BLADE.with_tip_mass(1e3).with_twist(0.1)
+    w, k2 = 0.05, (1.0 + 1.0 / 16.0) * 1e-4
+    modes = linear_modes(blade, w, 3, theory=Theory(extension=False))
+    tension = (1e3 + 0.5) * w**2  # at the middle, within 5e-4 elsewhere
+    twist = modes.model.weights @ (modes.model.strains.K[0] @ modes._steady)
+    assert twist == pytest.approx(-0.1 * tension * k2 / (0.08 + tension * k2), rel=5e-3)
+
+
+def test_equal_stiffness_both_ways_is_blind_to_twist_and_setting():
+    """Flap² = lag² + w̄², whatever the twist: Wright's relation of uniform blades."""
+    round_ = BEAM.with_section_out_of_plane(1.0, 0.5)
+    (lag,) = linear_modes(BEAM, 4.0, 1, theory=PLAIN).frequencies
+    for blade in (round_.with_twist(1.0), round_.with_setting_angle(0.7)):
+        found = linear_modes(blade, 4.0, 2, theory=PLAIN).frequencies
+        assert found == pytest.approx([lag, math.hypot(lag, 4.0)], rel=1e-9)
+
+
+def test_a_limp_coned_blade_lies_in_the_plane_of_rotation():
+    """The faster, the nearer: the clamp's bend is thin as 1/w̄."""
+    heights = []
+    for w in (10.0, 20.0):
+        tip = steady_state(BLADE.with_precone(0.1), w, theory=PLAIN).tip
+        heights.append(tip @ [math.sin(0.1), 0.0, math.cos(0.1)])
+    assert heights[0] / heights[1] == pytest.approx(2.0, rel=0.15)
+    up, down = (steady_state(BLADE.with_precone(b), 3.0).tip for b in (0.1, -0.1))
+    assert up == pytest.approx(down * [1.0, 1.0, -1.0], abs=1e-9)
+
+
+SPIN_UP = np.array([
+    [0.99863931, -0.03629164, 0.02635214], [0.99770500, -0.06149998, -0.00512990],
+    [0.99936943, -0.02808878, 0.01798797], [0.99984912, 0.00817105, 0.01472656],
+    [0.99983314, -0.01005273, -0.01449911], [0.99987069, 0.00682624, -0.01392933],
+])  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "count", "error"),
+    [(1e-4, 1, 1e-6), pytest.param(1e-7, 6, 3e-8, marks=pytest.mark.slow)],
+)
+def test_the_spin_up_of_a_twisted_blade(tolerance, count, error):
+    """The known tips are certain to 2e-8."""
+    times, motion = (
+        np.array([3.0, 6.0, 9.0, 12.0, 16.0, 20.0])[:count],
+        SpinUp(omega=4.0, ramp_time=12.0),
+    )
+    blade = BLADE.with_twist(math.radians(30.0))
+    found = spin_up_response(blade, motion, times, tolerance=tolerance, theory=SOLID)
+    assert found.tip == pytest.approx(SPIN_UP[:count], abs=error)
+    assert found.flap.tolist() == found.tip[:, 2].tolist()
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: steady_state(BEAM.with_twist(0.5), 1.0), "with_section_out_of_plane\\(bending"),
+        (lambda: linear_modes(BEAM.with_precone(0.1), 1.0), "give its stiffness there by"),
+        (lambda: linear_modes(BLADE.with_twist(0.5), 1.0, plane="flap"), "go together"),
+        (lambda: BLADE.with_offsets(mass=0.1), "mass_offset must be a pair"),
+        (lambda: BLADE.with_twist(math.nan), "NaN"),
+        (lambda: BLADE.with_precone("5 degrees"), "precone must be"),
+    ],
+)
+def test_bad_input(call, sentence):
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        call()
+
+
+def test_campbell_and_damping_ratios_of_a_twisted_blade():
+    """Modes keep their shape over the speed; external drag damps all by d/(2 m ω_j) at rest."""
+    blade = BLADE.with_twist(math.radians(30.0))
+    diagram = campbell(blade, [0.5, 1.0], 2, orders=2)
+    known = linear_modes(blade, 1.0, 2).frequencies
+    assert diagram.frequencies[1] == pytest.approx(known, rel=1e-9)
+    assert diagram.mac.min() > 0.99
+    assert diagram.names == ["mode 1", "mode 2"]
+    theory = Theory(extension=False, trapeze=False)
+    modes = linear_modes(blade, 0.0, 2, theory=theory).frequencies
+    damped = blade.with_damping(Damping(external=0.02))
+    ratios = damping_ratios(damped, 0.0, 2, theory=theory)
+    assert ratios == pytest.approx(0.01 / modes, rel=1e-6)
