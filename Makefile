@@ -25,7 +25,7 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 
 references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
 	$(BIN)/python -m rotbeam_exu.verification.regenerate
-	$(BIN)/python -m rotbeam_exu.verification.problem_statement
+	$(BIN)/python -m rotbeam_exu.verification.kit
 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -68,10 +68,13 @@ class Beam(Variations):
     damping: ClassVar[Damping] = UNDAMPED
 
     def __post_init__(self) -> None:
-        for field, unit in zip(fields(self), ("m", "m^2", "m^4", "Pa", "kg/m^3"), strict=True):
-            object.__setattr__(
-                self, field.name, positive(field.name, getattr(self, field.name), unit)
-            )
+        self._keep(
+            length=positive("length", self.length, "m"),
+            area=positive("area", self.area, "m^2"),
+            second_moment=positive("second_moment", self.second_moment, "m^4"),
+            youngs_modulus=positive("youngs_modulus", self.youngs_modulus, "Pa"),
+            density=positive("density", self.density, "kg/m^3"),
+        )
         self._require_scales()
         warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
 
@@ -217,7 +220,7 @@ class Beam(Variations):
 
 
 AnyBlade = Beam | Blade
-"""What theory and simulation take."""
+"""Type of the blades that theory and simulation take."""
 
 
 def require_blade(beam: object) -> None:

@@ -20,10 +20,9 @@ from .damping import UNDAMPED, Damping
 from .description import Described
 from .input_checks import finite_number, not_negative, positive, shown
 from .line import STRAIGHT, Line, Offset
-from .out_of_plane import OutOfPlane
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units
-from .section import Section
+from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
@@ -40,7 +39,7 @@ def _several(masses: object) -> tuple[PointMass, ...]:
 
 
 class Variations(Described, abstract=True):
-    """What is made of a Beam and of a Blade alike: blades that differ in one thing."""
+    """Base of Beam and Blade, which makes of either a blade that differs in one thing."""
 
     @property
     @abstractmethod
@@ -195,13 +194,12 @@ class Blade(Variations):
     uniform: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        for name, value in (
-            ("length", positive("length", self.length, "m")),
-            ("hub_radius", not_negative("hub_radius", self.hub_radius, "m")),
-            ("setting_angle", finite_number("setting_angle", self.setting_angle, "rad")),
-            ("point_masses", _several(self.point_masses)),
-        ):
-            object.__setattr__(self, name, value)
+        self._keep(
+            length=positive("length", self.length, "m"),
+            hub_radius=not_negative("hub_radius", self.hub_radius, "m"),
+            setting_angle=finite_number("setting_angle", self.setting_angle, "rad"),
+            point_masses=_several(self.point_masses),
+        )
         if abs(self.setting_angle) > 2.0 * math.pi:
             warn(
                 f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "

@@ -40,10 +40,8 @@ class Damping(Described):
 
     def __post_init__(self) -> None:
         for name, unit in (("bending", "s"), ("axial", "s"), ("external", "kg/(m s)")):
-            value = not_negative(
-                name, getattr(self, name), unit, "damping takes energy, it gives none"
-            )
-            object.__setattr__(self, name, value)
+            remedy = "damping takes energy, it gives none"
+            self._keep(**{name: not_negative(name, getattr(self, name), unit, remedy)})
 
     @classmethod
     def from_ratio(cls, blade: Any, mode: int = 1, ratio: float = 0.01) -> Damping:

@@ -39,6 +39,11 @@ class Described:
             )
         _KINDS[cls.__name__] = cls
 
+    def _keep(self, **checked: Any) -> None:
+        """Set fields, of a frozen dataclass too, to what checks have made of them."""
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
 
 ValueT = TypeVar("ValueT")
 

@@ -1,4 +1,4 @@
-"""What is refused at the door, and the sentence that says so.
+"""Validation of what users give, and the sentence that refuses it.
 
 Every public entry of both packages validates through these functions, so that bad input reads
 the same everywhere: what, where, by how much, what to try.
@@ -9,10 +9,8 @@ from __future__ import annotations
 import math
 import reprlib
 from numbers import Integral, Real
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .arrays import FloatArray
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
@@ -22,27 +20,6 @@ _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the be
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
-
-
-def _number(name: str, value: object, unit: str) -> float:
-    value = _magnitude(name, value, unit)
-    # NumPy registers durations as numbers, and Python's float() takes none of them.
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
-        raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
-    number = _float(name, value, unit)
-    if not math.isfinite(number):
-        raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
-    return number
-
-
-def _float(name: str, value: Real, unit: str) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(
-            f"{name} must be below {np.finfo(float).max:.2g}{_unit(unit)}, the largest floating "
-            f"point number, got a number beyond it; choose larger units"
-        ) from None
 
 
 def _magnitude(name: str, value: object, unit: str) -> object:
@@ -86,7 +63,7 @@ def shown(value: object) -> str:
 
 def positive(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number above zero."""
-    number = _number(name, value, unit)
+    number = finite_number(name, value, unit)
     if number <= 0.0:
         raise ValueError(f"{name} must be positive, got {number}{_unit(unit)}")
     return number
@@ -94,7 +71,7 @@ def positive(name: str, value: object, unit: str = "") -> float:
 
 def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number of zero or more."""
-    number = _number(name, value, unit)
+    number = finite_number(name, value, unit)
     if number < 0.0:
         hint = f"; {remedy}" if remedy else ""
         raise ValueError(f"{name} must not be negative, got {number}{_unit(unit)}{hint}")
@@ -103,7 +80,14 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, refusing what is not a finite number."""
-    return _number(name, value, unit)
+    value = _magnitude(name, value, unit)
+    # NumPy registers durations as numbers, and Python's float() takes none of them.
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
+        raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
+    return number
 
 
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
@@ -163,8 +147,7 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
 def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
     """Return numbers as an array of their own shape, refusing what is not finite.
 
-    Quantities of a units library are converted to `unit`; masked arrays and bytes, which NumPy
-    would take for numbers, are refused.
+    Quantities of a units library are converted to `unit`.
     """
     array = float_array(name, values, unit)
     finite = np.isfinite(array)
@@ -176,17 +159,18 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
 def float_array(name: str, values: object, unit: str = "") -> FloatArray:
     """Return numbers as `finite_array` does, for callers that look for NaN themselves."""
     values = _magnitude(name, values, unit)
-    if _is_masked(values):
-        raise TypeError(
-            f"{name} must be numbers{_in(unit)}, got a masked array: leave out what is masked, "
-            f"by .compressed()"
-        )
-    array = _numeric(_bare(name, values, unit))
-    if array is None:
+    if isinstance(values, (list, tuple)):
+        values = [_magnitude(name, item, unit) for item in values]
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):  # ragged
+        array = np.array(None)
+    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
+        remedy = "leave out what is masked, by .compressed()"
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
+    fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
+    if array.size and array.dtype.kind not in "fiu" and not fractions:
         raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
-    if array.dtype.kind == "O":
-        # Integers beyond 64 bits; each is small enough for a float, or named.
-        array = np.reshape([_float(name, item, unit) for item in array.flat], array.shape)
     return np.asarray(array, dtype=np.float64)
 
 
@@ -214,31 +198,3 @@ def points_of_beam(name: str, x: object, length: float) -> FloatArray:
             f"{points[outside][0]:g} m; {name} are distances from the clamp"
         )
     return np.clip(points / length, 0.0, 1.0)
-
-
-def _bare(name: str, values: object, unit: str) -> object:
-    """Return what NumPy would take for numbers and is; None for bytes, truth values and masks."""
-    if isinstance(values, (bool, np.bool_, bytes, bytearray, memoryview)) or _is_masked(values):
-        return None
-    if isinstance(values, (list, tuple)):
-        return [_bare(name, _magnitude(name, item, unit), unit) for item in values]
-    return values
-
-
-def _numeric(values: object) -> NDArray[Any] | None:
-    """Return an array of real numbers, None if the values are something else."""
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):  # ragged
-        return None
-    if array.dtype.kind == "O" and not all(_is_real(item) for item in array.flat):
-        return None
-    return array if array.dtype.kind in "fiuO" or array.size == 0 else None
-
-
-def _is_masked(value: object) -> bool:
-    return isinstance(value, np.ma.MaskedArray)
-
-
-def _is_real(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)

@@ -72,6 +72,13 @@ class Load(Described, abstract=True):
         """Return what is added to its acceleration at ν = `frequency`, (samples,)."""
         return 0.0 * frequency * phase
 
+    def require_in_time(self) -> None:
+        """Refuse a load that lacks what a motion in time needs of it."""
+
+    def moved(self, rotation: Rotation) -> Rotation:
+        """Return the rotation of the clamp with the load's share."""
+        return rotation
+
     def in_units(self, length: float, mass: float, time: float) -> Self:
         """Return the load in units of length [m], mass [kg] and time [s]."""
         powers = zip((length, mass, time), self.dimension, strict=True)
@@ -98,15 +105,21 @@ class HarmonicLoad(Load, abstract=True):
     frequency: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "amplitude", finite_number("amplitude", self.amplitude, self.unit))
+        self._keep(amplitude=finite_number("amplitude", self.amplitude, self.unit))
         if self.frequency is not None:
-            frequency = not_negative("frequency", self.frequency, "rad/s")
-            object.__setattr__(self, "frequency", frequency)
+            self._keep(frequency=not_negative("frequency", self.frequency, "rad/s"))
 
     def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
         """Return F cos νt across the undeformed blade."""
         del angle, setting
         return 1j * self.amplitude * np.cos(phase)
+
+    def require_in_time(self) -> None:
+        """Refuse a load without its frequency."""
+        if self.frequency is None:
+            raise ValueError(
+                f"a motion in time needs the frequency of {self}: give frequency= [rad/s]"
+            )
 
     def __str__(self) -> str:
         at = "" if self.frequency is None else f" at {self.frequency:g} rad/s"
@@ -147,6 +160,21 @@ class SpeedRipple(HarmonicLoad):
     def acceleration(self, phase: FloatArray, frequency: float) -> FloatArray:
         """Return -εν sin νt."""
         return np.asarray(-self.amplitude * frequency * np.sin(phase))
+
+    def require_in_time(self) -> None:
+        """Refuse a ripple without a frequency, or of zero."""
+        super().require_in_time()
+        if self.frequency == 0.0:
+            raise ValueError(
+                "a ripple of frequency 0 is another speed: give a frequency above 0 rad/s, or "
+                "add the amplitude to omega"
+            )
+
+    def moved(self, rotation: Rotation) -> Rotation:
+        """Return the rotation with the ripple."""
+        if self.frequency is None:
+            return rotation
+        return Rippled(rotation=rotation, amplitude=self.amplitude, frequency=self.frequency)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -236,7 +264,7 @@ class Gravity(Load):
     by_angle: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "gravity", finite_number("gravity", self.gravity, "m/s^2"))
+        self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))
 
     def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
         """Return the weight of a unit mass, which goes around once a turn."""
@@ -265,23 +293,12 @@ def loads_in_time(loads: Any) -> tuple[Load, ...]:
         raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
     for load in loads:
         require_load(load)
-        if isinstance(load, HarmonicLoad) and load.frequency is None:
-            raise ValueError(
-                f"a motion in time needs the frequency of {load}: give frequency= [rad/s]"
-            )
-        if isinstance(load, SpeedRipple) and load.frequency == 0.0:
-            raise ValueError(
-                "a ripple of frequency 0 is another speed: give a frequency above 0 rad/s, or "
-                "add the amplitude to omega"
-            )
+        load.require_in_time()
     return tuple(loads)
 
 
 def rippled(rotation: Rotation, loads: Sequence[Load]) -> Rotation:
     """Return the rotation of the clamp with the ripples among the loads."""
     for load in loads:
-        if isinstance(load, SpeedRipple) and load.frequency is not None:
-            rotation = Rippled(
-                rotation=rotation, amplitude=load.amplitude, frequency=load.frequency
-            )
+        rotation = load.moved(rotation)
     return rotation

@@ -1,17 +1,22 @@
-"""The prescribed rotation of the clamped end, Eq. 1."""
+"""Prescribed rotations of the clamped end: Eq. 1, steady, and the base of others."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol, overload
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from .arrays import FloatArray
 from .description import Described
 from .input_checks import positive, rotation_speed
+
+TimeT = TypeVar("TimeT", float, FloatArray)
+"""A time, or several."""
+
+_INSTANTS = 2001  # for the highest speed of a motion that does not tell it
 
 
 def instants(t: Any) -> Any:
@@ -22,24 +27,37 @@ def instants(t: Any) -> Any:
 class Rotation(Protocol):
     """A prescribed rotation: angle, rate and acceleration as functions of time."""
 
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
+    def angle(self, t: Any) -> Any:
+        """Return the angle [rad] at `t` [s]."""
 
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
+    def rate(self, t: Any) -> Any:
+        """Return its rate [rad/s]."""
 
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
+    def acceleration(self, t: Any) -> Any:
+        """Return its acceleration [rad/s²]."""
 
 
-class Motion(Described, abstract=True):
-    """Base of all rotations of the clamp, by which files know them."""
+class Motion(Described, ABC, abstract=True):
+    """Rotation of the clamp, as files know it."""
+
+    @abstractmethod
+    def _at(self, t: Any, derivative: int) -> Any:
+        """Return the angle, or its first or second derivative, at a float or an array of times."""
+
+    def angle(self, t: TimeT) -> TimeT:
+        """Return the angle θ [rad], zero at t = 0; `t` [s] scalar or array, result in its shape."""
+        found: TimeT = self._at(instants(t), 0)
+        return found
+
+    def rate(self, t: TimeT) -> TimeT:
+        """Return the angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
+        found: TimeT = self._at(instants(t), 1)
+        return found
+
+    def acceleration(self, t: TimeT) -> TimeT:
+        """Return the angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
+        found: TimeT = self._at(instants(t), 2)
+        return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,38 +80,74 @@ class SteadyRotation(Motion):
     omega: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "omega", rotation_speed(self.omega))
+        self._keep(omega=rotation_speed(self.omega))
 
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
-    def angle(self, t: float | FloatArray) -> float | FloatArray:
-        """Angle ωt [rad]; `t` [s] scalar or array."""
-        angle: float | FloatArray = self.omega * instants(t)
-        return angle
+    ramp_time = 0.0
 
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
-    def rate(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular velocity ω [rad/s], in the shape of `t`."""
-        rate: float | FloatArray = self.omega + 0.0 * instants(t)
-        return rate
+    @property
+    def fastest(self) -> float:
+        """The highest speed, ω [rad/s]."""
+        return self.omega
 
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
-    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular acceleration, zero [rad/s²], in the shape of `t`."""
-        acceleration: float | FloatArray = 0.0 * instants(t)
-        return acceleration
+    def _at(self, t: Any, derivative: int) -> Any:
+        return (self.omega * t, self.omega + 0.0 * t, 0.0 * t)[derivative]
+
+
+class SpeedChange(Motion, ABC, abstract=True):
+    """A change of the speed from t = 0 to `ramp_time`, steady before and after.
+
+    A new one is a frozen dataclass that inherits from it, here or elsewhere.
+
+    Attributes
+    ----------
+    start, omega : float
+        Speed before and after [rad/s].
+    ramp_time : float
+        Duration [s].
+    shortest_wave : float
+        Shortest period of what the acceleration is made of [s].
+    """
+
+    start: float
+    omega: float
+    ramp_time: float
+    shortest_wave: float
+
+    @abstractmethod
+    def _within(self, t: Any, derivative: int) -> Any:
+        """Return the angle, or its first or second derivative, at t from 0 to `ramp_time`."""
+
+    @property
+    def fastest(self) -> float:
+        """The highest speed [rad/s]."""
+        return float(self.rate(np.linspace(0.0, self.ramp_time, _INSTANTS)).max())
+
+    @property
+    def corners(self) -> FloatArray:
+        """Instants [s], both ends among them, between which the motion is smooth."""
+        return np.array([0.0, self.ramp_time])
+
+    def _at(self, t: Any, derivative: int) -> Any:
+        # A solver asks for one t at a time, fast.
+        several = isinstance(t, np.ndarray)
+        within = np.clip(t, 0.0, self.ramp_time) if several else min(max(t, 0.0), self.ramp_time)
+        value = self._within(within, derivative)
+        if derivative == 0:
+            value = value + (self.start * (t < 0.0) + self.omega * (t > 0.0)) * (t - within)
+        return value if several else float(value)
+
+
+def require_ramp(motion: object) -> None:
+    """Refuse what is no change of the speed, a steady rotation for one."""
+    if not isinstance(motion, SpeedChange):
+        raise TypeError(
+            "spin_up must be a SpinUp, a FourierRamp, a SpeedTable or another SpeedChange, got "
+            f"{motion!r}; for a beam that turns steadily take periodic_orbits"
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpinUp(Motion):
+class SpinUp(SpeedChange):
     """Smooth spin-up from rest to a constant angular velocity, Eq. 1.
 
     Angle, rate and acceleration are continuous at t = 0 and t = T; the acceleration is
@@ -121,62 +175,34 @@ class SpinUp(Motion):
 
     omega: float
     ramp_time: float
-    start: ClassVar[float] = 0.0
+
+    start = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "omega", rotation_speed(self.omega))
-        object.__setattr__(self, "ramp_time", positive("ramp_time", self.ramp_time, "s"))
+        self._keep(
+            omega=rotation_speed(self.omega), ramp_time=positive("ramp_time", self.ramp_time, "s")
+        )
 
     @property
-    def shortest_wave(self) -> float:
+    def shortest_wave(self) -> float:  # type: ignore[override]
         """Period of the acceleration during the ramp, T [s]."""
         return self.ramp_time
 
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
-    def angle(self, t: float | FloatArray) -> float | FloatArray:
-        """Angle θ(t) [rad], Eq. 1; `t` [s] scalar or array, result of the same shape."""
-        ramp, sin = self._ramp(t)
-        wave = self.ramp_time / np.pi * sin(np.pi * ramp / self.ramp_time)
-        during = 0.5 * self.omega / self.ramp_time * (ramp - wave) * (ramp + wave)
-        t = instants(t)
-        after = self.omega * (t - ramp) * (t > self.ramp_time)
-        angle: float | FloatArray = during + after
-        return angle
+    @property
+    def fastest(self) -> float:
+        """The highest speed, ω [rad/s]."""
+        return self.omega
 
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
-    def rate(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        ramp, sin = self._ramp(t)
-        frequency = 2.0 * np.pi / self.ramp_time
-        rate: float | FloatArray = (
-            self.omega / self.ramp_time * (ramp - sin(frequency * ramp) / frequency)
-        )
-        return rate
-
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
-    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        ramp, sin = self._ramp(t)
-        acceleration: float | FloatArray = (
-            2.0 * self.omega / self.ramp_time * sin(np.pi * ramp / self.ramp_time) ** 2
-        )
-        return acceleration
-
-    def _ramp(self, t: float | FloatArray) -> tuple[Any, Callable[[Any], Any]]:
-        """Time within [0, T] and the sine for its type: a solver asks for one t at a time, fast."""
-        t = instants(t)
-        if isinstance(t, np.ndarray):
-            return np.clip(t, 0.0, self.ramp_time), np.sin
-        return min(max(t, 0.0), self.ramp_time), math.sin
+    def _within(self, t: Any, derivative: int) -> Any:
+        sin: Any = np.sin if isinstance(t, np.ndarray) else math.sin
+        strength = self.omega / self.ramp_time
+        if derivative == 2:
+            return 2.0 * strength * sin(np.pi * t / self.ramp_time) ** 2
+        if derivative == 1:
+            frequency = 2.0 * np.pi / self.ramp_time
+            return strength * (t - sin(frequency * t) / frequency)
+        wave = self.ramp_time / np.pi * sin(np.pi * t / self.ramp_time)
+        return 0.5 * strength * (t - wave) * (t + wave)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,35 +223,10 @@ class Rippled(Motion):
     amplitude: float
     frequency: float
 
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
-    def angle(self, t: float | FloatArray) -> float | FloatArray:
-        """Angle [rad], with (ε/ν) sin νt; `t` [s] scalar or array."""
-        angle: float | FloatArray = self.rotation.angle(t) + (
-            self.amplitude / self.frequency * np.sin(self.frequency * t)
-        )
-        return angle
-
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
-    def rate(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular velocity [rad/s], in the shape of `t`."""
-        rate: float | FloatArray = self.rotation.rate(t) + (
-            self.amplitude * np.cos(self.frequency * t)
-        )
-        return rate
-
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
-    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular acceleration [rad/s²], in the shape of `t`."""
-        acceleration: float | FloatArray = self.rotation.acceleration(t) - (
-            self.amplitude * self.frequency * np.sin(self.frequency * t)
-        )
-        return acceleration
+    def _at(self, t: Any, derivative: int) -> Any:
+        phase = self.frequency * t
+        if derivative == 2:
+            return self.rotation.acceleration(t) - self.amplitude * self.frequency * np.sin(phase)
+        if derivative == 1:
+            return self.rotation.rate(t) + self.amplitude * np.cos(phase)
+        return self.rotation.angle(t) + self.amplitude / self.frequency * np.sin(phase)

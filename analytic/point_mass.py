@@ -40,13 +40,20 @@ class PointMass(Described):
     offset: Offset = (0.0, 0.0)
 
     def __post_init__(self) -> None:
-        for name, value in (
-            ("position", _off_the_clamp(self.position)),
-            ("mass", not_negative("mass", self.mass, "kg")),
-            ("inertia", not_negative("inertia", self.inertia, "kg m^2")),
-        ):
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "offset", checked_offset("offset", self.offset))
+        at = not_negative(
+            "position", self.position, "m", "it is measured from the clamp to the tip"
+        )
+        if at == 0.0:
+            raise ValueError(
+                "a point mass at the clamp, position 0 m, does not move with the blade: leave it "
+                "out, it belongs to the hub"
+            )
+        self._keep(
+            position=at,
+            mass=not_negative("mass", self.mass, "kg"),
+            inertia=not_negative("inertia", self.inertia, "kg m^2"),
+            offset=checked_offset("offset", self.offset),
+        )
 
     def in_units(self, length: float, mass: float) -> PointMass:
         """Return the same in units of length [m] and mass [kg]."""
@@ -56,13 +63,3 @@ class PointMass(Described):
             inertia=self.inertia / (mass * length**2),
             offset=scaled(self.offset, length),
         )
-
-
-def _off_the_clamp(position: float) -> float:
-    at = not_negative("position", position, "m", "it is measured from the clamp to the tip")
-    if at == 0.0:
-        raise ValueError(
-            "a point mass at the clamp, position 0 m, does not move with the blade: leave it out, "
-            "it belongs to the hub"
-        )
-    return at

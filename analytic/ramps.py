@@ -3,86 +3,24 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
 from .arrays import FloatArray
 from .input_checks import finite_values, positive, rotation_speed
 from .lazily import interpolate
-from .motion import Motion, SpinUp, SteadyRotation, instants
+from .motion import SpeedChange
 
 _MOST_WAVES = 100
 _ROUND_OFF = 1e-9
 
 
-class SpeedChange(Motion, ABC, abstract=True):
-    """A change of the speed from t = 0 to `ramp_time`, steady before and after.
-
-    A new one is a frozen dataclass that inherits from it, here or elsewhere.
-
-    Attributes
-    ----------
-    start, omega : float
-        Speed before and after [rad/s].
-    ramp_time : float
-        Duration [s].
-    shortest_wave : float
-        Shortest period of what the acceleration is made of [s].
-    """
-
-    start: float
-    omega: float
-    ramp_time: float
-    shortest_wave: float
-
-    @abstractmethod
-    def _within(self, t: Any, derivative: int) -> Any:
-        """Angle, or its first or second derivative, at t from 0 to `ramp_time`."""
-
-    @overload
-    def angle(self, t: float) -> float: ...
-    @overload
-    def angle(self, t: FloatArray) -> FloatArray: ...
-    def angle(self, t: float | FloatArray) -> float | FloatArray:
-        """Angle θ(t) [rad], zero at t = 0; `t` [s] scalar or array, result of the same shape."""
-        within, t = self._clipped(t), instants(t)
-        beyond = np.where(t > within, self.omega, self.start) * (t - within)
-        angle: float | FloatArray = _like(t, self._within(within, 0) + beyond)
-        return angle
-
-    @overload
-    def rate(self, t: float) -> float: ...
-    @overload
-    def rate(self, t: FloatArray) -> FloatArray: ...
-    def rate(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        rate: float | FloatArray = _like(t, self._within(self._clipped(t), 1))
-        return rate
-
-    @overload
-    def acceleration(self, t: float) -> float: ...
-    @overload
-    def acceleration(self, t: FloatArray) -> FloatArray: ...
-    def acceleration(self, t: float | FloatArray) -> float | FloatArray:
-        """Angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        acceleration: float | FloatArray = _like(t, self._within(self._clipped(t), 2))
-        return acceleration
-
-    def _clipped(self, t: Any) -> Any:
-        return np.minimum(np.maximum(instants(t), 0.0), self.ramp_time)
-
-
-def _like(t: Any, value: Any) -> Any:
-    return value if isinstance(t, np.ndarray) else float(value)
-
-
 @dataclass(frozen=True, kw_only=True)
-class SmoothRamp(SpeedChange):
+class FourierRamp(SpeedChange):
     """Change of the speed from `start` to `omega` whose acceleration is a Fourier series.
 
     With s = t/T, 0 ≤ s ≤ 1,
@@ -110,8 +48,8 @@ class SmoothRamp(SpeedChange):
 
     Examples
     --------
-    >>> from analytic import SmoothRamp
-    >>> SmoothRamp(start=6.0, omega=0.0, ramp_time=4.0).rate(2.0)
+    >>> from analytic import FourierRamp
+    >>> FourierRamp(start=6.0, omega=0.0, ramp_time=4.0).rate(2.0)
     3.0
     """
 
@@ -122,14 +60,13 @@ class SmoothRamp(SpeedChange):
     sines: Sequence[float] = ()
 
     def __post_init__(self) -> None:
-        for name, value in (
-            ("omega", rotation_speed(self.omega)),
-            ("ramp_time", positive("ramp_time", self.ramp_time, "s")),
-            ("start", rotation_speed(self.start, "start")),
-            ("cosines", _coefficients("cosines", self.cosines)),
-            ("sines", _coefficients("sines", self.sines)),
-        ):
-            object.__setattr__(self, name, value)
+        self._keep(
+            omega=rotation_speed(self.omega),
+            ramp_time=positive("ramp_time", self.ramp_time, "s"),
+            start=rotation_speed(self.start, "start"),
+            cosines=_coefficients("cosines", self.cosines),
+            sines=_coefficients("sines", self.sines),
+        )
         k = np.arange(1, len(self.sines) + 1)
         sums = (("cosines", math.fsum(self.cosines), -1.0), ("sines", float(k @ self.sines), 0.0))
         for name, found, wanted in sums:
@@ -167,7 +104,7 @@ class SmoothRamp(SpeedChange):
 
 
 @dataclass(frozen=True)
-class Table(SpeedChange):
+class SpeedTable(SpeedChange):
     """Speed given at instants, steady before the first and after the last.
 
     Between two instants the speed stays between the two that are given there, as of a measured
@@ -191,8 +128,8 @@ class Table(SpeedChange):
 
     Examples
     --------
-    >>> from analytic import Table
-    >>> table = Table([0.0, 1.0, 2.0, 3.0], [0.0, 2.0, 5.0, 6.0])
+    >>> from analytic import SpeedTable
+    >>> table = SpeedTable([0.0, 1.0, 2.0, 3.0], [0.0, 2.0, 5.0, 6.0])
     >>> round(table.rate(1.0), 12), table.ramp_time
     (2.0, 3.0)
     """
@@ -218,8 +155,7 @@ class Table(SpeedChange):
             raise ValueError(f"times must ascend from 0 s on, but {where}")
         for speed in speeds:
             rotation_speed(speed, "speeds")
-        object.__setattr__(self, "times", tuple(times.tolist()))
-        object.__setattr__(self, "speeds", tuple(speeds.tolist()))
+        self._keep(times=tuple(times.tolist()), speeds=tuple(speeds.tolist()))
         with np.errstate(all="ignore"):
             steepest = 3.0 * np.abs(np.diff(speeds) / np.diff(times) / np.diff(times) ** 2)
         beyond = np.flatnonzero(~np.isfinite(steepest))
@@ -251,6 +187,16 @@ class Table(SpeedChange):
         """The shortest interval [s], but no less than a hundredth of the whole."""
         return max(float(np.diff(self.times).min()), self.ramp_time / _MOST_WAVES)
 
+    @property
+    def fastest(self) -> float:
+        """The highest of the speeds [rad/s]."""
+        return max(self.speeds)
+
+    @property
+    def corners(self) -> FloatArray:
+        """The instants [s]."""
+        return np.array(self.times)
+
     @cached_property
     def _cubics(self) -> tuple[Any, Any, Any]:
         t, speeds = np.array(self.times), np.array(self.speeds)
@@ -277,25 +223,3 @@ def _coefficients(name: str, values: object) -> tuple[float, ...]:
             f"{name} go up to {largest:.3g}: at most {most:.1g} is taken, beyond round-off decides"
         )
     return tuple(numbers.tolist())
-
-
-AnyRamp = SpinUp | SpeedChange
-"""A motion with a beginning and an end, between two steady speeds."""
-
-
-def require_ramp(motion: object) -> None:
-    """Refuse what is no change of the speed, a steady rotation for one."""
-    if not isinstance(motion, AnyRamp):
-        raise TypeError(
-            f"spin_up must be a SpinUp, a SmoothRamp, a Table or another SpeedChange, got "
-            f"{motion!r}; for a beam that turns steadily take periodic_orbits"
-        )
-
-
-def fastest(motion: AnyRamp | SteadyRotation) -> float:
-    """Return the highest speed of a motion [rad/s]."""
-    if isinstance(motion, SpinUp | SteadyRotation):
-        return motion.omega
-    if isinstance(motion, Table):
-        return max(motion.speeds)
-    return float(motion.rate(np.linspace(0.0, motion.ramp_time, 20 * _MOST_WAVES + 1)).max())

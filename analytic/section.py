@@ -1,4 +1,8 @@
-"""The section of a blade: what a slice resists and weighs."""
+"""The section of a blade: stiffness and mass of its slices, in the plane of bending and out of it.
+
+In the plane a thin blade knows its EA, EI and m. Whether its motion stays there depends on how it
+bends out of the plane and twists.
+"""
 
 from __future__ import annotations
 
@@ -10,14 +14,52 @@ import numpy as np
 
 from .arrays import FloatArray
 from .description import Described
-from .input_checks import warn_if_giga
-from .out_of_plane import OutOfPlane
+from .input_checks import not_negative, positive, warn_if_giga
 from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
 
 
 @dataclass(frozen=True, kw_only=True)
+class OutOfPlane(Described):
+    """Stiffness and inertia of a slice out of the plane, over those in it.
+
+    The ratios hold all along the blade.
+
+    Parameters
+    ----------
+    bending_ratio : float
+        r, the bending stiffness out of the plane over the EI in it.
+    torsion_ratio : float, optional
+        g = GJ/EI; infinite of a section that does not twist. None where it is not known.
+    polar_inertia : float, optional
+        ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None of a homogeneous section,
+        which has m (1 + r) EI/EA. Its parts in the plane and across it, whose difference stiffens
+        the twist as the blade turns, are taken as 1 to r. Zero makes the twist follow without
+        inertia.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> print(f"GJ = {strip.section.out_of_plane.torsion_ratio:.5f} EI")
+    GJ = 0.00434 EI
+    """
+
+    bending_ratio: float
+    torsion_ratio: float | None = None
+    polar_inertia: float | None = None
+
+    def __post_init__(self) -> None:
+        self._keep(bending_ratio=positive("bending_ratio", self.bending_ratio))
+        rigid = isinstance(self.torsion_ratio, float) and self.torsion_ratio == math.inf
+        if self.torsion_ratio is not None and not rigid:
+            self._keep(torsion_ratio=positive("torsion_ratio", self.torsion_ratio))
+        if self.polar_inertia is not None:
+            self._keep(polar_inertia=not_negative("polar_inertia", self.polar_inertia, "kg m"))
+
+
+@dataclass(frozen=True, kw_only=True)
 class Section(Described):
-    """What a slice of the blade resists and weighs, each a `Profile` along x.
+    """Stiffness and mass of the blade's slices, each a `Profile` along x.
 
     Parameters
     ----------
@@ -51,8 +93,7 @@ class Section(Described):
     out_of_plane: OutOfPlane | None = None
 
     def __post_init__(self) -> None:
-        for name, profile in self.profiles().items():
-            object.__setattr__(self, name, checked_profile(name, profile))
+        self._keep(**{name: checked_profile(name, p) for name, p in self.profiles().items()})
         root = np.zeros(1)
         stiffness, mass = (
             float(evaluated(profile, root)[0])

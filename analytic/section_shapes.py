@@ -15,7 +15,7 @@ import numpy as np
 
 from .description import Described
 from .input_checks import not_negative, positive
-from .out_of_plane import OutOfPlane
+from .section import OutOfPlane
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
 _THINNEST = 1000.0  # of one side over the other
@@ -49,12 +49,10 @@ class SectionShape(Described, ABC, abstract=True):
     poisson_ratio: float = 0.3
 
     def __post_init__(self) -> None:
-        for name, value in self._given.items():
-            object.__setattr__(self, name, positive(name, value, "m"))
-        ratio = not_negative("poisson_ratio", self.poisson_ratio)
-        if ratio > 0.5:
-            raise ValueError(f"poisson_ratio must be at most 0.5, got {ratio:g}")
-        object.__setattr__(self, "poisson_ratio", ratio)
+        self._keep(**{name: positive(name, value, "m") for name, value in self._given.items()})
+        self._keep(poisson_ratio=not_negative("poisson_ratio", self.poisson_ratio))
+        if self.poisson_ratio > 0.5:
+            raise ValueError(f"poisson_ratio must be at most 0.5, got {self.poisson_ratio:g}")
 
     @abstractmethod
     def _fitting(self, own: Gyration) -> dict[str, float]:
@@ -108,7 +106,7 @@ class _TwoSided(SectionShape, ABC, abstract=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.ratio is not None:
-            object.__setattr__(self, "ratio", positive("ratio", self.ratio))
+            self._keep(ratio=positive("ratio", self.ratio))
             if self.width is not None:
                 raise ValueError(
                     f"give width or ratio, which is height over width, not both: {self}"

@@ -21,7 +21,7 @@ _STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inv
 
 @dataclass(frozen=True, kw_only=True)
 class UnitBlade:
-    """What of a blade is not the uniform beam, in units of L and the root's m, EI and EA.
+    """Data of a blade in units of L and the root's m, EI and EA; the default is the uniform beam.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class UnitBlade:
 
     @property
     def differences(self) -> str:
-        """What makes it other than the uniform beam, in words."""
+        """The differences from the uniform beam, in words."""
         sections = {self.mass, self.bending, self.axial}
         return " and ".join(
             name

@@ -20,7 +20,7 @@ rectangle = simulate_3d(beam.with_shape(Rectangle()), **settings, elements=32, s
 tube = simulate_3d(beam.with_shape(Tube(radius=0.015, wall=0.00077)), **settings, step=5e-3)
 
 _, (picture, axes) = plt.subplots(2, height_ratios=[2.0, 1.0], figsize=(6.0, 4.8))
-picture.imshow(ray_traced(rectangle, times := [0.8, 1.4, 1.8, 2.2, 3.0], whole=True))
+picture.imshow(ray_traced(rectangle, times := [0.8, 1.4, 1.8, 2.2, 3.0]))
 picture.set(title=f"rectangle, at t = {', '.join(map(str, times))} s", xticks=[], yticks=[])
 for run in (rectangle, tube):
     axes.semilogy(run["time"], abs(run["axis"][..., 2]).max("node") / beam.length)
@@ -33,7 +33,7 @@ print(f"twisted by 0.1 rad at t = {left:.3f} s, the tip at q = {rectangle.q.sel(
 # %%
 # As a film:
 screen = plt.figure(figsize=(5.0, 2.9)).add_subplot(frame_on=False, xticks=[], yticks=[])
-shots = (ray_traced(rectangle, [0.6 + 0.05 * k], size=(480, 280), whole=True) for k in range(57))
+shots = (ray_traced(rectangle, [0.6 + 0.05 * k], size=(480, 280)) for k in range(57))
 animation = ArtistAnimation(screen.figure, [[screen.imshow(shot)] for shot in shots], interval=100)
 plt.close(screen.figure)
 animation  # noqa: B018

@@ -26,8 +26,8 @@ from analytic import (
 from analytic.loads import Load, rippled
 
 from .lazily import xr
-from .verdict import beam_attributes, loads_attributes, motion_attributes
-from .versions import versions
+from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.versions import versions
 
 OMEGA = "angular velocity ω [rad/s]"
 AMPLITUDE = "peak amplitude a = |q|/L"

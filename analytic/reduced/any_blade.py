@@ -19,9 +19,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
+from ..blade_functions import BladeFunctions, blade_functions, settled_functions
 from ..lazily import linalg
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, blade_functions, settled_functions
 from .oscillator import Oscillator
 
 _SETTLED = 1e-9

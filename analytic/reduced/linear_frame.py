@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
+from ..blade_functions import blade_functions
 from ..input_checks import finite_values, flag, points_of_beam
 from ..lazily import integrate, linalg
-from ..ramps import AnyRamp, fastest, require_ramp
+from ..motion import SpeedChange, require_ramp
 from ..threads import one_thread
-from .blade_functions import blade_functions
 
 _FUNCTIONS, _MODES = 28, 5
 _TOLERANCE = 1e-8  # of a step
@@ -36,7 +36,7 @@ class LinearResponse:
     Attributes
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     foreshortening : bool
         Whether the model has the term that stiffens.
     time : ndarray (times,)
@@ -49,7 +49,7 @@ class LinearResponse:
     """
 
     beam: AnyBlade
-    spin_up: AnyRamp
+    spin_up: SpeedChange
     foreshortening: bool
     time: FloatArray
     q: FloatArray = field(repr=False)
@@ -59,7 +59,7 @@ class LinearResponse:
 @one_thread
 def linear_response(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     times: float | ArrayLike,
     *,
     foreshortening: bool = False,
@@ -74,7 +74,7 @@ def linear_response(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     times : array_like
         Times of the response [s], ascending, not before 0.
     foreshortening : bool
@@ -102,7 +102,7 @@ def linear_response(
     require_ramp(spin_up)
     foreshortening = flag("foreshortening", foreshortening)
     require_undamped(beam, "the linear frame has no damping")
-    warn_if_rpm(beam, fastest(spin_up))
+    warn_if_rpm(beam, spin_up.fastest)
     time = finite_values("times", times, "s")
     if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
         raise ValueError("times must ascend from 0 s on, for the blade is at rest before")
@@ -113,7 +113,7 @@ def linear_response(
     rotation = of.centrifugal if foreshortening else softening
     # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q. M is
     # nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-    pulled = (fastest(spin_up) / beam.frequency_scale) ** 2 * foreshortening
+    pulled = (spin_up.fastest / beam.frequency_scale) ** 2 * foreshortening
     reciprocal, vectors = linalg.eigh(of.mass, of.bending + pulled * rotation)
     modes = vectors[:, : -_MODES - 1 : -1] / np.sqrt(reciprocal[: -_MODES - 1 : -1])
     coordinates = _integrated(
@@ -132,7 +132,7 @@ def linear_response(
 
 def _integrated(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     time: FloatArray,
     *,
     bending: FloatArray,

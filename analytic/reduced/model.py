@@ -19,8 +19,7 @@ from .any_blade import blade_oscillator
 from .lagrangian import energy_coefficients
 from .model_range import amplitudes_within, better_model, warn_beyond_range
 from .normal_mode import NormalMode, normal_mode
-from .oscillator import Oscillator
-from .perturbation import Perturbation
+from .oscillator import Oscillator, Perturbation
 from .variants import Variant, variant_named
 
 _NO_ORBIT = "Eq. 41 has no periodic orbit"

@@ -17,7 +17,7 @@ _PAPER_SPEED_RATIO = 2.0
 """The paper ends at 8 rad/s, about twice ω_n there, and expects higher modes beyond (Sec. 6)."""
 _RESONANCE_BAND = 0.1
 _NOTICEABLE_SHIFT = 2e-4
-"""Of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
+"""Shift of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
 _NOTICEABLE_STRETCH = 2e-3
 """Relative change of ω_n by the extension."""
 _FASTEST = 500.0

@@ -17,16 +17,16 @@ above the third never come back to (Ω²)₄. Nothing is fitted; λ comes out as
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import ComplexArray, FloatArray
+from ..blade_functions import BladeFunctions, blade_functions, settled_functions
 from ..lazily import linalg
 from ..methods.fourier import period
-from ..methods.power_series import product, turn
 from ..unit_blade import UnitBlade
-from .blade_functions import BladeFunctions, blade_functions, settled_functions
 
 _ORDER = 5
 _HARMONICS = 3
@@ -157,3 +157,17 @@ def _of_series(w_n: float, rate: FloatArray, tip: FloatArray) -> NormalMode:
         h2=h2,
         h3=h3,
     )
+
+
+def product(f: NDArray[Any], g: NDArray[Any]) -> NDArray[Any]:
+    """Return the product of two power series, their first axes the orders, to the order of both."""
+    return np.array([sum(f[j] * g[k - j] for j in range(k + 1)) for k in range(len(f))])
+
+
+def turn(theta: FloatArray) -> ComplexArray:
+    """Return exp(iθ) of a series θ that begins with order 1, by its derivative iθ' exp(iθ)."""
+    result = np.zeros(theta.shape, dtype=np.complex128)
+    result[0] = 1.0
+    for k in range(1, len(theta)):
+        result[k] = sum(1j * j / k * theta[j] * result[k - j] for j in range(1, k + 1))
+    return result

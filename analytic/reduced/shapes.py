@@ -23,16 +23,20 @@ class Shape(ABC):
     """A transverse shape; methods take x = η/L, of any shape of array, and keep it."""
 
     @abstractmethod
+    def _derivative(self, x: FloatArray, order: int) -> FloatArray:
+        """Return φ_v, or its first or second derivative."""
+
     def deflection(self, x: ArrayLike) -> FloatArray:
         """Return φ_v [-]."""
+        return self._derivative(np.asarray(x, dtype=np.float64), 0)
 
-    @abstractmethod
     def slope(self, x: ArrayLike) -> FloatArray:
         """Return φ_v' [-]."""
+        return self._derivative(np.asarray(x, dtype=np.float64), 1)
 
-    @abstractmethod
     def curvature(self, x: ArrayLike) -> FloatArray:
         """Return φ_v'' [-]."""
+        return self._derivative(np.asarray(x, dtype=np.float64), 2)
 
     def foreshortening(self, x: ArrayLike) -> FloatArray:
         """Return φ_u = -½∫₀ˣ φ_v'² dξ, Eq. 28 [-], by Gauss quadrature of each interval."""
@@ -45,22 +49,9 @@ class Shape(ABC):
 class CantileverMode(Shape):
     """First bending mode of the cantilever at rest, of frequency β² √(EI/mL³)."""
 
-    def deflection(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v [-]."""
-        return self._derivative(x, -1.0, 0)
-
-    def slope(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v' [-]."""
-        return self._derivative(x, -1.0, 1)
-
-    def curvature(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v'' [-]."""
-        return self._derivative(x, 1.0, 2)
-
-    @staticmethod
-    def _derivative(x: ArrayLike, sign: float, order: int) -> FloatArray:
+    def _derivative(self, x: FloatArray, order: int) -> FloatArray:
         """Even ones combine cosh ∓ cos with sinh ∓ sin; the odd one is the slope."""
-        z = BETA_1 * np.asarray(x, dtype=np.float64)
+        z, sign = BETA_1 * x, order - 1.0
         sigma = (np.cosh(BETA_1) + np.cos(BETA_1)) / (np.sinh(BETA_1) + np.sin(BETA_1))
         if order == 1:
             mode = np.sinh(z) + np.sin(z) - sigma * (np.cosh(z) - np.cos(z))
@@ -81,21 +72,9 @@ class PolynomialShape(Shape):
         """Degree of the polynomial."""
         return len(self.coefficients) - 1
 
-    def deflection(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v [-]."""
-        return self._derivative(x, 0)
-
-    def slope(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v' [-]."""
-        return self._derivative(x, 1)
-
-    def curvature(self, x: ArrayLike) -> FloatArray:
-        """Return φ_v'' [-]."""
-        return self._derivative(x, 2)
-
-    def _derivative(self, x: ArrayLike, order: int) -> FloatArray:
+    def _derivative(self, x: FloatArray, order: int) -> FloatArray:
         c = polynomial.polyder(np.array(self.coefficients, dtype=np.float64), order)
-        return np.asarray(polynomial.polyval(np.asarray(x, dtype=np.float64), c))
+        return np.asarray(polynomial.polyval(x, c))
 
 
 def static_deflection(degree: int) -> PolynomialShape:

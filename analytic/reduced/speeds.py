@@ -58,7 +58,3 @@ def divergence_speed(beam: Beam) -> float:
     require_planar(beam)
     linear = energy_coefficients(CantileverMode(), "none")
     return math.sqrt(-linear.bending / linear.spin) * beam.frequency_scale
-
-
-critical_speed = divergence_speed
-"""The name the paper's readers know; in rotor dynamics a critical speed is something else."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
 from decimal import Decimal
+from pathlib import Path
+from typing import Any
 
 from ..beam import BETA_1, Beam
 from ..input_checks import whole_number
@@ -18,79 +21,21 @@ _PRINTED_DEGREE = 36
 """Degree at which the paper ends the power series of the rotating mode (Sec. 5)."""
 _ROUNDED = "beyond the rounding of the print"
 
-_RATIONAL: dict[int, dict[str, tuple[str, str]]] = {
-    1: {
-        "phi_v": ("3*x**2/2 - x**3/2", ""),
-        "phi_u": ("9*x**4/8 - 3*x**3/2 - 9*x**5/40", ""),
-        "omega_0": ("sqrt(140/11)", ""),
-        "omega_n_squared": ("350*Omega**2/121 + 140/11", ""),
-        "g1": ("144/11 - 9940*Omega**2/1331", ""),
-        "g2": ("142/121", ""),
-        "lambda_omega": ("(106855*Omega**2 - 34408)/(84700*Omega**2 + 372680)", ""),
-        "lambda_x": ("(52185*Omega**2 + 61424)/(338800*Omega**2 + 1490720)", ""),
-    },
-    2: {
-        "phi_v": ("2*x**2 - 4*x**3/3 + x**4/3", ""),
-        "phi_u": ("4*x**4 - 8*x**3/3 - 8*x**5/3 + 8*x**6/9 - 8*x**7/63", ""),
-        "omega_0": ("sqrt(162/13)", ""),
-        "omega_n_squared": ("729*Omega**2/338 + 162/13", ""),
-        "g1": ("1296/143 - 1188*Omega**2/169", ""),
-        "g2": ("44/39", ""),
-        "lambda_omega": ("(5808*Omega**2 + 208)/(3861*Omega**2 + 22308)", ""),
-        "lambda_x": ("(1331*Omega**2 + 2132)/(7722*Omega**2 + 44616)", ""),
-    },
-    3: {
-        "phi_v": ("20*x**2/11 - 10*x**3/11 + x**5/11", ""),
-        "phi_u": (
-            "300*x**4/121 - 800*x**3/363 - 90*x**5/121 - 100*x**6/363 + 150*x**7/847"
-            " - 25*x**9/2178",
-            "",
-        ),
-        "omega_0": ("32670/2641", "erratum: the square root is missing"),
-        "omega_n_squared": ("32359635*Omega**2/13949762 + 32670/2641", ""),
-        "g1": (
-            "?/4154293 - 828367611375*Omega**2/117150101276",
-            "erratum: the numerator 40633500 is lost",
-        ),
-        "g2": (
-            "(16545041526500300*Omega**2 - 6609344514291675)"
-            "/(11579025031377804*Omega**2 + 61747006780148976)",
-            "erratum: the row holds λ_ω, with a stray digit in 660934414291675",
-        ),
-        "lambda_omega": (
-            "(15442484235760175*Omega**2 + 23089508813459450)"
-            "/(92632200251022432*Omega**2 + 493976054241191808)",
-            "erratum: the row holds λ_x",
-        ),
-        "lambda_x": ("?", "erratum: printed one row too high"),
-    },
+_SYMBOLS = {
+    "phi_v": "φ_v",
+    "phi_u": "φ_u L",
+    "omega_0": "ω0",
+    "omega_n_squared": "ω_n²",
+    "g1": "g1",
+    "g2": "g2",
+    "lambda_omega": "λ_ω",
+    "lambda_x": "λ_x",
 }
 
-_TABLE_4: dict[tuple[str, str], str] = {
-    ("ω0", "1"): "3.5160",
-    ("ω_n²", "1"): "12.362",
-    ("ω_n²", "Ω²"): "2.3901",
-    ("ω_n²", "Ω²μ"): "-254.89",
-    ("ω_n²", "Ω⁴μ"): "12.987",
-    ("g1", "1"): "10.110",
-    ("g1", "Ω²"): "2.3785",
-    ("g2", "1"): "1.1492",
-    ("λ_ω ω_n²", "1"): "-0.23963",
-    ("λ_ω ω_n²", "Ω²"): "-0.20528",
-    ("λ_ω ω_n²", "Ω²μ"): "-73.229",
-    ("λ_ω ω_n²", "Ω⁴μ"): "3.7312",
-    ("λ_x ω_n²", "1"): "0.57198",
-    ("λ_x ω_n²", "Ω²"): "0.097338",
-    ("λ_x ω_n²", "Ω²μ"): "-18.307",
-    ("λ_x ω_n²", "Ω⁴μ"): "0.93280",
-}
 
-_TABLE_5: dict[float, tuple[str, str, str]] = {
-    2.0: ("3.03488", "-0.0084683", "0.046531"),
-    4.0: ("3.34565", "0.010394", "0.046761"),
-    6.0: ("3.73054", "0.023546", "0.046661"),
-    8.0: ("4.12419", "0.030693", "0.046445"),
-}
+def _printed(table: str) -> dict[str, Any]:
+    path = Path(__file__).with_name("printed.toml")
+    return dict(tomllib.loads(path.read_text(encoding="utf-8")).get(table, {}))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,13 +81,9 @@ def paper_table(number: int) -> PaperTable:
     g2     142/121                  142/121                  0
     """
     number = whole_number("table", number)
-    if number in _RATIONAL:
-        return _rational_table(number)
-    if number == 4:
-        return _table_4()
-    if number == 5:
-        return _table_5()
-    raise ValueError(f"table must be 1 to 5, got {number}: the paper has no other")
+    if number > 5:
+        raise ValueError(f"table must be 1 to 5, got {number}: the paper has no other")
+    return _rational_table(number) if number < 4 else (_table_4, _table_5)[number - 4]()
 
 
 def closed_form(
@@ -187,65 +128,43 @@ def _rational_table(number: int) -> PaperTable:
     from .symbolic import OMEGA, X, symbolic_forms  # noqa: PLC0415
 
     forms = symbolic_forms(static_deflection(number + 2), "inextensible")
-    derived = {
-        name: sp.sqrt(forms.omega_0_squared) if name == "omega_0" else getattr(forms, name)
-        for name in _RATIONAL[number]
-    }
+    errata = _printed(f"errata_{number}")
     rows = []
-    for name, (printed, note) in _RATIONAL[number].items():
+    for name, printed in _printed(f"table_{number}").items():
+        derived = getattr(forms, "omega_0_squared" if name == "omega_0" else name)
+        derived = sp.sqrt(derived) if name == "omega_0" else derived
         difference = "not printed"
         if "?" not in printed:
             expression = sp.sympify(printed, locals={"Omega": OMEGA, "x": X})
-            difference = "0" if sp.simplify(expression - derived[name]) == 0 else "differs"
+            difference = "0" if sp.simplify(expression - derived) == 0 else "differs"
         rows.append(
             TableRow(
                 quantity=_SYMBOLS[name],
                 printed=_readable(printed),
-                derived=_readable(str(derived[name])),
+                derived=_readable(str(derived)),
                 difference=difference,
-                note=note,
+                note=errata.get(name, ""),
             )
         )
-    return PaperTable(
-        number=number,
-        title=f"polynomial shape of degree {number + 2}; x = η/L, ω0 in units of √(EI/mL³)",
-        rows=tuple(rows),
-    )
-
-
-_SYMBOLS = {
-    "phi_v": "φ_v",
-    "phi_u": "φ_u L",
-    "omega_0": "ω0",
-    "omega_n_squared": "ω_n²",
-    "g1": "g1",
-    "g2": "g2",
-    "lambda_omega": "λ_ω",
-    "lambda_x": "λ_x",
-}
+    title = f"polynomial shape of degree {number + 2}; x = η/L, ω0 in units of √(EI/mL³)"
+    return PaperTable(number=number, title=title, rows=tuple(rows))
 
 
 def _table_4() -> PaperTable:
     derived = closed_form(energy_coefficients(CantileverMode(), "sine"))
-    rows = [
-        _decimal_row(
-            f"{quantity}: {monomial}",
-            printed,
-            derived[quantity, monomial],
-            "the print used β = 1.8751",
-        )
-        for (quantity, monomial), printed in _TABLE_4.items()
-    ]
-    return PaperTable(
-        number=4,
-        title="cantilever mode with elongation (CE): coefficients of the monomials in Ω and μ",
-        rows=tuple(rows),
+    rows = tuple(
+        _decimal_row(f"{q}: {term}", printed, derived[q, term], "the print used β = 1.8751")
+        for q, terms in _printed("table_4").items()
+        for term, printed in terms.items()
     )
+    title = "cantilever mode with elongation (CE): coefficients of the monomials in Ω and μ"
+    return PaperTable(number=4, title=title, rows=rows)
 
 
 def _table_5() -> PaperTable:
     rows = []
-    for omega, printed in _TABLE_5.items():
+    for at, printed in _printed("table_5").items():
+        omega = float(at)
         model = reduced_model(Beam.reference(), omega, "FrE")
         values = (model.omega_n, model.lambda_omega, model.lambda_x)
         for name, text, value, theirs in zip(

@@ -18,6 +18,7 @@ it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -25,6 +26,11 @@ from ..input_checks import flag
 from .axial import Axial, axial_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, Shape, static_deflection
+
+_MODES: dict[str, Callable[[float], Shape]] = {
+    "cantilever": lambda _: CantileverMode(),
+    "rotating": rotating_mode,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,9 +40,10 @@ class Variant:
     Parameters
     ----------
     name : str
-        What the model calls itself.
-    shape : str
-        "cantilever", "rotating", or the degree of a static deflection: "3", "4", "5".
+        Name of the model.
+    shape : {"cantilever", "rotating"} or Shape
+        One of the two modes, or a shape that does not depend on the speed, as
+        `static_deflection(3)`.
     axial : str
         One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
@@ -55,15 +62,15 @@ class Variant:
     """
 
     name: str
-    shape: Literal["cantilever", "rotating", "3", "4", "5"]
+    shape: Literal["cantilever", "rotating"] | Shape
     axial: Axial
     coriolis: bool = False
     order: Literal[3, 5] = 3
 
     def __post_init__(self) -> None:
         axial_model(self.axial)
-        if self.shape not in {"cantilever", "rotating", "3", "4", "5"}:
-            raise ValueError(f"shape must be cantilever, rotating, 3, 4 or 5, got {self.shape!r}")
+        if not isinstance(self.shape, Shape) and self.shape not in _MODES:
+            raise ValueError(f"shape must be {', '.join(_MODES)} or a Shape, got {self.shape!r}")
         if flag("coriolis", self.coriolis) and not self.is_of_any_blade:
             raise ValueError(
                 f"the Coriolis coupling is eliminated about the rotating mode with consistent "
@@ -84,11 +91,7 @@ class Variant:
 
     def shape_at(self, w_bar: float) -> Shape:
         """Return φ_v; only the rotating mode depends on the normalized speed `w_bar`."""
-        if self.shape == "rotating":
-            return rotating_mode(w_bar)
-        if self.shape == "cantilever":
-            return CantileverMode()
-        return static_deflection(int(self.shape))
+        return _MODES[self.shape](w_bar) if isinstance(self.shape, str) else self.shape
 
 
 VARIANTS: dict[str, Variant] = {
@@ -98,9 +101,9 @@ VARIANTS: dict[str, Variant] = {
         Variant(name="CE", shape="cantilever", axial="sine"),
         Variant(name="FrI", shape="rotating", axial="inextensible"),
         Variant(name="FrE", shape="rotating", axial="sine"),
-        Variant(name="P3", shape="3", axial="inextensible"),
-        Variant(name="P4", shape="4", axial="inextensible"),
-        Variant(name="P5", shape="5", axial="inextensible"),
+        Variant(name="P3", shape=static_deflection(3), axial="inextensible"),
+        Variant(name="P4", shape=static_deflection(4), axial="inextensible"),
+        Variant(name="P5", shape=static_deflection(5), axial="inextensible"),
         Variant(name="FrC", shape="rotating", axial="consistent"),
         Variant(name="FrM", shape="rotating", axial="consistent", coriolis=True),
         Variant(name="FrM5", shape="rotating", axial="consistent", coriolis=True, order=5),

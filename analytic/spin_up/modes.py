@@ -12,12 +12,12 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from ..arrays import FloatArray
+from ..blade_functions import blade_functions
 from ..lazily import linalg
-from ..reduced.blade_functions import blade_functions
 from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8
-"""Of what is interpolated, the share of its last coefficients."""
+"""Share of the last coefficients of an interpolation that has settled."""
 _FEWEST, _MOST, _FASTEST = 17, 257, 1000.0
 _FUNCTIONS = 20
 """Twice as many as the modes in use, and four √w̄ more for the layer at the clamp."""

@@ -7,17 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import ComplexArray, FloatArray
+from ..arrays import FloatArray
 from ..beam import AnyBlade, require_planar
-from ..exact.driven.response import spin_up_response
-from ..exact.linear.modes import linear_modes
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
-from ..ramps import AnyRamp, require_ramp
 from ..threads import one_thread
 from .modes import ModesOverSpeed
-from .residual import modes_for, residuals
+from .residual import exact_residuals, modes_for, residuals
 
 _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0
@@ -154,54 +151,3 @@ def _refined(
         before, lack, T = lack, lacking(T + moved), T + moved
         slope = (lack - before) / moved
     return T, abs(form(T) + lack)
-
-
-def exact_residuals(
-    beam: AnyBlade, ramp: AnyRamp, count: int = 1, tolerance: float = 1e-6
-) -> ComplexArray:
-    """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
-
-    By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
-    with one mode more, whose share is so kept out of the others.
-    """
-    decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
-    functions = max(20, 2 * (count + 1))
-    omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
-    during = np.linspace(0.0, ramp.ramp_time, 33)
-    # The times before tell how large the motion is, of which the tolerance is a share.
-    after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
-    times = np.append(during, ramp.ramp_time + after)
-    response = spin_up_response(beam, ramp, times, tolerance=tolerance)
-    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * beam.frequency_scale))
-    shares = np.concatenate((-wave.imag, -wave.real), axis=1)
-    found = np.linalg.lstsq(shares, response.q[during.size :] / beam.length, rcond=None)[0]
-    return np.asarray(found[:count] + 1j * found[count + 1 : -1])
-
-
-@one_thread
-def exact_residual(beam: AnyBlade, spin_up: AnyRamp, *, tolerance: float = 1e-6) -> float:
-    """Return half peak to peak of the tip over L in the first period after the exact transient.
-
-    Parameters
-    ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
-    tolerance : float
-        Error of the tip's position over its largest deflection, as in `spin_up_response`.
-
-    Examples
-    --------
-    >>> from analytic import Beam, SpinUp, exact_residual, residual_amplitude
-    >>> beam, spin_up = Beam.reference(), SpinUp(omega=2.0, ramp_time=3.0)
-    >>> print(f"{exact_residual(beam, spin_up):.4f} L")
-    0.1655 L
-    >>> print(f"{residual_amplitude(beam, spin_up):.4f} L by the closed form")
-    0.1680 L by the closed form
-    """
-    require_planar(beam)
-    require_ramp(spin_up)
-    period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
-    T = spin_up.ramp_time
-    during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
-    response = spin_up_response(beam, spin_up, np.append(during, after), tolerance=tolerance)
-    return float(np.ptp(response.q[during.size :])) / (2.0 * beam.length)

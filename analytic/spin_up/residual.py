@@ -1,4 +1,4 @@
-"""What a change of the speed leaves of the oscillation, in closed form.
+"""Residual amplitude: the oscillation that a change of the speed leaves, in closed form.
 
 While the speed changes slowly over a period, a mode keeps its action: its amplitude goes with
 1/√(Mω_n(w)), and the Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. What is left is
@@ -18,10 +18,12 @@ from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_planar
+from ..exact.driven.response import spin_up_response
+from ..exact.linear.modes import linear_modes
 from ..input_checks import finite_array, flag, positive, whole_number
 from ..lazily import interpolate
+from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
-from ..ramps import AnyRamp, Table, fastest, require_ramp
 from ..reduced.any_blade import blade_oscillator
 from ..threads import one_thread
 from .modes import ModesOverSpeed, modes_over_speed
@@ -34,12 +36,19 @@ _LARGEST = 1.2
 
 @overload
 def residual_amplitude(
-    beam: AnyBlade, spin_up: AnyRamp, *, mode: int = 1, corrected: bool = False
+    beam: AnyBlade,
+    spin_up: SpeedChange,
+    ramp_times: None = None,
+    *,
+    mode: int = 1,
+    corrected: bool = False,
+    exact: bool = False,
+    tolerance: float = 1e-6,
 ) -> float: ...
 @overload
 def residual_amplitude(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     ramp_times: ArrayLike,
     *,
     mode: int = 1,
@@ -48,11 +57,13 @@ def residual_amplitude(
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     ramp_times: ArrayLike | None = None,
     *,
     mode: int = 1,
     corrected: bool = False,
+    exact: bool = False,
+    tolerance: float = 1e-6,
 ) -> FloatArray | float:
     """Return the amplitude over L with which the tip swings after a change of the speed.
 
@@ -62,7 +73,7 @@ def residual_amplitude(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.
     mode : int
@@ -70,6 +81,11 @@ def residual_amplitude(
     corrected : bool
         Take the linear action for that of the nonlinear orbit (FrM, Eq. 41), first mode only: 1 to
         3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
+    exact : bool
+        Take half peak to peak of the tip in the first period after the exact transient, all modes
+        and large deflections included, of the motion's own ramp time.
+    tolerance : float
+        Of the exact transient, as in `spin_up_response`.
 
     Returns
     -------
@@ -79,17 +95,24 @@ def residual_amplitude(
     Examples
     --------
     >>> from analytic import Beam, SpinUp, residual_amplitude
-    >>> for ramp_time in (2.5, 3.0, 3.5):
-    ...     left = residual_amplitude(Beam.reference(), SpinUp(omega=2.0, ramp_time=ramp_time))
-    ...     print(f"{ramp_time} s leaves {left:.4f} L")
-    2.5 s leaves 0.2826 L
-    3.0 s leaves 0.1680 L
-    3.5 s leaves 0.0797 L
+    >>> beam, spin_up = Beam.reference(), SpinUp(omega=2.0, ramp_time=3.0)
+    >>> print(residual_amplitude(beam, spin_up, [2.5, 3.0, 3.5]).round(4))
+    [0.2826 0.168  0.0797]
+    >>> print(f"{residual_amplitude(beam, spin_up, exact=True):.4f} L by the exact transient")
+    0.1655 L by the exact transient
     """
     mode = whole_number("mode", mode)
     if flag("corrected", corrected) and mode != 1:
         raise ValueError(f"corrected=True knows the backbone of mode 1, got mode={mode}")
+    require_planar(beam)
     require_ramp(spin_up)
+    if flag("exact", exact):
+        if ramp_times is not None or corrected or mode != 1:
+            raise ValueError(
+                "exact=True is of the motion's own ramp time and of all modes: leave out "
+                "ramp_times, mode and corrected"
+            )
+        return _exact(beam, spin_up, tolerance)
     times = np.asarray(spin_up.ramp_time if ramp_times is None else ramp_times)
     times = finite_array("ramp_times", times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
@@ -101,24 +124,23 @@ def residual_amplitude(
     return float(left) if ramp_times is None else left
 
 
-def modes_for(beam: AnyBlade, spin_up: AnyRamp, count: int) -> ModesOverSpeed:
+def modes_for(beam: AnyBlade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
     require_planar(beam)
     # A little more than needed, lest a hair's breadth makes a new one.
-    top = max(1.0, math.ceil(10.0 * fastest(spin_up) / beam.frequency_scale) / 10.0)
+    top = max(1.0, math.ceil(10.0 * spin_up.fastest / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
 
 
 def residuals(
-    beam: AnyBlade, spin_up: AnyRamp, modes: ModesOverSpeed, ramp_times: FloatArray
+    beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, ramp_times: FloatArray
 ) -> ComplexArray:
     """Return Z (modes, ramp times) of the motion stretched to each of the `ramp_times` [s]."""
     scale, own = beam.frequency_scale, spin_up.ramp_time
-    corners = np.array(spin_up.times) / own if isinstance(spin_up, Table) else np.array([0.0, 1.0])
-    fast = float(modes.at(np.array([fastest(spin_up) / scale])).frequency.max())
+    fast = float(modes.at(np.array([spin_up.fastest / scale])).frequency.max())
     pieces = math.ceil(fast * scale * float(ramp_times.max(initial=0.0)) / _A_PANEL)
     pieces = max(pieces, math.ceil(own / spin_up.shortest_wave))
-    edges = np.union1d(corners, np.linspace(0.0, 1.0, pieces + 1))
+    edges = np.union1d(spin_up.corners / own, np.linspace(0.0, 1.0, pieces + 1))
     x, weights = gauss_points(_POINTS)
     width = np.diff(edges)[:, None]
     s = (edges[:-1, None] + width * x).ravel()
@@ -142,6 +164,37 @@ def residuals(
             ]
         )
     )
+
+
+def _exact(beam: AnyBlade, spin_up: SpeedChange, tolerance: float) -> float:
+    """Return half peak to peak of the tip over L in the first period after the exact transient."""
+    period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
+    T = spin_up.ramp_time
+    during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
+    response = spin_up_response(beam, spin_up, np.append(during, after), tolerance=tolerance)
+    return float(np.ptp(response.q[during.size :])) / (2.0 * beam.length)
+
+
+def exact_residuals(
+    beam: AnyBlade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
+) -> ComplexArray:
+    """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
+
+    By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
+    with one mode more, whose share is so kept out of the others.
+    """
+    decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
+    functions = max(20, 2 * (count + 1))
+    omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
+    during = np.linspace(0.0, ramp.ramp_time, 33)
+    # The times before tell how large the motion is, of which the tolerance is a share.
+    after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
+    times = np.append(during, ramp.ramp_time + after)
+    response = spin_up_response(beam, ramp, times, tolerance=tolerance)
+    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * beam.frequency_scale))
+    shares = np.concatenate((-wave.imag, -wave.real), axis=1)
+    found = np.linalg.lstsq(shares, response.q[during.size :] / beam.length, rcond=None)[0]
+    return np.asarray(found[:count] + 1j * found[count + 1 : -1])
 
 
 def _on_the_backbone(beam: AnyBlade, omega: float, linear: FloatArray) -> FloatArray:

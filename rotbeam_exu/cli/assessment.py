@@ -10,8 +10,7 @@ import analytic
 from ..fem.case import Case
 from ..fem.elements import formulation
 from ..fem.linearization import natural_frequencies
-from ..oscillation import SteadyOscillation
-from ..verification.entries import theory_of
+from ..runs.oscillation import SteadyOscillation
 
 WORTH = 1e-2
 """Share of the nonlinear effect that an error may reach before it is warned of."""
@@ -168,7 +167,7 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
     The exact beam is `linear_modes` and `periodic_orbits` of `analytic`: geometrically exact and
     extensible, with shear and rotary inertia where the element has them, which are worth 5e-5.
     """
-    theory = theory_of(formulation(case.element))
+    theory = formulation(case.element).theory
     exact_frequency, why_not = None, ""
     try:
         orbit = analytic.periodic_orbits(case.beam, case.omega, [steady.amplitude], theory=theory)

@@ -13,7 +13,7 @@ from .. import paper
 from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
 from ..lazily import xr
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 from .configuration import configured
 from .job import saved
 from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion

@@ -11,7 +11,7 @@ import analytic
 from analytic import Beam, SpinUp
 
 from ..fem.lazily import require_exudyn
-from ..versions import versions
+from ..runs.versions import versions
 from .output import new_console, print_text
 
 

@@ -13,10 +13,9 @@ from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement, judged
-from ..verification.mistakes.mistake import Mistake
-from ..verification.mistakes.search import mistakes_in
+from ..verification.mistakes import Mistake, mistakes_in
+from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import MalformedSubmissionError
-from ..verification.submission_files.reading import digests, read_submission
 from .output import new_console, print_note, print_text, print_written
 from .verdicts import print_judgements
 

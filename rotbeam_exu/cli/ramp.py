@@ -12,7 +12,7 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 from .configuration import configured, motion_of
 from .job import Job, drawn
 from .motion import chosen_times, refuse_rest

@@ -9,7 +9,7 @@ import numpy as np
 import analytic
 from analytic.input_checks import positive, whole_number
 
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 from .configuration import configured, motion_of
 from .job import Job
 from .options import Results, Whole

@@ -27,7 +27,7 @@ def recorded_case(path: Path) -> tuple[Case, xr.Dataset]:
         moving = bool(run["q"][0] or run["q_dot"][0])
     except (KeyError, IndexError) as error:
         raise ValueError(f"{path} is not of a run: it has no {error.args[0]!r}") from error
-    if getattr(case.model, "leaves_plane", False):
+    if case.model.leaves_plane:
         raise ValueError(f"{path} is of a run in space, which only simulate_3d repeats")
     if moving:
         raise ValueError(

@@ -12,7 +12,7 @@ from rich.progress import Progress
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..verdict import SimulationError
+from ..runs.check import SimulationError
 from .configuration import configured, motion_of
 from .job import Job, UnfinishedError, drawn
 from .motion import refuse_rest
@@ -21,7 +21,7 @@ from .output import new_console, print_line
 
 if TYPE_CHECKING:
     from ..fem.case import Case
-    from ..oscillation import SteadyOscillation
+    from ..runs.oscillation import SteadyOscillation
     from .assessment import Assessment
 
 _DISCRETIZATION, _RESULTS = Discretization(), Results()
@@ -111,7 +111,7 @@ def run(
 
 def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
     """Measure what is safe on file; a window that is too short loses nothing."""
-    from ..oscillation import steady_oscillation
+    from ..runs.oscillation import steady_oscillation
 
     try:
         return steady_oscillation(data)

@@ -41,8 +41,9 @@ class SectionOptions:
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for; with what it has, where none is."""
-        family: Any = SectionShape
-        kinds = {name.lower(): kind for name, kind in kinds_of(family).items()}
+        kinds: dict[str, Any] = {
+            name.lower(): kind for name, kind in kinds_of(SectionShape).items()
+        }
         kind = kinds.get(self.section)
         if kind is None and self.section != _GIVEN:
             raise ValueError(

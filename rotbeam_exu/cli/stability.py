@@ -11,7 +11,7 @@ import analytic
 from analytic.exact.plane.planarity import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 from .configuration import configured, omega_of
 from .job import Job, drawn
 from .options import Amplitudes, Results, Whole

@@ -6,8 +6,8 @@ from rich.console import Console
 
 from ..fem.case import Case
 from ..lazily import xr
-from ..oscillation import SteadyOscillation
-from ..verdict import energy_drift
+from ..runs.check import energy_drift
+from ..runs.oscillation import SteadyOscillation
 from .assessment import Assessment
 from .output import print_line
 

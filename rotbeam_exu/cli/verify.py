@@ -22,7 +22,7 @@ from .output import new_console, print_columns, print_text
 from .progress import counted
 
 if TYPE_CHECKING:
-    from ..verification.peers import Entry
+    from ..verification.verify import Entry
 
 
 def _names() -> tuple[str, ...]:
@@ -96,7 +96,7 @@ def _entry(name: str) -> Entry:
 def _print_verdicts(
     console: Console, entries: tuple[Entry, ...], beam: AnyBlade | None, motion: Motion
 ) -> None:
-    from ..verification.measures import verify as verification_of
+    from ..verification.verify import verify as verification_of
     from .verdicts import print_judgements
 
     spin_up = None if beam is None else motion.spin_up
@@ -110,7 +110,7 @@ def _print_verdicts(
 def _print_costs(
     console: Console, entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion
 ) -> None:
-    from ..verification.cost import LADDER, cost_at_error
+    from ..verification.verify import LADDER, cost_at_error
 
     rows = []
     for entry in _tracked(console, entries):

@@ -14,8 +14,8 @@ from ..datasets import AMPLITUDE, OMEGA, dataset, labeled
 from ..fem.frame import Frame
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
+from ..runs.attributes import beam_attributes
 from ..sweeps.grid import sweep
-from ..verdict import beam_attributes
 from .theory import RATIO, beyond_range
 
 _FITTED = 0.6

@@ -13,7 +13,7 @@ from analytic.reduced.any_blade import blade_oscillator
 
 from ..datasets import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 
 _W_BAR = "speed ω/√(EI/ρAL⁴)"
 

@@ -13,7 +13,6 @@ from analytic import (
     AnyBlade,
     Beam,
     SpinUp,
-    exact_residual,
     linear_modes,
     quiet_ramp_times,
     residual_amplitude,
@@ -26,7 +25,7 @@ from ..datasets import dataset
 from ..fem.elements import Formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 
 _CURVE = 400
 _SHORTEST = 0.8
@@ -101,7 +100,9 @@ def residual(
                 progress(next(done), sum(counts))
         return left
 
-    exact = measured(lambda ramp: exact_residual(blade, ramp, tolerance=1e-5), exact_at)
+    exact = measured(
+        lambda ramp: residual_amplitude(blade, ramp, exact=True, tolerance=1e-5), exact_at
+    )
     runs = measured(lambda ramp: _of_elements(blade, ramp, element, elements), elements_at)
     quiet = quiet_ramp_times(blade, omega, longest=longest)
     left = "amplitude left over L, "

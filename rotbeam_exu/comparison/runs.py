@@ -16,9 +16,9 @@ from analytic.lazily import interpolate
 from ..datasets import OMEGA, dataset, labeled
 from ..fem.simulation import simulate
 from ..lazily import xr
-from ..oscillation import steady_oscillation
 from ..paper import MODELS
-from ..verdict import beam_attributes, motion_attributes
+from ..runs.attributes import beam_attributes, motion_attributes
+from ..runs.oscillation import steady_oscillation
 from .theory import beyond_range
 
 

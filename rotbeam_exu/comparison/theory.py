@@ -19,7 +19,7 @@ from analytic.reduced.shapes import CantileverMode
 from ..datasets import OMEGA, dataset
 from ..lazily import xr
 from ..paper import SPEEDS
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
 
 _SMALL = 0.03
 """Amplitude of an orbit whose harmonics give λ_x: its square times 0.08 is the error."""

@@ -10,8 +10,7 @@ from analytic.lazily import interpolate
 
 from ..lazily import xr
 from .case import Case
-from .elements.formulation import spun, turned, turned_velocities
-from .kinetics import energy_and_momentum
+from .elements import Formulation
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
 from .units import Units
@@ -24,84 +23,79 @@ def columns(
     model, setting = case.model, beam.unit.setting
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
-    coordinates, velocities = trajectory.coordinates, trajectory.velocities
+    coordinates, absolute = trajectory.coordinates, trajectory.velocities
     elastic = trajectory.elastic_energy
     angle, rate = case.rotation.angle(time), units.time * case.rotation.rate(time)
     if case.frame == "inertial":
-        coordinates = turned(model, coordinates, -angle)
-        absolute = turned_velocities(model, velocities, -angle)
+        coordinates = model.turned(coordinates, -angle) - angle[:, None, None] * model.angles
+        absolute = model.turned(absolute, -angle)
     else:
-        absolute = velocities + setting * rate[:, None, None] * spun(model, coordinates)
-    kinetic, angular_momentum = energy_and_momentum(built, coordinates, absolute, rate, setting)
-    x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
+        absolute = absolute + setting * rate[:, None, None] * model.spun(coordinates)
+    kinetic, momentum = model.energy_and_momentum(
+        beam, built.mass, built.chain.turning, coordinates, absolute, rate
+    )
+    root, tip, tip_rate = coordinates[:, 0], coordinates[:, -1], absolute[:, -1]
+    x, y = tip[:, 0], tip[:, 1]
     # Out of the plane of rotation the deflection has a share that is not seen there.
     seen = (x + 1j * setting * y) * np.exp(1j * angle)
-    root = coordinates[:, 0]
     gradient, target = model.clamp(0.0)
+    place = root[:, list(model.fixed_at_root)]
+    place = place - beam.hub_radius * np.eye(1, place.shape[1])
+    strain = np.abs(model.axial_strain(beam, coordinates)).max(axis=1)
     values = {
         "q": (y, "m", "tip displacement q"),
-        "q_dot": (absolute[:, -1, 1] - setting * rate * x, "m/s", "tip velocity dq/dt"),
+        "q_dot": (tip_rate[:, 1] - setting * rate * x, "m/s", "tip velocity dq/dt"),
+    }
+    if model.leaves_plane:
+        values["w"] = tip[:, 2], "m", "tip displacement out of the plane"
+        values["w_dot"] = tip_rate[:, 2], "m/s", "tip velocity out of the plane"
+    values |= {
         "tip_x": (seen.real, "m", "tip position along inertial x"),
         "tip_y": (seen.imag, "m", "tip position along inertial y"),
         "angle": (angle, "rad", "angle of the clamp"),
         "kinetic_energy": (kinetic, "J", "kinetic energy"),
         "elastic_energy": (elastic, "J", "elastic energy"),
-        "jacobi_energy": (
-            kinetic + elastic - rate * angular_momentum,
-            "J",
-            "Jacobi energy E - ω L_z",
-        ),
-        "clamp_residual": (
-            np.hypot(root[:, 0] - beam.length * beam.unit.hub, root[:, 1]),
-            "m",
-            "position error of the clamp",
-        ),
+        "jacobi_energy": (kinetic + elastic - rate * momentum, "J", "Jacobi energy E - ω L_z"),
+        "clamp_residual": (np.linalg.norm(place, axis=1), "m", "position error of the clamp"),
         "direction_residual": (
-            np.abs(root @ gradient.T - target).max(axis=1),
-            "1",
-            "direction error of the clamp",
+            np.abs(root @ gradient.T - target).max(axis=1), "1", "direction error of the clamp"
         ),
-        "axial_strain": (
-            np.abs(model.axial_strain(beam, coordinates)).max(axis=1),
-            "1",
-            "largest axial strain along the beam",
-        ),
-    }
+        "axial_strain": (strain, "1", "largest axial strain along the beam"),
+    }  # fmt: skip
     if case.exchanges_energy:
-        relative = absolute - setting * rate[:, None, None] * spun(model, coordinates)
-        power = _power(built, time / units.time, angle, coordinates, relative)
-        power -= units.time**2 * case.rotation.acceleration(time) * angular_momentum
-        supplied = _integral(time / units.time, power)
-        values["supplied_energy"] = (supplied, "J", "supplied share of the Jacobi energy")
-    return in_si(time, units, values)
-
-
-def in_si(
-    time: FloatArray, units: Units, values: dict[str, tuple[FloatArray, str, str]]
-) -> xr.Dataset:
-    """Return the columns, each with its unit and label, over time [s]."""
+        t = time / units.time
+        relative = absolute - setting * rate[:, None, None] * model.spun(coordinates)
+        power = built.loading.power(t, angle, relative)
+        if built.chain.dissipation is not None:
+            power = power - built.chain.dissipation(coordinates, relative)
+        power -= units.time**2 * case.rotation.acceleration(time) * momentum
+        supplied = _integral(t, power)
+        values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
+    if (twist := model.twist(coordinates)) is not None:
+        values["twist"] = twist, "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
-    return xr.Dataset(
+    run = xr.Dataset(
         {
             name: ("time", scale.get(unit, 1.0) * column, {"units": unit, "long_name": label})
             for name, (column, unit, label) in values.items()
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
     )
+    return _with_directions(run, model, units, coordinates) if model.leaves_plane else run
 
 
-def _power(
-    built: RotatingBeam,
-    time: FloatArray,
-    angle: FloatArray,
-    coordinates: FloatArray,
-    relative: FloatArray,
-) -> FloatArray:
-    """Return the power (samples,) that loads bring, and damping takes."""
-    power = built.loading.power(time, angle, relative)
-    if built.chain.dissipation is not None:
-        power = power - built.chain.dissipation(coordinates, relative)
-    return power
+def _with_directions(
+    run: xr.Dataset, model: Formulation, units: Units, coordinates: FloatArray
+) -> xr.Dataset:
+    """Return the run in space with how the blade lies: its axis, and its sections where known."""
+    dims = ("time", "node", "direction")
+    label = "positions of the nodes in the frame of the clamp"
+    axis = units.length * coordinates[..., :3]
+    run["axis"] = dims, axis, {"units": "m", "long_name": label}
+    if (upright := model.upright(coordinates)) is not None:
+        label = "axis of the sections that stands up at rest"
+        run["upright"] = dims, upright, {"units": "1", "long_name": label}
+    return run.assign_coords(direction=["x", "y", "z"])
 
 
 def _integral(time: FloatArray, power: FloatArray) -> FloatArray:

@@ -27,18 +27,16 @@ from analytic.lazily import sparse
 from analytic.motion import Rotation
 
 from .elements import Chain, Formulation
-from .elements.formulation import radial
+from .elements.energy_body import add_force, triplets
 from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
 
-def fix_root(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, direction: bool = False
+def hold_root(
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, direction: bool = True
 ) -> None:
     """Hold the root at its reference values, with `direction` its direction as well."""
     coordinates = list(element.fixed_at_root)
-    if not direction and _hub_radius(mbs, chain):
-        return  # it goes around the axis: see `prescribe_rotation`
     if direction:
         # At θ = 0 each constraint of the clamp holds one coordinate.
         coordinates += list(np.flatnonzero(element.clamp(0.0)[0].any(axis=0)))
@@ -52,15 +50,16 @@ def fix_root(
 
 
 def prescribe_rotation(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation, radius: float
 ) -> None:
-    """Make the direction of the root follow Eq. 1 (inertial frame)."""
+    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame)."""
+    if not radius:
+        hold_root(mbs, chain, element, direction=False)
     ground = mbs.AddNode(items.NodePointGround())
     at_rest = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=ground))
     root = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
     size = element.quarter_turn.shape[0]
     # Each constraint holds a direction: two coordinates at most, the same at every angle.
-    radius = _hub_radius(mbs, chain)
     rows_at_1 = _clamp(element, radius, 1.0)[0]
     pairs = [tuple(np.resize(np.flatnonzero(row), 2).tolist()) for row in rows_at_1]
     held = len(pairs)
@@ -99,12 +98,7 @@ def prescribe_rotation(
             jacobianUserFunction=jacobian,
         )
     )
-    add_point_inertias(mbs, chain, lambda t: 0.0)
-
-
-def _hub_radius(mbs: exudyn.MainSystem, chain: Chain) -> float:
-    """Return how far from the axis the root stands."""
-    return float(mbs.GetNodeParameter(chain.nodes[0], "referenceCoordinates")[0])
+    add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
 
 
 def _clamp(element: Formulation, radius: float, angle: float) -> tuple[FloatArray, FloatArray]:
@@ -135,55 +129,25 @@ def add_inertial_forces(
     """
     nodes = len(chain.nodes)
     turn = setting * sparse.kron(sparse.eye_array(nodes), element.quarter_turn)
-    along = sparse.diags_array(np.tile(radial(element), nodes))
+    along = sparse.diags_array(np.tile(element.radial, nodes))
     gyroscopic = (mass @ turn).tocsr()
     centrifugal = (mass @ ((1.0 - setting**2) * along - turn @ turn)).tocsr()
-    reference = np.concatenate(
-        [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
-    )
     angular = setting * (mass @ np.tile(element.angles, nodes))
     stiff_triplets, gyro_triplets = triplets(centrifugal), triplets(gyroscopic)
 
-    def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
-        total = reference + np.asarray(q)
+    def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
         rate, acceleration = rotation.rate(t), rotation.acceleration(t)
         return np.asarray(
-            rate**2 * (centrifugal @ total)
-            - gyroscopic @ (acceleration * total + 2.0 * rate * np.asarray(q_t))
+            rate**2 * (centrifugal @ e)
+            - gyroscopic @ (acceleration * e + 2.0 * rate * rates)
             - acceleration * angular
         )
 
-    def jacobian(
-        mbs: Any, t: float, item: int, q: Any, q_t: Any, factor_q: float, factor_q_t: float
-    ) -> Any:
+    def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
         rate, acceleration = rotation.rate(t), rotation.acceleration(t)
-        stiffness = stiff_triplets.copy()
-        stiffness[:, 2] *= -factor_q * rate**2
-        coupling = gyro_triplets.copy()
-        coupling[:, 2] *= factor_q * acceleration + 2.0 * factor_q_t * rate
-        container = exudyn.MatrixContainer()
-        container.SetWithSparseMatrix(np.vstack([stiffness, coupling]), *mass.shape)
-        return container
+        return [(stiff_triplets, rate**2, 0.0), (gyro_triplets, -acceleration, -2.0 * rate)]
 
-    add_force(mbs, chain, mass.shape[0], force, jacobian)
-    add_point_inertias(mbs, chain, lambda t: setting * rotation.acceleration(t))
-
-
-def add_force(mbs: exudyn.MainSystem, chain: Chain, size: int, force: Any, jacobian: Any) -> None:
-    """Add a force on all coordinates of the chain, by Exudyn's two user functions."""
-    no_mass = exudyn.MatrixContainer()
-    no_mass.SetWithSparseMatrix(sparse.csr_matrix((size, size)))
-    mbs.AddObject(
-        items.ObjectGenericODE2(
-            nodeNumbers=list(chain.nodes),
-            massMatrix=no_mass,
-            forceUserFunction=force,
-            jacobianUserFunction=jacobian,
-        )
+    add_force(mbs, chain.nodes, mass.shape[0], force=force, derivatives=derivatives)
+    add_point_inertias(
+        mbs, chain.nodes, chain.turning, lambda t: setting * rotation.acceleration(t)
     )
-
-
-def triplets(matrix: sparse.csr_array) -> FloatArray:
-    """Return (rows, columns, values) of a matrix, as Exudyn takes them."""
-    entries = matrix.tocoo()
-    return np.column_stack([entries.row, entries.col, entries.data]).astype(np.float64)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,21 +14,20 @@ from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_planar, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
-from analytic.lazily import sparse
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
-from ..resolution import require_feasible, require_stretch, warn_if_coarse
-from ..verdict import SimulationError
-from . import drive
-from .elements import Chain, Formulation, formulation, require_modeled
+from ..runs.check import SimulationError
+from ..runs.resolution import require_stretch, warn_if_coarse
+from .elements import Chain, Formulation, SpaceCable, formulation
 from .lazily import exudyn
-from .system import exudyn_system
+from .rotating_beam import add_rotating_beam
+from .solver import exudyn_system, static_settings
 from .units import Units
 
 
 @dataclass(frozen=True, kw_only=True)
 class Linearization:
-    """The model about its rotating equilibrium, M ü + G u̇ + K u = 0, in the beam's units.
+    """A mesh about its rotating equilibrium, M ü + G u̇ + K u = 0, in the beam's units.
 
     Attributes
     ----------
@@ -35,27 +35,65 @@ class Linearization:
         Of the free coordinates, as the two that follow.
     stiffness : ndarray (n, n)
     gyroscopic : ndarray (n, n)
-    stretch : float
-        How far the rotation moves the tip.
+    tip : float
+        Displacement of the tip along the blade, by the rotation.
+    units : Units
+    mesh : str
+        The elements and the speed, in words.
     """
 
     mass: FloatArray
     stiffness: FloatArray
     gyroscopic: FloatArray
-    stretch: float
+    tip: float
+    units: Units
+    mesh: str
 
-    def inverse_eigenvalues(self) -> ComplexArray:
-        """Return 1/λ of λ² M + λ G + K = 0."""
+    @classmethod
+    def of(
+        cls, beam: AnyBlade, omega: float, element: str | Formulation, elements: int
+    ) -> Linearization:
+        """Return that of a mesh at ω [rad/s], however coarse; refuse what has no equilibrium."""
+        with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
+            tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
+            linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
+        mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+        return cls(
+            mass=mass, stiffness=stiffness, gyroscopic=gyroscopic, tip=float(tip[0]),
+            units=Units.of(beam),
+            mesh=f"{elements} {formulation(element).name!r} elements at omega = {omega:g} rad/s",
+        )  # fmt: skip
+
+    @cached_property
+    def _inverse(self) -> ComplexArray:
+        """1/λ of λ² M + λ G + K = 0."""
         return inverse_eigenvalues(self.mass, self.gyroscopic, self.stiffness)
 
+    @property
+    def stretch(self) -> float:
+        """Displacement of the tip by the rotation [m]."""
+        return self.tip * self.units.length
 
-def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:
-    """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
-    with exudyn_system() as mbs:
-        model.lay(mbs, beam, elements)
-        mbs.Assemble()
-        system: Any = mbs.ComputeLinearizedSystem(_static_settings(beam, elements))
-    return sparse.csr_array(np.asarray(system[0]))
+    @property
+    def growth_rate(self) -> float:
+        """Largest real part of λ [1/s] beyond what round-off gives to undamped modes, else zero."""
+        growing = self._inverse[self._inverse.real > 1e-6 * np.abs(self._inverse).max()]
+        return float((1.0 / growing).real.max()) / self.units.time if growing.size else 0.0
+
+    def frequencies(self, count: int) -> FloatArray:
+        """Return the lowest `count` natural frequencies [rad/s]; see `natural_frequencies`."""
+        if whole_number("count", count) > self.mass.shape[0]:
+            raise ValueError(
+                f"count = {count} is more than the {self.mass.shape[0]} modes of {self.mesh}; "
+                "take more elements"
+            )
+        if self.growth_rate > 0.0:
+            raise SimulationError(
+                f"the steady state of {self.mesh} is unstable, it grows with "
+                f"{self.growth_rate:.6g} 1/s: lower the speed or take another element"
+            )
+        slowest = np.sort(np.abs(self._inverse.imag))[::-1][: 2 * count : 2]
+        return np.asarray(1.0 / slowest) / self.units.time
 
 
 def natural_frequencies(
@@ -105,31 +143,7 @@ def natural_frequencies(
     """
     require_planar(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
-    return mesh_frequencies(beam, omega, element, elements, count)
-
-
-def mesh_frequencies(
-    beam: AnyBlade, omega: float, element: str | Formulation, elements: int, count: int
-) -> FloatArray:
-    """Return what `natural_frequencies` does, of a mesh however coarse: its own ω_n."""
-    whole_number("count", count)
-    system = linearized(beam, omega, element, elements)
-    name, modes = formulation(element).name, system.mass.shape[0]
-    if count > modes:
-        raise ValueError(
-            f"count = {count} is more than the {modes} modes of {elements} {name!r} "
-            "elements; take more elements"
-        )
-    inverse = system.inverse_eigenvalues()
-    growth = _growth(inverse) / Units.of(beam).time
-    if growth > 0.0:
-        raise SimulationError(
-            f"the steady state of {elements} {name!r} elements at omega = "
-            f"{omega:g} rad/s is unstable, it grows with {growth:.6g} 1/s: lower the speed or take "
-            "another element"
-        )
-    slowest = np.sort(np.abs(inverse.imag))[::-1][: 2 * count : 2]
-    return np.asarray(1.0 / slowest) / Units.of(beam).time
+    return Linearization.of(beam, omega, element, elements).frequencies(count)
 
 
 def growth_rate(
@@ -149,14 +163,7 @@ def growth_rate(
     linear: 5.2471 1/s
     cable: 0.0000 1/s
     """
-    system = linearized(beam, omega, element, elements)
-    return _growth(system.inverse_eigenvalues()) / Units.of(beam).time
-
-
-def _growth(inverse: ComplexArray) -> float:
-    """Return the largest real part of λ beyond what round-off gives to undamped modes."""
-    growing = inverse[inverse.real > 1e-6 * np.abs(inverse).max()]
-    return float((1.0 / growing).real.max()) if growing.size else 0.0
+    return Linearization.of(beam, omega, element, elements).growth_rate
 
 
 def steady_stretch(
@@ -174,20 +181,57 @@ def steady_stretch(
     >>> print(f"{steady_stretch(Beam.reference(), omega=6.0):.2e} m")
     2.47e-04 m
     """
-    return linearized(beam, omega, element, elements).stretch * beam.length
+    return Linearization.of(beam, omega, element, elements).stretch
 
 
-def linearized(
-    beam: AnyBlade, omega: float, element: str | Formulation, elements: int
-) -> Linearization:
-    """Return the model about its equilibrium at ω [rad/s], refusing what has none."""
-    with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
-        tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
-        linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
-    mass_projected, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-    return Linearization(
-        mass=mass_projected, stiffness=stiffness, gyroscopic=gyroscopic, stretch=float(tip[0])
-    )
+def flap_frequencies(
+    blade: AnyBlade, omega: float, *, elements: int = 16, count: int = 3
+) -> FloatArray:
+    """Natural frequencies [rad/s] of Exudyn's cable out of the plane of rotation, ascending.
+
+    About the equilibrium stretched by the rotation. Not of the geometrically exact beam, which is
+    solved in the inertial frame only.
+
+    Parameters
+    ----------
+    blade : Blade
+        With a section that bends alike in all directions, bending_ratio 1.
+    omega : float
+        Steady angular velocity ω [rad/s].
+    elements : int
+        Number of cables.
+    count : int
+        How many frequencies, at most 2 `elements`.
+
+    Returns
+    -------
+    ndarray of shape (count,)
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or the mesh has fewer than `count` modes.
+    SimulationError
+        If the static equilibrium is not found.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import flap_frequencies
+    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+    >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
+    [ 7.0656 23.7847 57.0132]
+    """
+    with steady_system(blade, omega, SpaceCable(), elements) as (mbs, _, settings):
+        mass, stiffness = (np.asarray(m) for m in mbs.ComputeLinearizedSystem(settings)[:2])
+    # Coordinates are (x, y, z) of r and r' in turn; the clamp holds those of the first node.
+    across = np.arange(2, 6 * (elements + 1), 3)[2:]
+    pick = np.ix_(across, across)
+    system = Linearization(
+        mass=mass[pick], stiffness=stiffness[pick], gyroscopic=0.0 * mass[pick], tip=0.0,
+        units=Units.of(blade), mesh=f"{elements} cables out of the plane",
+    )  # fmt: skip
+    return system.frequencies(count)
 
 
 @contextmanager
@@ -199,22 +243,18 @@ def steady_system(
     With its chain and the settings of a static solution.
     """
     omega = rotation_speed(omega)
+    require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    beam, model, units = undamped(beam), formulation(element), Units.of(beam)
-    require_modeled(beam, model)
-    rotation = units.rotation(SteadyRotation(omega=omega))
-    unit_beam = units.beam(beam)
-    elements = whole_number("elements", elements)
     require_stretch(beam)
-    require_feasible(elements)
-    mass = mass_matrix(model, unit_beam, elements)
+    units = Units.of(beam)
+    unit_beam, rotation = units.beam(undamped(beam)), units.rotation(SteadyRotation(omega=omega))
     with exudyn_system() as mbs:
-        chain = model.lay(mbs, unit_beam, elements)
-        drive.fix_root(mbs, chain, model, direction=True)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
+        built = add_rotating_beam(
+            mbs, unit_beam, rotation, element=element, elements=elements, frame="rotating"
+        )
         mbs.Assemble()
-        settings = _static_settings(unit_beam, elements)
+        settings = static_settings(unit_beam, elements)
         try:
             mbs.SolveStatic(settings, updateInitialValues=True)
         except Exception as error:
@@ -222,20 +262,4 @@ def steady_system(
                 f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
                 f"EA = {beam.axial_stiffness:g} N and the speed"
             ) from error
-        yield mbs, chain, settings
-
-
-def _static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
-    settings = exudyn.SimulationSettings()
-    settings.solution.file.write = False
-    settings.staticSolver.verboseMode = 0
-    settings.staticSolver.newton.absoluteTolerance = round_off(beam, elements)
-    return settings
-
-
-def round_off(beam: AnyBlade, elements: int) -> float:
-    """Return the residual force that Newton cannot go below, for a beam of unit length.
-
-    The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².
-    """
-    return 1e-14 * (elements * beam.axial_stiffness + 10.0 * elements**3 * beam.bending_stiffness)
+        yield mbs, built.chain, settings

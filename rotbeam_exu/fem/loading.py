@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -25,17 +24,15 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
-from .drive import add_force, triplets
 from .elements import Chain, Formulation
-from .elements.formulation import turned_velocities
+from .elements.energy_body import add_force, triplets
 from .frame import Frame
 from .lazily import exudyn
-from .linearization import mass_matrix
-from .mesh import Mesh
+from .solver import mass_matrix
 
 
 class Loading:
-    """What acts on a chain besides its inertia: the consistent loads and external damping.
+    """Consistent loads and external damping: all that acts on a chain besides its inertia.
 
     Parameters
     ----------
@@ -57,11 +54,13 @@ class Loading:
         loads: Sequence[Load],
     ) -> None:
         forces = [(load, load.acts_on) for load in loads if load.acts_on is not None]
-        external = Mesh(blade=beam, elements=elements).damping.external
+        external = beam.damping.external
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
-            of_length = mass_matrix(model, _of_unit_density(beam), elements)
+            section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
+            light = replace(beam.blade, section=section, point_masses=())
+            of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}
         # Unit translations along and across the blade.
@@ -95,14 +94,11 @@ class Loading:
 
     def add(self, mbs: exudyn.MainSystem, chain: Chain, rotation: Rotation, frame: Frame) -> None:
         """Put loads and external damping on the chain, whose clamp follows `rotation`."""
-        inertial, n = frame == "inertial", self._drag.shape[0]
+        inertial = frame == "inertial"
         turn = sparse.kron(sparse.eye_array(len(chain.nodes)), self._model.quarter_turn)
         turning = (self._drag @ turn).tocsr()
-        reference = np.concatenate(
-            [mbs.GetNodeParameter(node, "referenceCoordinates") for node in chain.nodes]
-        )
         drag_triplets, turning_triplets = triplets(self._drag), triplets(turning)
-        time, acting = np.nan, np.zeros(n)
+        time, acting = np.nan, np.zeros(self._drag.shape[0])
 
         def act(t: float) -> None:
             nonlocal time, acting
@@ -110,32 +106,18 @@ class Loading:
             acting = self.forces(np.array([t]), angle).ravel()
             if inertial:
                 per_node = acting.reshape(1, len(chain.nodes), -1)
-                acting = turned_velocities(self._model, per_node, angle).ravel()
+                acting = self._model.turned(per_node, angle).ravel()
 
         def frame_rate(t: float) -> float:
-            """How fast the velocities of the clamp's frame turn in the coordinates."""
+            """Return the rate at which velocities of the clamp's frame turn in the coordinates."""
             return rotation.rate(t) if inertial else 0.0
 
-        def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
+        def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
             if t != time:
                 act(t)
-            carried = frame_rate(t) * (turning @ (reference + np.asarray(q)))
-            return np.asarray(acting + carried - self._drag @ np.asarray(q_t))
+            return np.asarray(acting + frame_rate(t) * (turning @ e) - self._drag @ rates)
 
-        def jacobian(
-            mbs: Any, t: float, item: int, q: Any, q_t: Any, factor_q: float, factor_q_t: float
-        ) -> Any:
-            damping, coupling = drag_triplets.copy(), turning_triplets.copy()
-            damping[:, 2] *= factor_q_t
-            coupling[:, 2] *= -factor_q * frame_rate(t)
-            container = exudyn.MatrixContainer()
-            container.SetWithSparseMatrix(np.vstack([damping, coupling]), n, n)
-            return container
+        def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
+            return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
 
-        add_force(mbs, chain, n, force, jacobian)
-
-
-def _of_unit_density(beam: AnyBlade) -> AnyBlade:
-    """Return the same blade with a mass per length of one and no other mass."""
-    section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
-    return replace(beam.blade, section=section, point_masses=())
+        add_force(mbs, chain.nodes, acting.size, force=force, derivatives=derivatives)

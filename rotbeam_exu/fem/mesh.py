@@ -8,28 +8,19 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic import AnyBlade, Damping, PointMass
+from analytic import AnyBlade, PointMass
 from analytic.arrays import FloatArray
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
 
 
 @dataclass(frozen=True, kw_only=True)
-class ElementSection:
-    """What an element of constant section has: m [kg/m], EI [N m²], EA [N], ρI [kg m].
+class Sections:
+    """Sections of elements, (elements,), or at points of them: m [kg/m], EI [N m²], EA [N], ρI.
 
-    ρI is for elements that model it; where the blade tells none, that of a homogeneous section.
+    ρI [kg m] is for elements that model it; where the blade tells none, that of a homogeneous
+    section, m EI/EA.
     """
-
-    mass_per_length: float
-    bending_stiffness: float
-    axial_stiffness: float
-    rotary_inertia: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class PointSections:
-    """What the sections at points of the elements have, as `ElementSection`, (elements, points)."""
 
     mass_per_length: FloatArray
     bending_stiffness: FloatArray
@@ -56,42 +47,29 @@ class Mesh:
         """Length of an element."""
         return self.blade.length / self.elements
 
-    @property
-    def hub_radius(self) -> float:
-        """Where the root is, from the axis."""
-        return self.blade.hub_radius
-
-    @property
-    def damping(self) -> Damping:
-        """That of the blade; a beam has none."""
-        return self.blade.damping
-
     @cached_property
     def positions(self) -> FloatArray:
         """Where the nodes are along the undeformed blade, from the axis."""
         count = self.elements * (self.nodes_of_element - 1) + 1
-        return self.hub_radius + np.linspace(0.0, self.blade.length, count)
+        return self.blade.hub_radius + np.linspace(0.0, self.blade.length, count)
 
-    def sections(self) -> Iterator[ElementSection]:
-        """Yield the section of each element, from the root."""
+    @cached_property
+    def sections(self) -> Sections:
+        """The section of each element, (elements,), from the root."""
         inner, weights = gauss_points(8)
         at = self.sections_at(inner)
-        for m, EI, compliance, turning in zip(
-            at.mass_per_length @ weights,
-            at.bending_stiffness @ weights,
-            (1.0 / at.axial_stiffness) @ weights,
-            at.rotary_inertia @ weights,
-            strict=True,
-        ):
-            yield ElementSection(
-                mass_per_length=float(m),
-                bending_stiffness=float(EI),
-                axial_stiffness=1.0 / float(compliance),
-                rotary_inertia=float(turning),
-            )
+        return Sections(
+            mass_per_length=at.mass_per_length @ weights,
+            bending_stiffness=at.bending_stiffness @ weights,
+            axial_stiffness=1.0 / ((1.0 / at.axial_stiffness) @ weights),
+            rotary_inertia=at.rotary_inertia @ weights,
+        )
 
-    def sections_at(self, inner: FloatArray) -> PointSections:
-        """Return the sections at the points `inner`, from 0 to 1, of each element."""
+    def sections_at(self, inner: FloatArray) -> Sections:
+        """Return the sections at the points `inner`, from 0 to 1, of each element.
+
+        Arrays are (elements, points).
+        """
         blade, unit = self.blade, self.blade.unit
         x = (np.arange(self.elements)[:, None] + inner) / self.elements
         m = blade.mass_per_length * evaluated(unit.mass, x)
@@ -99,11 +77,10 @@ class Mesh:
         EA = blade.axial_stiffness * evaluated(unit.axial, x)
         told = blade.section.rotary_inertia is not None
         own = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
-        return PointSections(
+        return Sections(
             mass_per_length=m,
             bending_stiffness=EI,
             axial_stiffness=EA,
-            # A homogeneous section has ρI = m EI/EA.
             rotary_inertia=own if told else m * EI / EA,
         )
 
@@ -117,7 +94,7 @@ class Mesh:
         """
         for one in self.blade.point_masses:
             node = round((self.positions.size - 1) * one.position / self.blade.length)
-            off = abs(self.hub_radius + one.position - self.positions[node])
+            off = abs(self.blade.hub_radius + one.position - self.positions[node])
             if off > 1e-9 * self.blade.length:
                 raise ValueError(
                     f"no node of {self.elements} elements is at the point mass at "

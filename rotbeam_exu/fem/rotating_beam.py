@@ -13,10 +13,10 @@ from analytic.motion import Rotation
 
 from . import drive
 from .elements import Chain, Formulation, formulation, require_modeled
-from .frame import Frame, require_frame
+from .frame import Frame
 from .lazily import exudyn, items
-from .linearization import mass_matrix
 from .loading import Loading
+from .solver import mass_matrix
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +82,7 @@ def add_rotating_beam(
     mbs : exudyn.MainSystem
     beam : Beam or Blade
         In the units of the system, SI as a rule.
-    rotation : SpinUp, SmoothRamp, Table or SteadyRotation
+    rotation : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Angle of the clamp over time.
     element, elements, frame, loads
         As in `simulate`; loads in the units of the system.
@@ -105,17 +105,15 @@ def add_rotating_beam(
     (9, 8, 3)
     """
     model, elements = formulation(element), whole_number("elements", elements)
-    require_modeled(beam, model)
-    require_frame(beam, frame)
+    require_modeled(beam, model, frame)
     loads = loads_in_time(loads)
     rotation = rippled(rotation, loads)
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
     if frame == "inertial":
-        drive.fix_root(mbs, chain, model)
-        drive.prescribe_rotation(mbs, chain, model, rotation)
+        drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
     else:
-        drive.fix_root(mbs, chain, model, direction=True)
+        drive.hold_root(mbs, chain, model)
         drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
     loading = Loading(model, beam, elements, mass, loads)
     if loading:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import json
 import time as clock
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -17,29 +15,24 @@ from analytic.beam import warn_if_rpm
 from analytic.exact.beam.state import stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
-from analytic.motion import Rotation
-from analytic.ramps import AnyRamp
+from analytic.motion import SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..verdict import SimulationError, check_run, remedy
-from ..versions import versions
+from ..runs.check import SimulationError, check_run, remedy
+from ..runs.versions import versions
 from .case import Case
 from .columns import columns
-from .elements import Chain, Formulation
-from .elements.formulation import spun
+from .elements import Formulation
 from .frame import Frame
-from .lazily import exudyn
-from .linearization import round_off
-from .rotating_beam import RotatingBeam, add_rotating_beam
-from .solver import Sensors, solve, solver_settings
-from .system import exudyn_system
+from .rotating_beam import add_rotating_beam
+from .solver import Sensors, exudyn_system, round_off, solve, solver_settings
 from .units import Units
 
 
 def simulate(
     beam: AnyBlade,
-    spin_up: AnyRamp | SteadyRotation,
+    spin_up: SpeedChange | SteadyRotation,
     *,
     element: str | Formulation = "cable",
     elements: int = 16,
@@ -60,7 +53,7 @@ def simulate(
     ----------
     beam : Beam or Blade
         The beam.
-    spin_up : SpinUp, SmoothRamp, Table or SteadyRotation
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
         speed from the start.
     element : str or Formulation
@@ -105,7 +98,7 @@ def simulate(
     ValueError, TypeError
         If an input is refused.
     SimulationError
-        If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+        If the solver fails, or the run does not pass the checks of `rotbeam_exu.runs.check`.
     KeyboardInterrupt
         On Ctrl-C, at the next step.
 
@@ -130,29 +123,45 @@ def run_case(
     *,
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
-    pack: Callable[..., xr.Dataset] = columns,
 ) -> xr.Dataset:
-    """Return what `simulate` does, of a case; `pack` makes the columns of what was sampled."""
+    """Return what `simulate` does, of a case; of an element in space what `simulate_3d` does."""
     warn_if_rpm(case.beam, case.fastest)
-    units = Units.of(case.beam, case.step)
+    units, model = Units.of(case.beam, case.step), case.model
     beam = units.beam(case.beam)
     with exudyn_system() as mbs:
-        built = _built(mbs, case, units, beam, initial_state)
-        settings, described = _settings(case, units, beam)
+        built = add_rotating_beam(
+            mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
+            frame=case.frame, loads=units.loads(case.loads),
+        )  # fmt: skip
+        sensors = Sensors(mbs, built.chain)
+        coordinates, velocities = _start(case, units, built.chain.reference(mbs), initial_state)
+        if case.frame == "inertial":
+            velocities = velocities + built.rotation.rate(0.0) * model.spun(coordinates)
+        moved = coordinates - built.chain.reference(mbs)
+        for node, at, moving in zip(built.nodes, moved, velocities, strict=True):
+            mbs.SetNodeParameter(node, "initialCoordinates", at)
+            mbs.SetNodeParameter(node, "initialVelocities", moving)
+        mbs.Assemble()
+        steps, every = case.steps_and_sampling
+        settings, described = solver_settings(
+            steps, case.step / units.time, every, case.frame,
+            round_off=round_off(beam, case.elements), new_jacobians=model.new_jacobians,
+            spectral_radius=model.spectral_radius,
+        )  # fmt: skip
         started = clock.perf_counter()
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
-        trajectory = built.sensors.read()
-    run = pack(case, units, beam, built.beam, trajectory)
+        trajectory = sensors.read()
+    run = columns(case, units, beam, built, trajectory)
     run.attrs = {
         **case.describe(),
-        "divergence_speed": case.model.divergence_speed(case.beam, case.elements),
+        "divergence_speed": model.divergence_speed(case.beam, case.elements),
         "settings": json.dumps(described),
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
     run = _checked(run, cause)
-    if getattr(case.model, "leaves_plane", False):
+    if model.leaves_plane:
         return run  # shows by itself whether it does
     steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
     if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
@@ -160,51 +169,21 @@ def run_case(
     return run
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Built:
-    """What is in an Exudyn system, ready to be solved."""
-
-    beam: RotatingBeam
-    sensors: Sensors
-
-
-def _built(
-    mbs: exudyn.MainSystem,
+def _start(
     case: Case,
     units: Units,
-    beam: AnyBlade,
+    reference: FloatArray,
     initial_state: Callable[[FloatArray], BeamState] | None,
-) -> _Built:
-    """Lay the beam, drive its clamp, set its state and assemble."""
-    model = case.model
-    built = add_rotating_beam(
-        mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
-        frame=case.frame, loads=units.loads(case.loads),
-    )  # fmt: skip
-    chain = built.chain
-    sensors = Sensors(mbs, chain)
-    start, turning = None, getattr(case.spin_up, "start", 0.0)
+) -> tuple[FloatArray, FloatArray]:
+    """Return initial coordinates and velocities in the frame of the clamp, at angle zero."""
+    turning = getattr(case.spin_up, "start", 0.0)
     if initial_state is None and turning:
         initial_state = partial(stretched_state, case.beam, turning)
-    if initial_state is not None:
-        x = np.linspace(0.0, 1.0, len(chain.nodes))
-        state = units.state(initial_state(case.beam.length * x))
-        start = model.coordinates(beam.unit.hub + x, state)
-    _start(mbs, chain, model, built.rotation, case.frame, start)
-    mbs.Assemble()
-    return _Built(beam=built, sensors=sensors)
-
-
-def _settings(
-    case: Case, units: Units, beam: AnyBlade
-) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
-    steps, every = case.steps_and_sampling
-    floor = round_off(beam, case.elements)
-    return solver_settings(
-        steps, case.step / units.time, every, case.frame, round_off=floor,
-        new_jacobians=getattr(case.model, "new_jacobians", False),
-        spectral_radius=getattr(case.model, "spectral_radius", 0.9),
-    )  # fmt: skip
+    if initial_state is None:
+        return reference, np.zeros_like(reference)
+    x = np.linspace(0.0, 1.0, len(reference))
+    state = units.state(initial_state(case.beam.length * x))
+    return case.model.coordinates(case.beam.unit.hub + x, state)
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
@@ -218,31 +197,6 @@ def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
         run.attrs["verdict"] = str(error)
         error.run = run
         raise error from cause
-    _warn_above_divergence_speed(run)
-    return run
-
-
-def _start(
-    mbs: exudyn.MainSystem,
-    chain: Chain,
-    model: Formulation,
-    rotation: Rotation,
-    frame: Frame,
-    start: tuple[FloatArray, FloatArray] | None,
-) -> None:
-    """Set initial coordinates and velocities; the frame turns by θ'(0) from angle zero."""
-    reference = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes])
-    coordinates, velocities = reference, np.zeros_like(reference)
-    if start is not None:
-        coordinates, velocities = start
-    if frame == "inertial":
-        velocities = velocities + rotation.rate(0.0) * spun(model, coordinates)
-    for node, moved, moving in zip(chain.nodes, coordinates - reference, velocities, strict=True):
-        mbs.SetNodeParameter(node, "initialCoordinates", moved)
-        mbs.SetNodeParameter(node, "initialVelocities", moving)
-
-
-def _warn_above_divergence_speed(run: xr.Dataset) -> None:
     omega, divergence_speed = run.attrs["omega"], run.attrs["divergence_speed"]
     if omega > divergence_speed:
         warn(
@@ -251,3 +205,4 @@ def _warn_above_divergence_speed(run: xr.Dataset) -> None:
             "rotation is unstable, and what keeps the oscillation bounded is not the beam; take "
             "more elements"
         )
+    return run

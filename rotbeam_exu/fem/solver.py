@@ -1,21 +1,65 @@
-"""Exudyn's solver: its settings, a run that can be stopped, and the samples it keeps."""
+"""Exudyn's systems and solver: settings, a run that can be stopped, and the samples it keeps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.lazily import sparse
 
-from .elements import Chain
+from .elements import Chain, Formulation
 from .frame import Frame
 from .lazily import exudyn, items
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
+
+
+@contextmanager
+def exudyn_system() -> Iterator[exudyn.MainSystem]:
+    """Give an empty, silent system; none is collected by itself, and memory would grow."""
+    exudyn.config.printToConsole = False
+    # Without a display, an open renderer ends the process.
+    exudyn.special.userInterface.suppressRenderer = True
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    try:
+        yield mbs
+    finally:
+        mbs.Reset()
+        container.Reset()
+
+
+def static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
+    """Return the settings of a static solution, for a beam of unit length."""
+    settings = exudyn.SimulationSettings()
+    settings.solution.file.write = False
+    settings.staticSolver.verboseMode = 0
+    settings.staticSolver.newton.absoluteTolerance = round_off(beam, elements)
+    return settings
+
+
+def round_off(beam: AnyBlade, elements: int) -> float:
+    """Return the residual force that Newton cannot go below, for a beam of unit length.
+
+    The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².
+    """
+    return 1e-14 * (elements * beam.axial_stiffness + 10.0 * elements**3 * beam.bending_stiffness)
+
+
+def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:
+    """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
+    with exudyn_system() as mbs:
+        model.lay(mbs, beam, elements)
+        mbs.Assemble()
+        system: Any = mbs.ComputeLinearizedSystem(static_settings(beam, elements))
+    return sparse.csr_array(np.asarray(system[0]))
 
 
 def solver_settings(
@@ -109,7 +153,7 @@ def _chain_of(error: BaseException | None) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Trajectory:
-    """What was sampled of a run, in the units in which it was solved.
+    """Samples of a run, in the units in which it was solved.
 
     Attributes
     ----------
@@ -129,31 +173,21 @@ class Sensors:
     """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
 
     def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
-        self._mbs, self._chain = mbs, chain
+        self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
-        self._reference = np.array(
-            [mbs.GetNodeParameter(n, "referenceCoordinates") for n in chain.nodes]
+        kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
+        self._coordinates, self._velocities = (
+            [
+                mbs.AddSensor(items.SensorNode(nodeNumber=n, outputVariableType=variable, **kept))
+                for n in chain.nodes
+            ]
+            for variable in (kind.Coordinates, kind.Coordinates_t)
         )
-        self._coordinates = [self._of_node(n, kind.Coordinates) for n in chain.nodes]
-        self._velocities = [self._of_node(n, kind.Coordinates_t) for n in chain.nodes]
+        energy = kind.PotentialEnergy
         self._elastic = [
-            mbs.AddSensor(
-                items.SensorBody(
-                    bodyNumber=body,
-                    outputVariableType=kind.PotentialEnergy,
-                    storeInternal=True,
-                    writeToFile=False,
-                )
-            )
+            mbs.AddSensor(items.SensorBody(bodyNumber=body, outputVariableType=energy, **kept))
             for body in chain.bodies
         ]
-
-    def _of_node(self, node: Any, variable: Any) -> Any:
-        return self._mbs.AddSensor(
-            items.SensorNode(
-                nodeNumber=node, outputVariableType=variable, storeInternal=True, writeToFile=False
-            )
-        )
 
     def read(self) -> Trajectory:
         """Return the samples kept."""

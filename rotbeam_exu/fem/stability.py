@@ -53,10 +53,6 @@ def divergence_speed(
     return model.divergence_speed(beam, whole_number("substructures", substructures))
 
 
-critical_speed = divergence_speed
-"""The same; in rotor dynamics the word means a crossing in the Campbell diagram."""
-
-
 def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> xr.Dataset:
     """Return the divergence speed [rad/s] of both frames over numbers of substructures.
 

@@ -9,7 +9,7 @@ from typing import Any
 import xarray as xr
 
 from ..paper import MODEL_NAMES, MODELS
-from ..verdict import beam_of
+from ..runs.attributes import beam_of
 
 EXACT = "black: the geometrically exact beam, by harmonic balance"
 

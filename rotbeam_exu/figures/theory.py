@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from .. import comparison
 from ..paper import MODEL_NAMES
-from ..verdict import beam_of
+from ..runs.attributes import beam_of
 from .paper_figure import EXACT, PaperFigure, listed
 from .style import STYLE, column, columns, cycle, house_axes, label, model_line
 

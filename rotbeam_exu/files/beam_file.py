@@ -149,8 +149,7 @@ def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
         return beam
     if not isinstance(shape, dict):
         raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    family: Any = SectionShape
-    return beam.with_shape(from_description(shape, family))
+    return beam.with_shape(from_description(shape, SectionShape))
 
 
 def require_keys(

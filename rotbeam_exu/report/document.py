@@ -14,7 +14,7 @@ import numpy as np
 
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement
-from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes import Mistake
 from ..verification.outcomes import Finding, Order
 from ..verification.submission import Run, Submission
 

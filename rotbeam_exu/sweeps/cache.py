@@ -13,7 +13,7 @@ from analytic.warning import warn
 from ..files.results import read, save, whole_file, writable_folder
 from ..files.round_trip import plain
 from ..lazily import xr
-from ..versions import versions
+from ..runs.versions import versions
 
 _FORMAT = 2
 _MARK = "rotbeam-cache.json"

@@ -10,7 +10,7 @@ import numpy as np
 from ..datasets import OMEGA, dataset
 from ..fem.case import Case
 from ..lazily import xr
-from ..versions import versions
+from ..runs.versions import versions
 from .measured import MEASURED
 
 

@@ -20,7 +20,7 @@ from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
 from ..fem.frame import Frame
 from ..lazily import xr
-from ..verdict import SimulationError
+from ..runs.check import SimulationError
 from .cache import Cache
 from .collected import collect
 from .measured import maker, solve

@@ -9,11 +9,11 @@ from analytic import AnyBlade
 
 from ..fem.case import Case
 from ..fem.elements import Formulation, formulation
-from ..fem.linearization import mesh_frequencies
+from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..lazily import xr
-from ..oscillation import NoOscillationError, steady_oscillation
-from ..verdict import SimulationError
+from ..runs.check import SimulationError
+from ..runs.oscillation import NoOscillationError, steady_oscillation
 from .provenance import code_of
 
 MEASURED = {
@@ -79,4 +79,4 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 
 @lru_cache(maxsize=64)
 def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
-    return float(mesh_frequencies(beam, omega, element, elements, 1)[0])
+    return float(Linearization.of(beam, omega, element, elements).frequencies(1)[0])

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property
+from typing import Any
 
 from analytic import (
     AnyBlade,
@@ -19,11 +21,11 @@ from analytic import (
 from analytic.loads import Load
 
 VERSION = "1.0"
-"""Of the benchmark: cases, references and thresholds."""
+"""Version of the benchmark: of its cases, references and thresholds."""
 
 
 class Level(StrEnum):
-    """How much a code must be able to do."""
+    """Demand that a case makes on a code."""
 
     BASIC = "basic"
     MODERATE = "moderate"
@@ -32,7 +34,7 @@ class Level(StrEnum):
 
 
 class Asked(StrEnum):
-    """What is handed in."""
+    """Result that is handed in."""
 
     FREQUENCIES = "first natural frequency at each speed"
     HISTORY = "deflection of the tip over time"
@@ -78,39 +80,78 @@ class Case:
     loads: tuple[Load, ...] = ()
     oscillates: bool = False
 
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Quantities that are judged of it."""
+        if self.asked is Asked.HISTORY:
+            return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
+        return ("linear frequency",) if self.asked is Asked.FREQUENCIES else ("backbone",)
 
-def spin_up_case(beam: AnyBlade, spin_up: SpinUp, duration: float, name: str = "S") -> Case:
+    @property
+    def is_spun_up(self) -> bool:
+        """True where its history starts at rest; else it starts on an orbit."""
+        return self.motion is not None and not self.amplitudes
+
+    @property
+    def rotation(self) -> SpinUp | SteadyRotation:
+        """Rotation of the clamp of a history; ValueError if the case asks for none."""
+        if self.motion is None:
+            raise ValueError(f"case {self.name} has several speeds: say which")
+        return self.motion
+
+    @property
+    def ramp_time(self) -> float:
+        """Time in which it is spun up [s]; 0 of a steady rotation."""
+        return float(stated(self.rotation).get("ramp_time", 0.0))
+
+    @cached_property
+    def orbit(self) -> Orbits:
+        """Exact orbit that its history starts on, at phase 0; ValueError if it starts at rest."""
+        if self.motion is None or not self.amplitudes:
+            raise ValueError(f"case {self.name} starts at rest, on no orbit")
+        return periodic_orbits(self.blade, self.motion.omega, self.amplitudes)
+
+    def whole_duration(self, step: float) -> float:
+        """Return the duration, or a little more that is a whole number of steps [s]."""
+        return math.ceil(self.duration / step * (1.0 - 1e-12)) * step
+
+
+def stated(value: Any) -> dict[str, Any]:
+    """Return the fields of a value by name, but those that are nothing, as they are by default.
+
+    A blade that learns to have more then states the same as before.
+    """
+    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
+    return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
+
+
+def _is_nothing(part: Any) -> bool:
+    if isinstance(part, tuple):
+        return all(map(_is_nothing, part))
+    return not (stated(part) if is_dataclass(part) else part)
+
+
+def spin_up_case(
+    beam: AnyBlade,
+    spin_up: SpinUp,
+    duration: float,
+    name: str = "S",
+    level: Level = Level.MODERATE,
+) -> Case:
     """Return the case of a spin-up that nothing damps."""
+    title = f"spin-up to {spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s"
     return Case(
-        name=name,
-        level=Level.MODERATE,
-        title=f"spin-up to {spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s",
-        asked=Asked.HISTORY,
-        blade=beam,
-        motion=spin_up,
-        duration=duration,
-        oscillates=True,
-    )
+        name=name, level=level, title=title, asked=Asked.HISTORY, blade=beam, motion=spin_up,
+        duration=duration, oscillates=True,
+    )  # fmt: skip
 
 
 def frequency_case(beam: AnyBlade, speeds: tuple[float, ...]) -> Case:
     """Return the case of linear frequencies."""
+    title = "first natural frequency in steady rotation"
     return Case(
-        name="L",
-        level=Level.BASIC,
-        title="first natural frequency in steady rotation",
-        asked=Asked.FREQUENCIES,
-        blade=beam,
-        speeds=speeds,
+        name="L", level=Level.BASIC, title=title, asked=Asked.FREQUENCIES, blade=beam, speeds=speeds
     )
-
-
-@lru_cache(maxsize=8)
-def starting_orbit(case: Case) -> Orbits:
-    """Return the exact orbit that a case starts on, at phase 0; ValueError if it starts at rest."""
-    if not isinstance(case.motion, SteadyRotation) or not case.amplitudes:
-        raise ValueError(f"case {case.name} starts at rest, on no orbit")
-    return periodic_orbits(case.blade, case.motion.omega, case.amplitudes)
 
 
 SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
@@ -120,48 +161,47 @@ SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
 def _cases() -> tuple[Case, ...]:
     beam = Beam.reference()
     length, mass = beam.length, beam.mass_per_length * beam.length
-    s1 = SpinUp(omega=6.0, ramp_time=3.0)
-
-    def history(name: str, level: Level, title: str, blade: AnyBlade, **rest: object) -> Case:
-        return Case(name=name, level=level, title=title, asked=Asked.HISTORY, blade=blade, **rest)  # type: ignore[arg-type]
 
     def spun_up(name: str, level: Level, omega: float, ramp_time: float, duration: float) -> Case:
-        title = f"spin-up to {omega:g} rad/s in {ramp_time:g} s"
-        motion = SpinUp(omega=omega, ramp_time=ramp_time)
-        return history(name, level, title, beam, motion=motion, duration=duration, oscillates=True)
+        return spin_up_case(beam, SpinUp(omega=omega, ramp_time=ramp_time), duration, name, level)
 
-    def varied(letter: str, title: str, blade: AnyBlade, **rest: object) -> Case:
-        return history(
-            f"S1+{letter}", Level.BLADE, f"S1 {title}", blade, motion=s1, duration=15.0, **rest
-        )
-
+    s1 = spun_up("S1", Level.BASIC, 6.0, 3.0, 15.0)
+    as_s1 = replace(s1, level=Level.BLADE)
     return (
         frequency_case(beam, SPEEDS),
-        spun_up("S1", Level.BASIC, 6.0, 3.0, 15.0),
-        history(
-            "V", Level.BASIC, "spin-up of Simo and Vu-Quoc",
-            Beam.from_stiffness(
+        s1,
+        Case(
+            name="V", level=Level.BASIC, title="spin-up of Simo and Vu-Quoc", asked=Asked.HISTORY,
+            blade=Beam.from_stiffness(
                 length=10.0, axial_stiffness=2.8e7, bending_stiffness=1.4e4, mass_per_length=1.2
             ),
             motion=SpinUp(omega=6.0, ramp_time=15.0), duration=20.0,
         ),
         spun_up("S2", Level.MODERATE, 2.0, 3.375, 20.0),
         spun_up("S3", Level.MODERATE, 4.0, 2.0, 15.0),
-        history(
-            "O", Level.MODERATE, "start on an exact orbit, no ramp", beam,
-            motion=SteadyRotation(omega=2.0), duration=20.0, amplitudes=(0.4,), oscillates=True,
+        Case(
+            name="O", level=Level.MODERATE, title="start on an exact orbit, no ramp",
+            asked=Asked.HISTORY, blade=beam, motion=SteadyRotation(omega=2.0), duration=20.0,
+            amplitudes=(0.4,), oscillates=True,
         ),
         spun_up("S4", Level.HARD, 8.0, 2.0, 15.0),
         Case(
             name="B", level=Level.HARD, title="backbones", asked=Asked.BACKBONE, blade=beam,
             speeds=(2.0, 6.0, 8.0), amplitudes=(0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
         ),
-        varied("h", "on a hub", beam.with_hub_radius(0.5 * length), oscillates=True),
+        replace(as_s1, name="S1+h", title="S1 on a hub", blade=beam.with_hub_radius(0.5 * length)),
         # Half the beam's mass would swing by 0.93 L, farther than orbits are known.
-        varied("m", "with a tip mass", beam.with_tip_mass(0.1 * mass), oscillates=True),
+        replace(
+            as_s1, name="S1+m", title="S1 with a tip mass", blade=beam.with_tip_mass(0.1 * mass)
+        ),
         # A hundredth of the critical damping of the first mode at rest.
-        varied("d", "with viscous bending", beam.with_damping(Damping(bending=0.007))),
-        varied("g", "under gravity", beam, loads=(Gravity(9.81),)),
+        replace(
+            as_s1, name="S1+d", title="S1 with viscous bending", oscillates=False,
+            blade=beam.with_damping(Damping(bending=0.007)),
+        ),
+        replace(
+            as_s1, name="S1+g", title="S1 under gravity", oscillates=False, loads=(Gravity(9.81),)
+        ),
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What a number tends to as meshes or steps are refined, and how fast: limit, order, errors.
+"""Limits of numbers as meshes or steps are refined, with orders and errors.
 
 With f(h) = f₀ + C hᵖ three runs give the order p by the ratio of their changes,
 
@@ -26,14 +26,14 @@ _ASSUMED = 3.0
 """Roache's factor of safety where the order is assumed."""
 
 _LEAST_ORDER = 1.0
-"""Of a consistent method, assumed where none is declared and none can be measured."""
+"""Order of a consistent method, taken where none is declared and none can be measured."""
 
 _HIGHEST_ORDER = 20.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Convergence:
-    """What the runs tend to; made by `convergence`.
+    """The limit of several runs, and how they tend to it; made by `convergence`.
 
     Attributes
     ----------
@@ -223,7 +223,7 @@ def _limit(
 
 
 def _noise_of_correction(h: FloatArray, changes: FloatArray, slack: FloatArray) -> float:
-    """How far the noise of both changes could move the correction, their luck the worst."""
+    """Return how far the noise of both changes moves the correction at worst."""
     before, after = np.abs(changes[-2:])
     ratio, sizes = h[-2] / h[-1], h[-3:]
 

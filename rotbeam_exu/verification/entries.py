@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import partial
 
-from analytic import AnyBlade, SpinUp, SteadyRotation
-from analytic.theory import BERNOULLI_EULER, Theory
+from analytic import AnyBlade
 
-from ..fem.elements import Ancf3, Cable, Exact, Formulation, Linear, Substructures
-from ..fem.elements.section import shear_share
-from ..fem.linearization import mesh_frequencies
+from ..fem.elements import (
+    Ancf3,
+    Cable,
+    Exact,
+    Formulation,
+    Linear,
+    Substructures,
+    require_modeled,
+)
+from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
-from .peers import PEERS, Entry, StateOf, installed, peer
+from .cases import Case
+from .peers import PEERS, installed, peer
+from .verify import Entry
 
 _SECOND = 2.0
-_ORDERS: dict[type, float] = {Cable: 4.0, Ancf3: 4.0, Linear: 4.0, Substructures: _SECOND}
 
 
 def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
@@ -32,69 +40,38 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     >>> print(entry.name, entry.own_meshes, entry.step)
     exact nodes=3 (8, 16, 32) 0.001
     """
-    order, coupled = _declared_order(model), getattr(model, "law", "") == "coupled"
-    meshes: tuple[int, ...] = ()
-    if elements is None:
-        elements = 32 if order == _SECOND else 16
-        # At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so.
-        meshes = (8, 16, 32, 64) if isinstance(model, Ancf3) and not coupled else ()
     options = [
         f"{field.name}={getattr(model, field.name)}"
         for field in dataclasses.fields(model)  # type: ignore[arg-type]
         if getattr(model, field.name) != field.default
     ]
 
-    def spin(
-        beam: AnyBlade, spin_up: SpinUp, *, elements: int, duration: float, step: float
-    ) -> xr.Dataset:
+    def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
+        try:
+            require_modeled(case.blade, model)
+        except ValueError as error:
+            raise NotImplementedError(str(error)) from error
+        if not (case.is_spun_up or model.starts_in_motion):
+            raise NotImplementedError(f"{model.name} does not start on an orbit")
         return simulate(
-            beam, spin_up, element=model, elements=elements, duration=duration, step=step
-        )
-
-    def release(
-        beam: AnyBlade,
-        rotation: SteadyRotation,
-        state: StateOf,
-        *,
-        elements: int,
-        duration: float,
-        step: float,
-    ) -> xr.Dataset:
-        return simulate(
-            beam, rotation, element=model, elements=elements, duration=duration, step=step,
-            initial_state=state,
+            case.blade, case.rotation, element=model, elements=elements, step=step,
+            duration=case.whole_duration(step), loads=case.loads,
+            initial_state=None if case.is_spun_up else partial(case.orbit.state, 0),
         )  # fmt: skip
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(mesh_frequencies(beam, omega, model, elements, 1)[0])
+        return float(Linearization.of(beam, omega, model, elements).frequencies(1)[0])
 
     return Entry(
         name=" ".join([model.name, *options]),
-        simulate=spin,
+        simulate=simulated,
         first_frequency=first,
-        # The orbit does not say how thick its sections are, which that law would need to start.
-        release=None if coupled else release,
-        elements=elements,
-        meshes=meshes,
+        elements=elements or (32 if model.order == _SECOND else 16),
+        meshes=() if elements else model.meshes,
         step=step,
-        theory=theory_of(model),
-        order=order,
+        theory=model.theory,
+        order=model.order,
     )
-
-
-def theory_of(model: Formulation) -> Theory:
-    """Return the theory of a formulation's beam: shear and rotary inertia, where it has them."""
-    if not isinstance(model, Exact | Ancf3):
-        return BERNOULLI_EULER
-    share = shear_share(model.poisson_ratio, model.shear_correction)
-    return Theory(rotary_inertia=True, shear=share)
-
-
-def _declared_order(model: Formulation) -> float | None:
-    """Order in the mesh: of quadratic functions and two points twice that of linear and one."""
-    if isinstance(model, Exact):
-        return 2.0 * (model.nodes - 1)
-    return _ORDERS.get(type(model))
 
 
 def entries_at_hand() -> tuple[Entry, ...]:

@@ -1,8 +1,7 @@
-"""What a history of the tip shows: itself, its amplitude, its nonlinear frequency, its orders."""
+"""Histories of the tip against the reference: q(t), amplitude, nonlinear frequency, orders."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -14,8 +13,8 @@ from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from ..lazily import xr
-from ..oscillation import SteadyOscillation, steady_oscillation
-from ..verdict import beam_attributes
+from ..runs.attributes import beam_attributes
+from ..runs.oscillation import SteadyOscillation, steady_oscillation
 from .cases import Case
 from .convergence import Convergence
 from .outcomes import Finding, Order, Outcome, found_of
@@ -28,7 +27,7 @@ HISTORY_FLOOR = 1e-6
 and what Newton's tolerances may leave."""
 
 LEAST_SHIFT = 5e-4
-"""Of |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
+"""Least |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
 tells of its frequency."""
 
 
@@ -62,7 +61,7 @@ class Histories:
 
     @cached_property
     def differences(self) -> dict[Run, FloatArray]:
-        """Of each run from the reference over max|q|, at the run's own times."""
+        """Differences of each run from the reference over max|q|, at the run's own times."""
         return {run: (run.q - self.reference.history(run.time)) / self.scale for run in self.runs}
 
     @cached_property
@@ -119,8 +118,7 @@ class Histories:
         if isinstance(self.true_oscillation, str):
             note = f"not measured: {self.true_oscillation}"
             return Finding(outcome=Outcome.NO_VERDICT, note=note)
-        assert self.case.motion is not None
-        speed, off = self.case.motion.omega, 0.0 if linear is None else linear.limit
+        speed, off = self.case.rotation.omega, 0.0 if linear is None else linear.limit
         known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
         runs = sorted(known, key=lambda run: (run.elements, -run.step))
         try:
@@ -165,9 +163,8 @@ class Histories:
         return replace(found, difference=difference)
 
     def _oscillation(self, time: FloatArray, q: FloatArray) -> SteadyOscillation | str:
-        motion = self.case.motion
-        assert motion is not None
-        attrs = beam_attributes(self.case.blade) | {"ramp_time": 0.0} | dataclasses.asdict(motion)
+        driven = {"omega": self.case.rotation.omega, "ramp_time": self.case.ramp_time}
+        attrs = beam_attributes(self.case.blade) | driven
         run = xr.Dataset({"q": ("time", q)}, {"time": time}, attrs)
         try:
             return steady_oscillation(run)

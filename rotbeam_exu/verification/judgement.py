@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+import math
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
 
-from analytic import AnyBlade, Theory
+from analytic import AnyBlade
 
-from .backbone import backbone
 from .cases import CASES, Asked, Case
-from .convergence import Convergence
+from .convergence import Convergence, convergence
 from .history import Histories
-from .linear_frequency import linear_frequency
-from .outcomes import Finding, Order, Outcome, worst_of
-from .references import Reference
-from .references import reference as shipped_or_computed
-from .submission import Declaration, Submission
+from .outcomes import Finding, Order, Outcome, found_of, worst_of
+from .references import Reference, reference
+from .submission import BackbonePoint, Declaration, Frequency, Submission
 
 THRESHOLDS = {
     "linear frequency": 2e-4,
@@ -32,12 +31,14 @@ q(t), over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seco
 ω_NL/ω_n - 1 and of backbones: the best third-order model is off by 6 % at a = 0.4.
 """
 
-ReferenceOf = Callable[[Case, Theory], Reference]
+FLOOR = 1e-7
+"""Relative round-off of a mesh's frequency: 1e-8 to 1e-7 of 64 to 128 elements, axial modes being
+10⁸ times stiffer."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Judgement:
-    """What `judged` found.
+    """The result of `judged`.
 
     Attributes
     ----------
@@ -74,7 +75,7 @@ class Judgement:
 
     @property
     def passed(self) -> bool:
-        """Whether something was submitted, and all that can be decided is the reference."""
+        """True where something was submitted, and all that can be decided is the reference."""
         outcomes = [found.outcome.passed for found in self.by_quantity.values()]
         decided = [passed for passed in outcomes if passed is not None]
         return bool(decided) and all(decided)
@@ -103,7 +104,6 @@ def judged(
     submission: Submission,
     *,
     cases: dict[str, Case] | None = None,
-    reference_of: ReferenceOf = shipped_or_computed,
 ) -> Judgement:
     """Judge what a code handed in by where it converges to.
 
@@ -112,8 +112,6 @@ def judged(
     submission : Submission
     cases : dict, optional
         By name; those of the benchmark by default. What was not submitted of them is left out.
-    reference_of : callable
-        (case, theory) -> Reference.
 
     Returns
     -------
@@ -127,94 +125,146 @@ def judged(
     >>> from rotbeam_exu.verification.cases import CASES
     >>> from rotbeam_exu.verification.entries import formulation_entry
     >>> from rotbeam_exu.verification.judgement import judged
-    >>> from rotbeam_exu.verification.measures import handed_in
+    >>> from rotbeam_exu.verification.verify import handed_in
     >>> linear = {"L": CASES["L"]}
     >>> found = judged(handed_in(formulation_entry(Cable()), linear.values()), cases=linear)
     >>> print(found.outcome, found.passed)
     converges to the reference (L) True
     """
     known = CASES if cases is None else cases
-    found: dict[str, _Judged] = {}
+    findings: dict[str, dict[str, Finding]] = {}
+    orders: dict[str, dict[str, Order]] = {}
+    histories: dict[str, Histories] = {}
+    sources: dict[str, str] = {}
     linear: dict[float, Convergence] = {}
     blade: AnyBlade | None = None
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
     for case in sorted(known.values(), key=lambda one: list(Asked).index(one.asked)):
-        if not _handed_in(submission, case):
+        name = case.name
+        if not submission.has(case):
             continue
+        orders[name], sources[name] = {}, "none"
         try:
-            reference = reference_of(case, submission.declaration.theory)
+            truth = reference(case, submission.declaration.theory)
         except (RuntimeError, ValueError) as error:
-            note = f"no reference: {error}"
-            nothing = Finding(outcome=Outcome.NO_VERDICT, note=note)
-            found[case.name] = _Judged(findings=dict.fromkeys(_quantities(case), nothing))
+            nothing = Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+            findings[name] = dict.fromkeys(case.quantities, nothing)
             continue
+        sources[name] = truth.source
         own = linear if case.blade == blade else dict[float, Convergence]()
         if case.asked is Asked.FREQUENCIES:
-            finding, linear = linear_frequency(
-                submission, reference, THRESHOLDS["linear frequency"]
-            )
-            found[case.name], blade = _Judged(findings={"linear frequency": finding}), case.blade
+            (quantity,), blade = case.quantities, case.blade
+            found, linear = _linear_frequency(submission, truth, THRESHOLDS[quantity])
+            findings[name] = {quantity: found}
         elif case.asked is Asked.BACKBONE:
-            finding = backbone(submission, reference, THRESHOLDS["backbone"], own)
-            found[case.name] = _Judged(findings={"backbone": finding})
+            (quantity,) = case.quantities
+            found = _backbone(submission, truth, THRESHOLDS[quantity], own)
+            findings[name] = {quantity: found}
         else:
-            found[case.name] = _of_history(submission, reference, own)
-        found[case.name].source = reference.source
-    in_order = {name: found[name] for name in known if name in found}
+            seen = _histories(submission, truth)
+            if isinstance(seen, Finding):
+                findings[name] = dict.fromkeys(case.quantities, seen)
+            else:
+                histories[name] = seen
+                findings[name], orders[name] = _of_histories(seen, own)
+    names = [name for name in known if name in findings]
     return Judgement(
         declaration=submission.declaration,
-        findings={name: one.findings for name, one in in_order.items()},
-        orders={name: one.orders for name, one in in_order.items()},
-        histories={name: one.histories for name, one in in_order.items() if one.histories},
-        sources={name: one.source for name, one in in_order.items()},
+        findings={name: findings[name] for name in names},
+        orders={name: orders[name] for name in names},
+        histories={name: histories[name] for name in names if name in histories},
+        sources={name: sources[name] for name in names},
     )
 
 
-@dataclass(kw_only=True)
-class _Judged:
-    findings: dict[str, Finding]
-    orders: dict[str, Order] = field(default_factory=dict)
-    histories: Histories | None = None
-    source: str = "none"
-
-
-def _handed_in(submission: Submission, case: Case) -> bool:
-    if case.asked is Asked.FREQUENCIES:
-        return bool(submission.frequencies)
-    if case.asked is Asked.BACKBONE:
-        return bool(submission.backbone)
-    return any(run.case == case.name for run in submission.runs)
-
-
-def _quantities(case: Case) -> tuple[str, ...]:
-    if case.asked is Asked.FREQUENCIES:
-        return ("linear frequency",)
-    if case.asked is Asked.BACKBONE:
-        return ("backbone",)
-    return ("history", "amplitude", "nonlinear shift") if case.oscillates else ("history",)
-
-
-def _of_history(
-    submission: Submission, reference: Reference, linear: Mapping[float, Convergence]
-) -> _Judged:
-    """Judge the runs of a case; what the code refuses on its finest mesh, it cannot do."""
-    case = reference.case
-    runs = [run for run in submission.runs if run.case == case.name]
+def _histories(submission: Submission, truth: Reference) -> Histories | Finding:
+    """Return the runs of a case; what the code refuses on its finest mesh, it cannot do."""
+    runs = [run for run in submission.runs if run.case == truth.case.name]
     finest = max(runs, key=lambda run: (run.elements, -run.step))
     if finest.failure:
-        nothing = Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
-        return _Judged(findings=dict.fromkeys(_quantities(case), nothing))
-    histories = Histories(
-        case=case,
+        return Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
+    return Histories(
+        case=truth.case,
         runs=tuple(run for run in runs if not run.failure),
-        reference=reference,
+        reference=truth,
         declaration=submission.declaration,
     )
-    history, orders = histories.deflection(THRESHOLDS["history"])
+
+
+def _of_histories(
+    seen: Histories, linear: Mapping[float, Convergence]
+) -> tuple[dict[str, Finding], dict[str, Order]]:
+    """Return what is found of the runs of a case, by quantity, and their orders."""
+    history, orders = seen.deflection(THRESHOLDS["history"])
     findings = {"history": history}
-    if case.oscillates and case.motion is not None:
-        own = linear.get(case.motion.omega)
-        findings["amplitude"] = histories.amplitude(THRESHOLDS["amplitude"])
-        shift = histories.shift(THRESHOLDS["nonlinear shift"], own)
+    if seen.case.oscillates:
+        findings["amplitude"] = seen.amplitude(THRESHOLDS["amplitude"])
+        own = linear.get(seen.case.rotation.omega)
+        shift = seen.shift(THRESHOLDS["nonlinear shift"], own)
         findings |= {} if shift is None else {"nonlinear shift": shift}
-    return _Judged(findings=findings, orders=orders, histories=histories)
+    return findings, orders
+
+
+def _linear_frequency(
+    submission: Submission, reference: Reference, tolerance: float
+) -> tuple[Finding, dict[float, Convergence]]:
+    """Return the worst finding of the first frequency over the speeds, and its limits by speed.
+
+    They are of ω_n over the reference, less one. A coarse mesh that the code refuses is left out;
+    the finest says that it does not converge. A speed that the theory refuses is no verdict.
+    """
+    rows: dict[float, list[Frequency]] = defaultdict(list)
+    for one in sorted(submission.frequencies, key=lambda one: (one.speed, one.elements)):
+        rows[one.speed].append(one)
+    if not rows:
+        return Finding(outcome=Outcome.NOT_SUBMITTED, note="no frequencies"), {}
+
+    def finding(speed: float) -> Finding:
+        try:
+            true = reference.first_frequency(speed)
+        except ValueError as error:
+            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+        if rows[speed][-1].failure:
+            return Finding(outcome=Outcome.NO_LIMIT, note=rows[speed][-1].failure)
+        done = [one for one in rows[speed] if not one.failure]
+        values = [one.frequency / true - 1.0 for one in done]
+        sizes, declared = [1.0 / one.elements for one in done], submission.declaration.order
+        runs = convergence(sizes, values, noise=FLOOR, declared=declared)
+        where = f"at {speed:g} rad/s"
+        return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
+
+    found = {speed: finding(speed) for speed in rows}
+    runs = {speed: one.runs for speed, one in found.items() if one.runs is not None}
+    limits = {speed: one for speed, one in runs.items() if math.isfinite(one.limit)}
+    return worst_of(list(found.values())), limits
+
+
+def _backbone(
+    submission: Submission,
+    reference: Reference,
+    tolerance: float,
+    linear: Mapping[float, Convergence],
+) -> Finding:
+    """Return the worst finding of ω_NL/ω_n - 1 over speeds and amplitudes.
+
+    `linear` is, by speed, the limit of the code's ω_n/ω_n,exact - 1; without it ω_n is exact.
+    """
+    rows: dict[tuple[float, float], list[BackbonePoint]] = defaultdict(list)
+    for point in submission.backbone:
+        rows[point.speed, point.amplitude].append(point)
+    found, declared = [], submission.declaration.order
+    for (speed, amplitude), points in rows.items():
+        where = f"at {speed:g} rad/s and a = {amplitude:g}"
+        try:
+            true = reference.frequency_at(amplitude, speed)
+            shift = true / reference.first_frequency(speed) - 1.0
+        except (RuntimeError, ValueError) as error:
+            note = f"no reference {where}: {error}"
+            found.append(Finding(outcome=Outcome.NO_VERDICT, note=note))
+            continue
+        off, doubt = (linear[speed].limit, linear[speed].bar) if speed in linear else (0.0, 0.0)
+        values = [(point.frequency / true - 1.0 - off) / shift for point in points]
+        runs = convergence([1.0 / one.elements for one in points], values, declared=declared)
+        bound = (reference.bound + doubt) / abs(shift)
+        found.append(found_of(runs, tolerance=tolerance, bound=bound, where=where))
+    return worst_of(found)

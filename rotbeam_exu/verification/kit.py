@@ -1,38 +1,78 @@
-"""The kit: all that an author of a code needs to take part, in any language, as plain files."""
+"""The kit: all that an author of a code needs to take part, in any language, as plain files.
+
+Its problem statement, PROBLEM.pdf, is typeset anew by `python -m rotbeam_exu.verification.kit`,
+which needs the package typst: the group `kit`, which `make references` installs.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
-import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, is_dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
-from analytic.description import describe
 
-from .cases import CASES, VERSION, Asked, Case, starting_orbit
+from .cases import CASES, VERSION, Asked, Case, stated
 from .judgement import THRESHOLDS
 from .references import reference
-from .submission_files.histories import FARTHEST
+from .submission_files.runs import FARTHEST
 from .submission_files.tables import DIGITS
 
 STATIC = Path(__file__).parent / "data" / "kit"
-"""What is in every kit as it stands: the problem, starters, a sample submission."""
+"""Files that every kit has as they stand: the problem, starters, a sample submission."""
+
+SOURCE, PDF = STATIC / "problem.typ", STATIC / "PROBLEM.pdf"
+DIGEST = STATIC / "PROBLEM.sha256"
+"""SHA-256 of the source and the numbers that the PDF was made from."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of cases.csv: its name, its unit, and the cell of a case that has none.
+
+    PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
+    """
+
+    name: str
+    unit: str
+    nothing: float | None = None
+    besides: str = ""
+
+
+_TIP_MASS = Column("tip_mass", "kg", 0.0, "mass at the tip {} kg")
+_ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
+_WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
+_OMEGA = Column("omega", "rad/s")
+COLUMNS = {
+    "length": Column("L", "m"),
+    "section.axial_stiffness": Column("EA", "N"),
+    "section.bending_stiffness": Column("EI", "N m^2"),
+    "section.mass_per_length": Column("rhoA", "kg/m"),
+    "hub_radius": Column("hub_radius", "m", 0.0),
+    "point_masses.PointMass.mass": _TIP_MASS,
+    "point_masses.PointMass.position": Column("L", "m"),
+    "damping.bending": Column("bending_damping", "s", 0.0, _ETA),
+    "loads.Gravity.gravity": Column("gravity", "m/s^2", 0.0, _WEIGHT),
+    "motion.SpinUp.omega": _OMEGA,
+    "motion.SteadyRotation.omega": _OMEGA,
+    "motion.SpinUp.ramp_time": Column("T", "s"),
+}
+"""Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
 
 MESHES = (8, 16, 32, 64, 128)
 """Numbers of elements at whose nodes an orbit is written; those of order two need the last ones."""
 
-_SOURCES = {"problem.typ", "PROBLEM.sha256"}  # of the PDF, which is what an author wants
+_SOURCES = {SOURCE.name, DIGEST.name}  # of the PDF, which is what an author wants
 
 SPACING = 0.01
-"""Of drives and of the history for self-check [s]."""
+"""Time between the samples of drives and of the history for self-check [s]."""
 
 
 def write_kit(folder: str | os.PathLike[str]) -> Path:
@@ -54,25 +94,21 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         what = "is not empty" if target.is_dir() else "is a file"
         raise FileExistsError(f"{target} {what}: name a folder that is new, or empty")
-    contents, made = kit_files(), None
+    contents, above = kit_files(), target.absolute().parent
     try:
-        target.absolute().parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(prefix=".kit-", dir=target.absolute().parent))
-        for name, content in contents.items():
-            path = made / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
-        made.chmod(0o755)
-        if target.exists():
-            target.rmdir()
-        made.rename(target)
+        above.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".kit-", dir=above) as aside:
+            made = Path(aside, "kit")
+            for name, content in contents.items():
+                path = made / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+            if target.exists():
+                target.rmdir()
+            made.rename(target)
     except OSError as error:
-        raise OSError(
-            f"cannot write to {target.parent}: {error.strerror or error}; choose another folder"
-        ) from error
-    finally:
-        if made is not None:
-            shutil.rmtree(made, ignore_errors=True)
+        why = f"{error.strerror or error}; choose another folder"
+        raise OSError(f"cannot write to {target.parent}: {why}") from error
     return target
 
 
@@ -104,74 +140,45 @@ def row_of(case: Case) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If the case has what these names cannot say.
+        If the case has what no column says.
     """
-    blade = case.blade.blade
-    ramp = case.motion.ramp_time if isinstance(case.motion, SpinUp) else None
-    row = {
+    told, lost = dict[str, float](), []
+    for part, value in sorted(_parts_of(case)):
+        name = COLUMNS[part].name if part in COLUMNS else ""
+        if not (name and isinstance(value, float)) or told.setdefault(name, value) != value:
+            lost.append(part)
+    if lost:
+        raise ValueError(
+            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
+            "COLUMNS, or leave it out of the case"
+        )
+    return {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
-        "L": blade.length,
-        "EA": blade.axial_stiffness,
-        "EI": blade.bending_stiffness,
-        "rhoA": blade.mass_per_length,
-        "hub_radius": blade.hub_radius,
-        "tip_mass": float(sum(mass.mass for mass in blade.point_masses)),
-        "bending_damping": blade.damping.bending,
-        "gravity": sum(load.gravity for load in case.loads if isinstance(load, Gravity)),
-        "omega": None if case.motion is None else case.motion.omega,
-        "T": ramp,
+        **{one.name: told.get(one.name, one.nothing) for one in COLUMNS.values()},
         "duration": case.duration or None,
         "speeds": list(case.speeds),
         "amplitudes": list(case.amplitudes),
     }
-    asked, said = _parts(blade, case.motion, case.loads), _parts(*_said(row))
-    lost = [name for name in sorted(asked | said) if asked.get(name) != said.get(name)]
-    if lost:
-        raise ValueError(
-            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
-            "row_of and to the problem, or leave it out of the case"
-        )
-    return row
 
 
-def _said(row: dict[str, Any]) -> tuple[Blade, SpinUp | SteadyRotation | None, tuple[Gravity, ...]]:
-    """Return what an author makes of a row."""
-    section = Section(
-        axial_stiffness=row["EA"], bending_stiffness=row["EI"], mass_per_length=row["rhoA"]
-    )
-    tip, omega, ramp = row["tip_mass"], row["omega"], row["T"]
-    blade = Blade(
-        length=row["L"],
-        section=section,
-        hub_radius=row["hub_radius"],
-        point_masses=(PointMass(position=row["L"], mass=tip),) if tip else (),
-        damping=Damping(bending=row["bending_damping"]),
-    )
-    steady = None if omega is None else SteadyRotation(omega=omega)
-    motion = SpinUp(omega=omega, ramp_time=ramp) if ramp else steady
-    return blade, motion, (Gravity(row["gravity"]),) if row["gravity"] else ()
+def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
+    """Yield what blade, motion and loads state, by the names of where it stands."""
+    yield from _parts("", case.blade.blade)
+    yield from _parts("motion.", (case.motion,) if case.motion else ())
+    yield from _parts("loads.", case.loads)
 
 
-def _parts(blade: Blade, motion: Any, loads: Sequence[Any]) -> dict[str, Any]:
-    """Return all numbers by the names of where they stand, to be compared."""
-    told = describe(blade)
-    section, damping = told.pop("section"), told.pop("damping")
-    return {
-        **told,
-        **{f"section.{name}": value for name, value in section.items()},
-        **{f"damping.{name}": value for name, value in damping.items()},
-        "motion": motion,
-        "loads": tuple(loads),
-    }
-
-
-_UNITS = {
-    "L": "m", "EA": "N", "EI": "N m^2", "rhoA": "kg/m", "hub_radius": "m", "tip_mass": "kg",
-    "bending_damping": "s", "gravity": "m/s^2", "omega": "rad/s", "T": "s", "duration": "s",
-    "speeds": "rad/s", "amplitudes": "1",
-}  # fmt: skip
+def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, tuple) and len(value) == 1:
+        (value,) = value
+        path += f"{type(value).__name__}."
+    if is_dataclass(value):
+        for name, part in stated(value).items():
+            yield from _parts(f"{path}{name}.", part)
+    elif value != ():
+        yield path.rstrip("."), value
 
 
 def _cases_csv() -> str:
@@ -187,9 +194,10 @@ def _cell(value: Any) -> str:
 
 
 def _cases_json() -> str:
+    units = {one.name: one.unit for one in COLUMNS.values()}
     document = {
         "benchmark": VERSION,
-        "units": _UNITS,
+        "units": units | {"duration": "s", "speeds": "rad/s", "amplitudes": "1"},
         "cases": [row_of(case) | {"title": case.title} for case in CASES.values()],
         "thresholds": THRESHOLDS,
         "samples": {"largest distance [s]": FARTHEST, "least significant digits": DIGITS},
@@ -199,9 +207,7 @@ def _cases_json() -> str:
 
 def _drive(case: Case) -> str:
     """Return angle, rate and acceleration of the clamp."""
-    assert case.motion is not None
-    time = _times(case)
-    motion = case.motion
+    time, motion = _times(case), case.rotation
     columns = {
         "t": time,
         "theta": motion.angle(time),
@@ -214,16 +220,12 @@ def _drive(case: Case) -> str:
 
 def _start(case: Case, elements: int) -> str:
     """Return an exact orbit at the nodes of a mesh, at phase 0."""
-    orbit, x = starting_orbit(case), np.linspace(0.0, case.blade.length, elements + 1)
+    orbit, x = case.orbit, np.linspace(0.0, case.blade.length, elements + 1)
     state = orbit.state(0, x)
     slope = 1.0 + state.u_slope + 1j * state.v_slope
     slope_dot = state.u_slope_dot + 1j * state.v_slope_dot
     positions = {"x": x, "X": x + state.u, "Y": state.v, "angle": np.angle(slope)}
-    rates = {
-        "X_dot": state.u_dot,
-        "Y_dot": state.v_dot,
-        "angle_dot": (slope_dot / slope).imag,
-    }
+    rates = {"X_dot": state.u_dot, "Y_dot": state.v_dot, "angle_dot": (slope_dot / slope).imag}
     slopes = {"X_slope": slope.real, "Y_slope": slope.imag}
     slope_rates = {"X_slope_dot": slope_dot.real, "Y_slope_dot": slope_dot.imag}
     said = (
@@ -248,3 +250,45 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
     rows: Sequence[Sequence[float]] = np.column_stack(list(columns.values())).tolist()
     lines = [",".join(f"{value:.17g}" for value in row) for row in rows]
     return "\n".join([f"# {said}", ",".join(columns), *lines, ""])
+
+
+def problem_numbers() -> str:
+    """Return what the problem's source takes from here, as JSON: cases, thresholds, S1."""
+    case = CASES["S1"]
+    times = np.linspace(0.0, case.duration, 601)
+    document = {
+        "version": VERSION,
+        "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
+        "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
+        "farthest": FARTHEST,
+        "digits": DIGITS,
+        "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
+    }
+    return json.dumps(document)
+
+
+def _besides(case: Case) -> list[str]:
+    """Return what the problem says of a case beside its beam and motion, in Typst's markup."""
+    row = row_of(case)
+    listed = {"$omega$: {} rad/s": case.speeds, "$a$: {}": case.amplitudes}
+    said = [text.format(", ".join(f"{x:g}" for x in of)) for text, of in listed.items() if of]
+    told = {one.name: one for one in COLUMNS.values() if one.besides and row[one.name]}
+    said += [one.besides.format(f"{row[name]:.8g}") for name, one in told.items()]
+    return [*said, "starts on an orbit"] if case.motion and not case.is_spun_up else said
+
+
+def problem_digest() -> str:
+    """Return the SHA-256 of the present source and numbers of the problem."""
+    return hashlib.sha256(SOURCE.read_bytes() + problem_numbers().encode()).hexdigest()
+
+
+def typeset(**options: Any) -> Any:
+    """Return the problem as the bytes of a PDF, or what `options` of typst.compile ask for."""
+    import typst  # noqa: PLC0415
+
+    return typst.compile(str(SOURCE), sys_inputs={"data": problem_numbers()}, **options)
+
+
+if __name__ == "__main__":
+    PDF.write_bytes(typeset())
+    DIGEST.write_text(problem_digest() + "\n", encoding="utf-8")

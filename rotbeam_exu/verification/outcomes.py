@@ -1,4 +1,4 @@
-"""What can be said of a code: where it converges to, or why nothing can be said."""
+"""Outcomes of the judgement of a code: where it converges to, or why nothing can be said."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from enum import StrEnum
 from .convergence import Convergence
 
 LEAST_SHARE = 0.7
-"""Of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
+"""Least share of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
 
 
 class Outcome(StrEnum):
-    """What is found of one quantity, the best first."""
+    """Outcome of one quantity, the best first."""
 
     REFERENCE = "converges to the reference"
     NOT_SUBMITTED = "not submitted"
@@ -23,7 +23,7 @@ class Outcome(StrEnum):
 
     @property
     def passed(self) -> bool | None:
-        """Whether the code is right; None where it cannot be said, which is not its fault."""
+        """True where the code is right; None where it cannot be said, which is not its fault."""
         if self in (Outcome.NOT_SUBMITTED, Outcome.NO_VERDICT):
             return None
         return self is Outcome.REFERENCE
@@ -94,7 +94,7 @@ class Order:
 
     @property
     def low(self) -> bool:
-        """Whether it is less than LEAST_SHARE of the declared one."""
+        """True where it is less than LEAST_SHARE of the declared one."""
         return self.declared is not None and self.value < LEAST_SHARE * self.declared
 
     def __str__(self) -> str:

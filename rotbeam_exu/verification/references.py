@@ -1,25 +1,28 @@
-"""The truth of each case: shipped where it can be, computed where theory or blade are others."""
+"""The exact answer of each case: shipped, or computed where theory or blade are others."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import AnyBlade, linear_modes, periodic_orbits
+from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import CASES, Asked, Case
-from .sampled import sampled_history, spline
-from .shipped import FILE, Shipped, shipped
+from .shipped import FILE, Shipped, shipped, spline
 
 COMPUTED_BOUND = 1e-9
 """Relative error of computed frequencies: to it they settle."""
+
+_BEYOND = 20  # samples beyond the end, for a last step that is longer
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,6 +44,8 @@ class Reference:
     bound: float
     source: str
     _history: interpolate.BSpline | None = field(default=None, repr=False)
+    # Orbits take a second each, and the search for mistakes asks for the same ones again.
+    _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
 
     def history(self, times: ArrayLike) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.
@@ -73,7 +78,11 @@ class Reference:
 
     def first_frequency(self, speed: float) -> float:
         """Return ω_n [rad/s] in steady rotation at `speed` [rad/s]; ValueError if refused."""
-        return _first_frequency(self.theory, self.case.blade, speed)
+        data = _shipped_of(self.theory)
+        here = None if data is None else data.first_frequency(self.case.blade, speed)
+        if here is not None:
+            return here
+        return float(linear_modes(self.case.blade, speed, 1, theory=self.theory).frequencies[0])
 
     def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
         """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.
@@ -95,15 +104,22 @@ class Reference:
 
     def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
         """Return what `frequency_at` does, of several amplitudes: what is computed, in one go."""
-        if speed is None:
-            if self.case.motion is None:
-                raise ValueError(f"case {self.case.name} has several speeds: say which")
-            speed = self.case.motion.omega
-        at = tuple(map(float, amplitudes))
-        return np.array(_frequencies_at(self.theory, self.case.blade, speed, at))
+        speed = self.case.rotation.omega if speed is None else speed
+        data, blade, known = _shipped_of(self.theory), self.case.blade, self._known
+        at = [(speed, float(a)) for a in amplitudes]
+        for place in set(at) - set(known):
+            here = data.frequency_at(blade, *place) if data else None
+            if here is not None:
+                known[place] = here
+        missing = sorted(set(at) - set(known))
+        if missing:
+            # One backbone, for orbits are found from their neighbors.
+            found = periodic_orbits(blade, speed, [a for _, a in missing], theory=self.theory)
+            known.update(zip(missing, found.frequency.tolist(), strict=True))
+        return np.array([known[place] for place in at])
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask
 def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
     """Return the exact answer of a case: shipped of Bernoulli and Euler's beam, else computed.
 
@@ -122,22 +138,16 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
         If its history does not settle, or the shipped data cannot be read.
     """
     data = _shipped_of(theory)
+    bound, source, found = COMPUTED_BOUND, f"computed from the exact beam, {theory.name}", None
     if case.asked is not Asked.HISTORY:
-        here = data if case in (CASES["L"], CASES["B"]) else None
-        return Reference(
-            case=case,
-            theory=theory,
-            bound=COMPUTED_BOUND if here is None else here.frequency_bound,
-            source=_computed(theory) if here is None else here.source,
-        )
-    found = None if data is None else data.history(case)
-    if data is not None and found is not None:
-        (history, bound), source = found, data.source
+        if data and case in (CASES["L"], CASES["B"]):
+            bound, source = data.frequency_bound, data.source
+    elif data and (here := data.history(case)):
+        (found, bound), source = here, data.source
     else:
         samples = sampled_history(case, theory)
-        history, bound = spline(samples.time, samples.q), samples.error
-        source = _computed(theory)
-    return Reference(case=case, theory=theory, bound=bound, source=source, _history=history)
+        found, bound = spline(samples.time, samples.q), samples.error
+    return Reference(case=case, theory=theory, bound=bound, source=source, _history=found)
 
 
 def _shipped_of(theory: Theory) -> Shipped | None:
@@ -145,30 +155,45 @@ def _shipped_of(theory: Theory) -> Shipped | None:
     return shipped() if theory == BERNOULLI_EULER and FILE.exists() else None
 
 
-def _computed(theory: Theory) -> str:
-    return f"computed from the exact beam, {theory.name}"
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sampled:
+    """A history of the tip as samples that a spline joins.
+
+    Attributes
+    ----------
+    time, q : ndarray (samples,)
+        [s], [m].
+    error : float
+        Over max|q|: of the samples by the next coarser computation, and of the spline by the
+        computation halfway between them.
+    """
+
+    time: FloatArray
+    q: FloatArray
+    error: float
 
 
-@lru_cache(maxsize=256)
-def _first_frequency(theory: Theory, blade: AnyBlade, speed: float) -> float:
-    data = _shipped_of(theory)
-    here = None if data is None else data.first_frequency(blade, speed)
-    return (
-        float(linear_modes(blade, speed, 1, theory=theory).frequencies[0]) if here is None else here
-    )
+def sampled_history(
+    case: Case, theory: Theory, *, tolerance: float = 1e-6, spacing: float | None = None
+) -> Sampled:
+    """Compute a history: a spin-up to `tolerance` over max|q|, an orbit to its residual.
 
-
-@lru_cache(maxsize=256)
-def _frequencies_at(
-    theory: Theory, blade: AnyBlade, speed: float, amplitudes: tuple[float, ...]
-) -> tuple[float, ...]:
-    data, found = _shipped_of(theory), dict[float, float]()
-    for a in amplitudes:
-        here = None if data is None else data.frequency_at(blade, speed, a)
-        found |= {} if here is None else {a: here}
-    missing = sorted(set(amplitudes) - set(found))
-    if missing:
-        # One backbone, for orbits are found from their neighbors.
-        frequencies = periodic_orbits(blade, speed, missing, theory=theory).frequency.tolist()
-        found |= dict(zip(missing, frequencies, strict=True))
-    return tuple(found[a] for a in amplitudes)
+    Samples are `spacing` [s] apart, or some 400 in a period. RuntimeError if the history is not
+    reached, ValueError if theory has no answer.
+    """
+    blade, motion = case.blade, cast("SpinUp", case.rotation)
+    if spacing is None:
+        spacing = 0.015 / max(blade.omega_0, motion.omega / 3.0)
+    count = math.ceil(case.duration / spacing) + _BEYOND
+    time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
+    if case.is_spun_up:
+        found = spin_up_response(
+            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
+        )
+        q, error = found.q, found.error
+    else:
+        orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
+        q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())
+    between = spline(time[::2], q[::2])(time[1::2]) - q[1::2]
+    error += float(np.abs(between).max() / np.abs(q).max())
+    return Sampled(time=time[::2], q=q[::2], error=error)

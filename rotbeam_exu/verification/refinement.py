@@ -33,12 +33,12 @@ class Refinement:
 
     @property
     def finest(self) -> Run:
-        """Of the finest mesh, at its smallest step."""
+        """Run of the finest mesh, at its smallest step."""
         return max((*self.meshes, *self.steps), key=lambda run: (run.elements, -run.step))
 
     @property
     def steps_are_refined(self) -> bool:
-        """Whether the error of the step can be told, by itself or together with the mesh's."""
+        """True where the error of the step can be told, by itself or together with the mesh's."""
         return bool(self.steps) or len({run.step for run in self.meshes}) > 1
 
 
@@ -63,15 +63,9 @@ def refinement(runs: Sequence[Run]) -> Refinement:
 def limit_of_numbers(
     rows: Refinement, measured: Mapping[Run, tuple[float, float]], declaration: Declaration
 ) -> Convergence:
-    """Return what a number tends to in mesh and step together, as the convergence in the mesh.
+    """Return the limit of a number in mesh and step together, as the convergence in the mesh.
 
-    Parameters
-    ----------
-    rows : Refinement
-    measured : mapping
-        The number that each run showed, and the bar of what measured it.
-    declaration : Declaration
-        The orders that the author expects.
+    `measured` has the number that each run showed, and the bar of what measured it.
     """
 
     def of(runs: tuple[Run, ...], sizes: list[float], declared: float | None) -> Convergence:
@@ -90,16 +84,10 @@ def limit_of_numbers(
 def limit_of_histories(
     rows: Refinement, histories: Mapping[Run, FloatArray], noise: float, declaration: Declaration
 ) -> tuple[Convergence, Convergence | None, FloatArray]:
-    """Return what histories tend to in mesh and step together.
+    """Return the limit of histories in mesh and step together.
 
-    Parameters
-    ----------
-    rows : Refinement
-    histories : mapping
-        Of each run, over the scale by which they are measured, at the same times.
-    noise : float
-        Largest error of a history that neither mesh nor step explains.
-    declaration : Declaration
+    They are over the scale by which they are measured, at the same times; `noise` is their largest
+    error that neither mesh nor step explains.
 
     Returns
     -------

@@ -24,22 +24,13 @@ from analytic.theory import BERNOULLI_EULER
 from ..lazily import xr
 from . import shipped
 from .cases import CASES, VERSION, Case
-from .sampled import Sampled, sampled_history
-from .shipped import (
-    DURATION,
-    FILE,
-    amplitudes,
-    key,
-    said,
-    shipped_backbones,
-    shipped_histories,
-)
+from .references import Sampled, sampled_history
 
 SPACING = 5e-3
-"""Of the shipped samples [s]."""
+"""Time between the shipped samples [s]."""
 
 TOLERANCES = {"S1+g": 2e-6}
-"""Of histories over max|q|, 1e-8 of others: gravity sets in at once and moves the highest modes."""
+"""Tolerance of q over max|q|, 1e-8 of others: gravity sets in at once, and moves high modes."""
 
 _WORST = 1e-8  # relative error of ω_NL between the points of a backbone
 _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress
@@ -47,9 +38,9 @@ _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compres
 
 def dataset(commit: str) -> xr.Dataset:
     """Compute all shipped data, for the commit that makes them."""
-    cases = shipped_histories()
+    cases = shipped.shipped_histories()
     found = {name: history(cases[name]) for name in track(list(cases), "histories")}
-    places = shipped_backbones()
+    places = shipped.shipped_backbones()
     curves = {name: backbone(*places[name]) for name in track(list(places), "backbones")}
     linear = CASES["L"]
     frequencies = [float(linear_modes(linear.blade, w, 1).frequencies[0]) for w in linear.speeds]
@@ -71,15 +62,15 @@ def dataset(commit: str) -> xr.Dataset:
         {
             "q": (("history", "time"), [one.q for one in found.values()]),
             "bound": ("history", [one.error for one in found.values()]),
-            "history_of": ("history", [said(key(cases[name])) for name in found]),
+            "history_of": ("history", [shipped.said(shipped.key(cases[name])) for name in found]),
             "omega_n": ("backbone", [one[0] for one in curves.values()]),
-            "backbone_of": ("backbone", [said(places[name]) for name in curves]),
+            "backbone_of": ("backbone", [shipped.said(places[name]) for name in curves]),
             "curvature": (("backbone", "amplitude"), [one[1] for one in curves.values()]),
             "first_frequency": ("speed", frequencies),
         },
         {
             "history": list(found), "time": first.time, "backbone": list(curves),
-            "amplitude": amplitudes(), "speed": list(linear.speeds),
+            "amplitude": shipped.amplitudes(), "speed": list(linear.speeds),
         },
         {
             "title": "Reference data of the rotating beam benchmark",
@@ -97,7 +88,7 @@ def dataset(commit: str) -> xr.Dataset:
 def history(case: Case) -> Sampled:
     """Compute one history, rounded."""
     tolerance = TOLERANCES.get(case.name, 1e-8)
-    case = replace(case, duration=DURATION)
+    case = replace(case, duration=shipped.DURATION)
     found = sampled_history(case, BERNOULLI_EULER, tolerance=tolerance, spacing=SPACING)
     # A power of two, so that rounding leaves trailing zeros in the mantissa.
     quantum = 2.0 ** np.floor(np.log2(_QUANTUM * np.abs(found.q).max()))
@@ -111,7 +102,7 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     functions again. Beyond the amplitude where that of the spline exceeds _WORST, or orbits are
     not reached, the curvature is NaN.
     """
-    at = amplitudes()
+    at = shipped.amplitudes()
     halfway = 0.5 * (at[2:] + at[1:-1])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # a resonance that is known to be near
@@ -146,16 +137,16 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
 def write(data: xr.Dataset) -> None:
     """Write the file of the package, and its digest into the code that reads it."""
     packed = {name: {"zlib": True, "complevel": 9, "shuffle": True} for name in ("q", "curvature")}
-    FILE.parent.mkdir(exist_ok=True)
-    data.to_netcdf(FILE, engine="h5netcdf", encoding=packed)
-    found = hashlib.sha256(FILE.read_bytes()).hexdigest()
+    shipped.FILE.parent.mkdir(exist_ok=True)
+    data.to_netcdf(shipped.FILE, engine="h5netcdf", encoding=packed)
+    found = hashlib.sha256(shipped.FILE.read_bytes()).hexdigest()
     code = Path(shipped.__file__).read_text(encoding="utf-8")
     code = re.sub(r'^DIGEST = "[0-9a-f]*"', f'DIGEST = "{found}"', code, flags=re.MULTILINE)
     Path(shipped.__file__).write_text(code, encoding="utf-8")
 
 
 def main() -> None:
-    """Compute and write all data; their commit is said to be dirty if something is not in it."""
+    """Compute and write all data; their commit is told dirty if something is not in it."""
     root = Path(__file__).parents[2]
     described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
     commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import io
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,23 +15,25 @@ from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
+from ..lazily import xr
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
-from .cases import CASES, VERSION, Asked, Case, spin_up_case
-from .sampled import spline
-
-if TYPE_CHECKING:
-    import xarray as xr
+from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
 DIGEST = "0ba10ced1247adbbac635b42d7b3fd46d6edf850deb1f073d763e09de5890e87"
-"""SHA-256 of the file: all verdicts stand on it, and no other is taken."""
+"""SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
 
 DURATION = 20.0
-"""Of the shipped histories [s]."""
+"""End of the shipped histories [s]."""
+
+
+def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
+    """Return the quintic spline through samples."""
+    return interpolate.make_interp_spline(time, q, k=5)
 
 
 def shipped_histories() -> dict[str, Case]:
@@ -49,9 +51,9 @@ def shipped_histories() -> dict[str, Case]:
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     """Return the blades and speeds [rad/s] whose backbones are shipped, by the name of a case."""
     return {
-        case.name: (case.blade, case.motion.omega)
+        case.name: (case.blade, case.rotation.omega)
         for case in CASES.values()
-        if case.oscillates and case.motion is not None and not case.amplitudes
+        if case.oscillates and case.is_spun_up
     }
 
 
@@ -61,22 +63,18 @@ def key(case: Case) -> tuple[Any, ...]:
 
 
 def said(value: Any) -> str:
-    """Return all numbers behind a history or a backbone, by which the file knows it.
-
-    What is nothing by default is left out: a blade that learns to have more stays the same.
-    """
+    """Return all numbers behind a history or a backbone, by which the file knows it."""
     if isinstance(value, tuple):
         return f"({', '.join(map(said, value))})"
     if not is_dataclass(value):
         return repr(value)
-    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
-    stated = [f"{name}={said(part)}" for name, part, default in parts if part or part != default]
-    return f"{type(value).__name__}({', '.join(stated)})"
+    parts = (f"{name}={said(part)}" for name, part in stated(value).items())
+    return f"{type(value).__name__}({', '.join(parts)})"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shipped:
-    """What the file holds.
+    """The content of the file.
 
     Attributes
     ----------
@@ -96,63 +94,41 @@ class Shipped:
             f"(SHA-256 {DIGEST[:12]}), {attrs['method']}, made at commit {attrs['commit']}"
         )
 
-    @cached_property
-    def _places(self) -> dict[tuple[Any, ...], str]:
-        of = dict(zip(*self._listed("history"), strict=True))
-        return {
-            key(case): name
-            for name, case in shipped_histories().items()
-            if of.get(name) == said(key(case))
-        }
-
-    def _listed(self, dimension: str) -> tuple[list[str], list[str]]:
-        """Return the names along a dimension, and what each was made of."""
-        return self.data[dimension].to_numpy().tolist(), self.data[
-            f"{dimension}_of"
-        ].to_numpy().tolist()
+    def _names(self, dimension: str) -> dict[str, str]:
+        """Return the names along a dimension by what each thing was made of."""
+        of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
+        return dict(zip(of.tolist(), names.tolist(), strict=True))
 
     def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._places.get(key(case))
+        name = self._names("history").get(said(key(case)))
         if name is None or case.duration > DURATION:
             return None
         here = self.data.sel(history=name)
         return spline(here["time"].to_numpy(), here["q"].to_numpy()), float(here["bound"])
 
-    @cached_property
-    def _frequencies(self) -> dict[tuple[AnyBlade, float], float]:
-        blade, column = CASES["L"].blade, self.data["first_frequency"]
-        speeds = column["speed"].to_numpy().tolist()
-        return {(blade, w): value for w, value in zip(speeds, column.to_numpy(), strict=True)}
-
     def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
         """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        found = self._frequencies.get((blade, speed))
-        return None if found is None else float(found)
+        column = self.data["first_frequency"]
+        here = column.to_numpy()[column["speed"].to_numpy() == speed]
+        return float(here[0]) if here.size and blade == CASES["L"].blade else None
 
     @cached_property
-    def _backbones(self) -> dict[tuple[AnyBlade, float], tuple[float, interpolate.CubicSpline]]:
-        """ω_n and the curvature over a², by blade and speed."""
-        a, of = self.data["amplitude"].to_numpy(), dict(zip(*self._listed("backbone"), strict=True))
-        found = {}
-        for name, place in shipped_backbones().items():
-            if of.get(name) == said(place):
-                here = self.data.sel(backbone=name)
-                curvature = here["curvature"].to_numpy()
-                known = np.isfinite(curvature)
-                found[place] = (
-                    float(here["omega_n"]),
-                    interpolate.CubicSpline(a[known] ** 2, curvature[known]),
-                )
+    def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
+        """ω_n and the curvature over a², by what a backbone was made of."""
+        a, found = self.data["amplitude"].to_numpy(), {}
+        for of, name in self._names("backbone").items():
+            here = self.data.sel(backbone=name)
+            curvature = here["curvature"].to_numpy()
+            known = np.isfinite(curvature)
+            over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
+            found[of] = float(here["omega_n"]), over_square
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
-        found = self._backbones.get((blade, speed))
-        if found is None:
-            return None
-        omega_n, curvature = found
-        if not 0.0 <= amplitude**2 <= curvature.x[-1]:
+        omega_n, curvature = self._backbones.get(said((blade, speed)), (0.0, None))
+        if curvature is None or not amplitude**2 <= curvature.x[-1]:
             return None
         return omega_n * (1.0 - float(curvature(amplitude**2)) * amplitude**2)
 
@@ -165,26 +141,19 @@ class Shipped:
 @lru_cache(maxsize=1)
 def shipped() -> Shipped:
     """Return the shipped data; RuntimeError if they are not those of this code."""
-    import xarray as xr  # noqa: PLC0415
-
     try:
         raw = FILE.read_bytes()
     except OSError as error:
-        raise RuntimeError(
-            f"the reference data {FILE} cannot be read ({error}): {_REMEDY}"
-        ) from error
+        why = f"cannot be read ({error})"
+        raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}") from error
     found = hashlib.sha256(raw).hexdigest()
     if found != DIGEST:
-        raise RuntimeError(
-            f"the reference data {FILE} were damaged or changed (SHA-256 {found[:12]}, not "
-            f"{DIGEST[:12]}): {_REMEDY}"
-        )
+        why = f"were damaged or changed (SHA-256 {found[:12]}, not {DIGEST[:12]})"
+        raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
     data = xr.load_dataset(io.BytesIO(raw), engine="h5netcdf")
     if data.attrs["benchmark"] != VERSION:
-        raise RuntimeError(
-            f"the reference data {FILE} are of benchmark {data.attrs['benchmark']}, not {VERSION}: "
-            f"{_REMEDY}"
-        )
+        why = f"are of benchmark {data.attrs['benchmark']}, not {VERSION}"
+        raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
     return Shipped(data=data)
 
 

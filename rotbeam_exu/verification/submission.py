@@ -1,4 +1,4 @@
-"""What a code hands in: who it is, its frequencies, its histories; from files or from a call."""
+"""Submissions of a code: its declaration, frequencies and histories, from files or a call."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 from analytic.arrays import FloatArray
 from analytic.theory import BERNOULLI_EULER, Theory
 
+from .cases import Asked, Case
+
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """What the author says of a code; the file entry.toml.
+    """The author's declaration of a code; the file entry.toml.
 
     Attributes
     ----------
@@ -110,3 +112,9 @@ class Submission:
     frequencies: tuple[Frequency, ...] = ()
     backbone: tuple[BackbonePoint, ...] = ()
     runs: tuple[Run, ...] = ()
+
+    def has(self, case: Case) -> bool:
+        """Return whether something of a case was submitted."""
+        if case.asked is Asked.HISTORY:
+            return any(run.case == case.name for run in self.runs)
+        return bool(self.frequencies if case.asked is Asked.FREQUENCIES else self.backbone)

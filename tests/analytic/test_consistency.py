@@ -14,9 +14,9 @@ from analytic import (
     softening_speed,
 )
 from analytic.beam import BETA_1
+from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points, transverse_basis
 from analytic.reduced.any_blade import blade_oscillator, coupling_vector
-from analytic.reduced.blade_functions import blade_functions
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode

@@ -140,7 +140,7 @@ def test_a_slow_spin_up_is_that_of_a_faster_one_scaled(beam):
 
 
 def test_a_beam_that_turns_already_is_no_spin_up(beam):
-    with pytest.raises(TypeError, match="a Table or another SpeedChange, got SteadyRotat"):
+    with pytest.raises(TypeError, match="a SpeedTable or another SpeedChange, got SteadyRotat"):
         spin_up_response(beam, SteadyRotation(omega=6.0), [1.0])
 
 

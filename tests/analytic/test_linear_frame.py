@@ -101,5 +101,5 @@ def test_refuses(beam):
         linear_response(beam, spin_up, [-1.0])
     with pytest.raises(ValueError, match="the linear frame has no damping"):
         linear_response(beam.with_damping(Damping(bending=1e-3)), spin_up, [1.0])
-    with pytest.raises(TypeError, match="must be a SpinUp, a SmoothRamp, a Table or another"):
+    with pytest.raises(TypeError, match="must be a SpinUp, a FourierRamp, a SpeedTable or another"):
         linear_response(beam, SteadyRotation(omega=1.0), [1.0])

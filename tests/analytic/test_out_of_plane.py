@@ -2,12 +2,15 @@
 
 import json
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from analytic import Beam, Blade, Circle, Ellipse, OutOfPlane, Rectangle, Section, Tube
 from analytic.description import describe, from_description
+from analytic.section_shapes import Gyration, SectionShape
+from rotbeam_exu.cli.sections import SectionOptions
 
 BEAM = Beam.reference()
 UNIT = Blade(
@@ -123,3 +126,31 @@ def test_what_the_sentences_advise_works():
     UNIT.with_shape(Tube(radius=0.001414, wall=1e-5))
     UNIT.with_shape(Tube()).with_taper(width=0.5, height=0.5)
     UNIT.with_taper(height=0.5).with_shape(Tube())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diamond(SectionShape):
+    """A square that stands on its edge."""
+
+    side: float | None = None
+
+    def _fitting(self, own):
+        return {"side": math.sqrt(12.0 * own.squared)}
+
+    def _gyration(self, lengths):
+        return Gyration(squared=lengths["side"] ** 2 / 12.0, area=lengths["side"] ** 2)
+
+    def _ratios(self, lengths):
+        return 1.0, 12.0 * 0.1406
+
+
+def test_a_new_shape_is_one_class():
+    blade = UNIT.with_shape(Diamond())
+    square = UNIT.with_shape(Rectangle(ratio=1.0)).section.out_of_plane
+    assert blade.section.out_of_plane.torsion_ratio == pytest.approx(square.torsion_ratio, rel=1e-3)
+    assert from_description(describe(Diamond(side=0.1)), SectionShape) == Diamond(side=0.1)
+    assert SectionOptions(section="diamond").of(UNIT) == blade
+    with pytest.raises(ValueError, match="Diamond.*has I/A = .*side=0.003464 fits it"):
+        UNIT.with_shape(Diamond(side=0.1))
+    with pytest.raises(TypeError, match="a SectionShape is needed, got 'Tube'"):
+        UNIT.with_shape("Tube")

@@ -11,16 +11,16 @@ from analytic import (
     Blade,
     Damping,
     DistributedForce,
+    FourierRamp,
     Gravity,
     OutOfPlane,
     PointMass,
     Rectangle,
     Section,
-    SmoothRamp,
     SpeedRipple,
+    SpeedTable,
     SpinUp,
     SteadyRotation,
-    Table,
     Theory,
     TipForce,
     Tube,
@@ -90,20 +90,20 @@ ANSWERS = {
         SpeedRipple(amplitude=n(0.5), frequency=n(3)), DistributedForce(amplitude=n(0.5)),
         Gravity(n(9.75)), SteadyRotation(omega=n(6)), PointMass(position=n(1), mass=n(2)),
         OutOfPlane(bending_ratio=n(4), torsion_ratio=n(0.5), polar_inertia=n(0.125)),
-        SmoothRamp(omega=n(6), ramp_time=n(3), start=n(1), cosines=[n(-1)]),
-        Table([n(0), n(1), n(2)], [n(0), n(2), n(3)]),
+        FourierRamp(omega=n(6), ramp_time=n(3), start=n(1), cosines=[n(-1)]),
+        SpeedTable([n(0), n(1), n(2)], [n(0), n(2), n(3)]),
         Beam.from_stiffness(
             length=n(8), axial_stiffness=n(2048), bending_stiffness=n(512), mass_per_length=n(0.25)
         ),
     ],
     "motion": lambda n: [
         f(n(1.25))
-        for one in (SLOW, Table([0.0, 1.0, 3.0], [0.0, 2.0, 3.0]), SteadyRotation(omega=6.0))
+        for one in (SLOW, SpeedTable([0.0, 1.0, 3.0], [0.0, 2.0, 3.0]), SteadyRotation(omega=6.0))
         for f in (one.angle, one.rate, one.acceleration)
     ],
     "motion at many instants": lambda n: np.concatenate([
         f(np.array([1.25, 3.5], dtype=n if n in (np.float16, np.float32, np.longdouble) else float))
-        for one in (SLOW, SmoothRamp(omega=6.0, ramp_time=3.0), SteadyRotation(omega=6.0))
+        for one in (SLOW, FourierRamp(omega=6.0, ramp_time=3.0), SteadyRotation(omega=6.0))
         for f in (one.angle, one.rate, one.acceleration)
     ]),
     "blade": lambda n: Blade(

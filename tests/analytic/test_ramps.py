@@ -6,23 +6,22 @@ from scipy.interpolate import CubicSpline
 
 from analytic import (
     Beam,
+    FourierRamp,
     Gravity,
-    SmoothRamp,
+    SpeedTable,
     SpinUp,
     SteadyRotation,
-    Table,
     Theory,
     linear_modes,
     spin_up_response,
 )
-from analytic.ramps import fastest
 
 WAVES = {"cosines": (-0.9, -0.3, 0.2), "sines": (0.3, 0.0, -0.1)}
 RAMPS = {
-    "Eq. 1": SmoothRamp(omega=6.0, ramp_time=3.0),
-    "waves": SmoothRamp(start=2.0, omega=5.0, ramp_time=3.0, **WAVES),
-    "down": SmoothRamp(start=6.0, omega=0.0, ramp_time=3.0, **WAVES),
-    "table": Table([0.0, 0.4, 1.5, 2.0, 3.0], [1.0, 1.5, 4.0, 3.0, 5.0]),
+    "Eq. 1": FourierRamp(omega=6.0, ramp_time=3.0),
+    "waves": FourierRamp(start=2.0, omega=5.0, ramp_time=3.0, **WAVES),
+    "down": FourierRamp(start=6.0, omega=0.0, ramp_time=3.0, **WAVES),
+    "table": SpeedTable([0.0, 0.4, 1.5, 2.0, 3.0], [1.0, 1.5, 4.0, 3.0, 5.0]),
 }
 TIMES = np.linspace(-0.5, 4.0, 9001)
 
@@ -35,7 +34,7 @@ def test_rate_and_acceleration_are_the_derivatives(ramp):
     assert ramp.rate(TIMES)[inside] == pytest.approx(angle(TIMES, 1)[inside], abs=1e-6)
     rate = CubicSpline(TIMES, ramp.rate(TIMES))
     # A table's acceleration has kinks, which a cubic rounds off by a share of slope times step.
-    near = 2e-3 if isinstance(ramp, Table) else 1e-5
+    near = 2e-3 if isinstance(ramp, SpeedTable) else 1e-5
     assert ramp.acceleration(TIMES)[inside] == pytest.approx(rate(TIMES, 1)[inside], abs=near)
 
 
@@ -47,7 +46,7 @@ def test_speed_has_two_derivatives_at_both_ends(ramp):
         # Linear in the distance from the end where there is a jerk, as a table has.
         near, nearer = (abs(ramp.acceleration(end + s * h)) for h in (1e-3, 5e-4)
                         for s in ((1.0,) if end == 0.0 else (-1.0,)))  # fmt: skip
-        assert nearer < (0.51 if isinstance(ramp, Table) else 0.3) * near
+        assert nearer < (0.51 if isinstance(ramp, SpeedTable) else 0.3) * near
     assert ramp.angle(0.0) == 0.0
     assert ramp.rate(-1.0) == pytest.approx(ramp.start)
     assert ramp.rate(99.0) == pytest.approx(ramp.omega)
@@ -70,7 +69,7 @@ def test_table_converges_with_the_third_power(spin_up, fitted_order):
     counts = np.array([25, 50, 100, 200])
     at = np.linspace(0.0, 3.0, 5001)
     errors = [
-        np.abs(Table(t, spin_up.rate(t)).rate(at) - spin_up.rate(at)).max()
+        np.abs(SpeedTable(t, spin_up.rate(t)).rate(at) - spin_up.rate(at)).max()
         for t in (np.linspace(0.0, 3.0, n + 1) for n in counts)
     ]
     assert fitted_order(1.0 / counts, errors) == pytest.approx(3.0, abs=0.2)
@@ -86,7 +85,7 @@ def test_table_converges_with_the_third_power(spin_up, fitted_order):
     ids=["step", "brake", "corner"],
 )
 def test_a_table_stays_between_its_speeds(times, speeds):
-    table = Table(times, speeds)
+    table = SpeedTable(times, speeds)
     for start, end, before, after in zip(
         times[:-1], times[1:], speeds[:-1], speeds[1:], strict=True
     ):
@@ -94,7 +93,7 @@ def test_a_table_stays_between_its_speeds(times, speeds):
         # But for round-off of the largest speed.
         assert inside.min() >= min(before, after) - 1e-14 * max(speeds)
         assert inside.max() <= max(before, after) + 1e-14 * max(speeds)
-    assert fastest(table) == max(speeds)
+    assert table.fastest == max(speeds)
     # The acceleration is continuous, and zero at both ends.
     knots, near = np.array(times)[1:-1], 1e-9
     jumps = table.acceleration(knots + near) - table.acceleration(knots - near)
@@ -103,31 +102,37 @@ def test_a_table_stays_between_its_speeds(times, speeds):
 
 
 def test_a_table_is_a_value():
-    table = Table(np.array([0.0, 1.0, 2.0]), [0, 1, 2])
-    assert table == Table((0.0, 1.0, 2.0), (0.0, 1.0, 2.0))
-    assert hash(table) == hash(Table((0.0, 1.0, 2.0), (0.0, 1.0, 2.0)))
+    table = SpeedTable(np.array([0.0, 1.0, 2.0]), [0, 1, 2])
+    assert table == SpeedTable((0.0, 1.0, 2.0), (0.0, 1.0, 2.0))
+    assert hash(table) == hash(SpeedTable((0.0, 1.0, 2.0), (0.0, 1.0, 2.0)))
 
 
 def test_fastest_sees_what_is_above_both_ends():
-    over = SmoothRamp(start=2.0, omega=3.0, ramp_time=1.0, cosines=(-1.0,), sines=(4.0, -2.0))
-    assert fastest(over) == pytest.approx(over.rate(np.linspace(0.0, 1.0, 9999)).max(), rel=1e-6)
-    assert fastest(over) > 3.0
+    over = FourierRamp(start=2.0, omega=3.0, ramp_time=1.0, cosines=(-1.0,), sines=(4.0, -2.0))
+    assert over.fastest == pytest.approx(over.rate(np.linspace(0.0, 1.0, 9999)).max(), rel=1e-6)
+    assert over.fastest > 3.0
 
 
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, cosines=(-1.0, 0.2)), "by -0.2$"),
-        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, sines=(0.0, 0.2)), "by -0.4 over its k"),
-        (lambda: SmoothRamp(omega=1.0, ramp_time=0.0), "ramp_time must be positive"),
-        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, start=-1.0), "start must not be negative"),
-        (lambda: Table([0.0, 1.0], [1.0]), "got 2 times and 1 speeds"),
-        (lambda: Table([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
-        (lambda: Table([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
-        (lambda: Table([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
-        (lambda: Table([0.0, 1e-300, 2.0], [0.0, 0.0, 1.0]), "from 0 to 1e-300 s .* leave one"),
-        (lambda: Table([0.0, 1.0, 2.0], [0.0, 1.7e308, 1.7e308]), "from 0 to 1 s .* leave one"),
-        (lambda: SmoothRamp(omega=1.0, ramp_time=1.0, cosines=(1e300, -1e300, -1.0)), "at most"),
+        (lambda: FourierRamp(omega=1.0, ramp_time=1.0, cosines=(-1.0, 0.2)), "by -0.2$"),
+        (lambda: FourierRamp(omega=1.0, ramp_time=1.0, sines=(0.0, 0.2)), "by -0.4 over its k"),
+        (lambda: FourierRamp(omega=1.0, ramp_time=0.0), "ramp_time must be positive"),
+        (lambda: FourierRamp(omega=1.0, ramp_time=1.0, start=-1.0), "start must not be negative"),
+        (lambda: SpeedTable([0.0, 1.0], [1.0]), "got 2 times and 1 speeds"),
+        (lambda: SpeedTable([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
+        (lambda: SpeedTable([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
+        (lambda: SpeedTable([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
+        (
+            lambda: SpeedTable([0.0, 1e-300, 2.0], [0.0, 0.0, 1.0]),
+            "0 to 1e-300 s .* leave one",
+        ),
+        (
+            lambda: SpeedTable([0.0, 1.0, 2.0], [0.0, 1.7e308, 1.7e308]),
+            "0 to 1 s .* leave one",
+        ),
+        (lambda: FourierRamp(omega=1.0, ramp_time=1.0, cosines=(1e300, -1e300, -1.0)), "at most"),
     ],
 )
 def test_bad_input(make, sentence):
@@ -141,7 +146,7 @@ def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
     off = []
     for intervals in (25, 50, 100):
         at = np.linspace(0.0, 3.0, intervals + 1)
-        table = spin_up_response(beam, Table(at, spin_up.rate(at)), times, tolerance=1e-6)
+        table = spin_up_response(beam, SpeedTable(at, spin_up.rate(at)), times, tolerance=1e-6)
         off.append(np.abs(table.q - one.q).max() / beam.length)
     # What the docstring says of a hundred; and the third power, or better, on the way there.
     assert off[2] < 1e-6
@@ -150,7 +155,7 @@ def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
 
 def test_what_turns_already_is_stretched_and_stays_so(beam):
     """A change of the speed so slow that it hardly bends: stretched as by Eq. 67 all the time."""
-    ramp = SmoothRamp(start=6.0, omega=6.0 + 1e-6, ramp_time=1.0)
+    ramp = FourierRamp(start=6.0, omega=6.0 + 1e-6, ramp_time=1.0)
     times = np.linspace(0.0, 2.0, 21)
     response = spin_up_response(beam, ramp, times, tolerance=1e-3)
     k = 6.0 * np.sqrt(beam.density / beam.youngs_modulus)
@@ -160,7 +165,7 @@ def test_what_turns_already_is_stretched_and_stays_so(beam):
 
 def test_spin_down_is_quasi_static_where_it_is_slow(beam):
     """The tip runs ahead by θ''·(K - w²M)⁻¹∫xφ, linear."""
-    ramp = SmoothRamp(start=0.3, omega=0.1, ramp_time=60.0)
+    ramp = FourierRamp(start=0.3, omega=0.1, ramp_time=60.0)
     response = spin_up_response(beam, ramp, [30.0], tolerance=1e-6)
     modes = linear_modes(beam, ramp.rate(30.0), 8, theory=Theory(extension=False))
     x = np.linspace(0.0, 1.0, 4001)
@@ -173,7 +178,7 @@ def test_spin_down_is_quasi_static_where_it_is_slow(beam):
 
 def test_gravity_on_a_blade_that_turns_already(beam):
     """A load acts from t = 0 on, whatever the speed then: free fall for an instant."""
-    ramp = SmoothRamp(start=1.0, omega=2.0, ramp_time=5.0)
+    ramp = FourierRamp(start=1.0, omega=2.0, ramp_time=5.0)
     t = 0.01
     q = spin_up_response(beam, ramp, [t], tolerance=1e-4, loads=(Gravity(9.81),)).q[0]
     assert q == pytest.approx(-0.5 * 9.81 * t**2, rel=2e-2)  # bending waves are 0.1 L long by then

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from analytic import paper_table, reduced_model
 from analytic.beam import BETA_1
-from analytic.reduced.blade_functions import blade_functions
+from analytic.blade_functions import blade_functions
 from analytic.reduced.rotating_mode import (
     converged_degree,
     frequency_equation,

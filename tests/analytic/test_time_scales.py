@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 from analytic import Beam, reduced_model
-from analytic.reduced.time_scales import (
+from analytic.reduced.symbolic import (
     A_PRIME,
     G1,
     G2,

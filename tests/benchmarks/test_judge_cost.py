@@ -16,7 +16,7 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
-from rotbeam_exu.verification.submission_files.writing import write_submission
+from rotbeam_exu.verification.submission_files import write_submission
 
 pytestmark = pytest.mark.benchmarks
 

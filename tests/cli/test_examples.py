@@ -16,10 +16,10 @@ from rotbeam_exu.cli import _COMMANDS, app
 from rotbeam_exu.cli.documented import documented
 from rotbeam_exu.sweeps import grid
 from rotbeam_exu.sweeps.measured import MEASURED
-from rotbeam_exu.verification import cost, measures
-from rotbeam_exu.verification.cost import LADDER
+from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
+from rotbeam_exu.verification.verify import LADDER
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
@@ -61,7 +61,7 @@ def folder(tmp_path, monkeypatch, call):
     monkeypatch.setattr(grid, "_solved", measured_at_once)
     monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<title>Rotating beam explorer")
     monkeypatch.setattr(
-        measures,
+        room,
         "verify",
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
@@ -71,7 +71,7 @@ def folder(tmp_path, monkeypatch, call):
             sources={},
         ),
     )
-    monkeypatch.setattr(cost, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
+    monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     return tmp_path
 
 

@@ -11,7 +11,7 @@ from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
-from rotbeam_exu.verification.submission_files.writing import write_submission
+from rotbeam_exu.verification.submission_files import write_submission
 
 ROOT = Path(__file__).parents[2]
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from rotbeam_exu.verification import cost, measures
+from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.convergence import convergence
-from rotbeam_exu.verification.cost import LADDER
 from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
 from rotbeam_exu.verification.outcomes import found_of
 from rotbeam_exu.verification.submission import Declaration
+from rotbeam_exu.verification.verify import LADDER
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
@@ -42,7 +42,7 @@ def test_the_verdict_tables(call, monkeypatch):
     runs = convergence([0.25, 0.125, 0.0625], [1.23e-4 + h**4 for h in (0.25, 0.125, 0.0625)])
     found = found_of(runs, tolerance=2e-4, bound=1e-8, where="anywhere")
     monkeypatch.setattr(
-        measures,
+        room,
         "verify",
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
@@ -50,7 +50,7 @@ def test_the_verdict_tables(call, monkeypatch):
             orders={}, histories={}, sources={},
         ),
     )  # fmt: skip
-    monkeypatch.setattr(cost, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
+    monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     monkeypatch.setenv("COLUMNS", "40")
     code, out, _ = call("verify", "--element", "cable", "--element", "exact")
     assert code == 0

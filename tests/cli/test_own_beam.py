@@ -11,7 +11,7 @@ from rotbeam_exu.cli import compare as compare_job
 from rotbeam_exu.cli import explore as explore_job
 from rotbeam_exu.cli.motion import Motion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
-from rotbeam_exu.verification import measures
+from rotbeam_exu.verification import verify as room
 
 # A reed, 360 times faster than the paper's beam.
 REED = (
@@ -126,7 +126,7 @@ def test_ctrl_c_says_what_is_kept_or_that_nothing_is(call, tmp_path, monkeypatch
     code, _, error = call("compare", "--cache", cache, "--out", tmp_path)
     assert code == 130
     assert f"kept in the cache {cache}" in error
-    monkeypatch.setattr(measures, "verify", stopped)
+    monkeypatch.setattr(room, "verify", stopped)
     monkeypatch.setattr(analytic, "spin_up_response", stopped)
     for command in (("verify", "--element", "cable"), ("reference", "--out", tmp_path)):
         code, _, error = call(*command)

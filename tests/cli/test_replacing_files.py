@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 
 import rotbeam_exu.cli.figure as figure_job
-from rotbeam_exu import figures, load, oscillation
+from rotbeam_exu import figures, load
 from rotbeam_exu.fem import simulation
+from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")

@@ -9,7 +9,7 @@ import pytest
 from analytic import Beam, Damping, ResponseNotReachedError, SpeedRipple, forced_response
 from rotbeam_exu import load
 from rotbeam_exu.cli import respond as job
-from rotbeam_exu.verdict import beam_of
+from rotbeam_exu.runs.attributes import beam_of
 
 RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.6")
 QUICK = ("--to", "3.8", "--points", "3")

@@ -7,7 +7,7 @@ import pytest
 from analytic import Beam, SpinUp
 from rotbeam_exu import load, save, simulate
 from rotbeam_exu.files.run_file import load_run_file
-from rotbeam_exu.verification import measures
+from rotbeam_exu.verification import verify as room
 
 RUN = """
 [motion]
@@ -200,7 +200,7 @@ def test_duration_and_step_of_the_file_reach_animate_and_verify(
     def stopped(entry, *, spin_up, duration, **_):
         raise KeyboardInterrupt(f"{entry.step:g} {duration:g} {spin_up.omega:g}")
 
-    monkeypatch.setattr(measures, "verify", stopped)
+    monkeypatch.setattr(room, "verify", stopped)
     assert "0.01 8 4" in call("verify", "--element", "cable", "--config", config)[2]
 
 

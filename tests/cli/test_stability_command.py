@@ -8,7 +8,7 @@ import pytest
 
 from analytic import Rectangle, planar_stability
 from rotbeam_exu import load
-from rotbeam_exu.verdict import beam_of
+from rotbeam_exu.runs.attributes import beam_of
 
 BLADE = """
 [blade]

@@ -21,7 +21,7 @@ from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import SimulationError, load, save, simulate, steady_oscillation, sweep
 from rotbeam_exu.fem.elements import Cable
-from rotbeam_exu.fem.linearization import mesh_frequencies
+from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.sweeps import grid as sweeps
 from rotbeam_exu.sweeps.dask import dask_executor
 
@@ -52,7 +52,7 @@ def test_a_sweep_is_its_runs(beam, serial):
     here = serial.sel(omega=6.0, ramp_time=2.0)
     assert here["frequency"].item() == steady.frequency
     assert here["amplitude"].item() == steady.amplitude
-    assert here["omega_n"].item() == mesh_frequencies(beam, 6.0, "cable", 2, 1)[0]
+    assert here["omega_n"].item() == Linearization.of(beam, 6.0, "cable", 2).frequencies(1)[0]
     assert np.array_equal(here["q"], run["q"])
     assert here["verdict"].item() == "passed"
 

@@ -19,7 +19,7 @@ from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.verification.entries import formulation_entry
-from rotbeam_exu.verification.measures import verify
+from rotbeam_exu.verification.verify import verify
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -18,9 +18,6 @@ PLAIN = {
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
         "rotbeam_exu.SimulationError"
     ),
-    "former names, whose page leads to the new one": (
-        "analytic.critical_speed rotbeam_exu.critical_speed"
-    ),
     "a type, a list of names, a protocol": (
         "analytic.AnyBlade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
     ),
@@ -29,10 +26,9 @@ PLAIN = {
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.sweeps.grid",
-    "rotbeam_exu.files.beam_file", "rotbeam_exu.verification.measures",
+    "rotbeam_exu.files.beam_file", "rotbeam_exu.verification.verify",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
-    "rotbeam_exu.verification.submission_files.reading",
-    "rotbeam_exu.verification.submission_files.writing",
+    "rotbeam_exu.verification.submission_files",
 }  # fmt: skip
 """Modules from which users import as well."""
 

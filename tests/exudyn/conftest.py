@@ -2,7 +2,7 @@ import exudyn
 import numpy as np
 import pytest
 
-from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.fem.solver import exudyn_system
 
 
 @pytest.fixture(scope="session")

@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-from scipy import sparse
 
 from analytic import Theory, linear_modes
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, formulation
-from rotbeam_exu.fem.elements.ancf3 import _Row
-from rotbeam_exu.fem.linearization import mass_matrix
-from rotbeam_exu.fem.mesh import Mesh
+from rotbeam_exu.fem.solver import mass_matrix
 
 
 def first_frequency(beam, omega, element, elements):
@@ -35,7 +32,7 @@ def test_sixteen_elements_have_the_papers_coordinates(beam):
 
 def test_three_elements(beam, spin_up):
     """The mesh of the paper's Figs. 3 and 4."""
-    run = simulate(beam, spin_up, element="ancf3", elements=3)
+    run = simulate(beam, spin_up, element="ancf3", elements=3, step=4e-3, frame="rotating")
     assert steady_oscillation(run).frequency == pytest.approx(3.751, abs=1e-4)
 
 
@@ -71,7 +68,7 @@ def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(beam, fitted_orde
     limit = linear_modes(beam, 0.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
     stiffness = np.array([0.01, 0.1, 1.0])
     gaps = [
-        1.0 - first_frequency(beam, 0.0, Ancf3(shear_correction=k), 64) / limit for k in stiffness
+        1.0 - first_frequency(beam, 0.0, Ancf3(shear_correction=k), 32) / limit for k in stiffness
     ]
     assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.01)
 
@@ -98,41 +95,6 @@ def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):
     rotary = modes.frequencies[0] / linear_modes(beam, omega, 1).frequencies[0]
     # Beyond the first order in ε there is the mesh, 5e-7.
     assert stiff / cable - rotary == pytest.approx(gain, abs=2e-6)
-
-
-@pytest.mark.parametrize("law", ["uncoupled", "coupled"])
-def test_tangent_and_force_are_derivatives(beam, law):
-    blade = beam.with_taper(0.3, 0.5)
-    row = _Row(Ancf3(law=law, poisson_ratio=0.2), Mesh(blade=blade, elements=3))
-    rng = np.random.default_rng(1)
-    nodes = np.zeros((7, 4))
-    nodes[:, 0], nodes[:, 3] = np.linspace(0.0, 8.0, 7), 1.0
-    e = (nodes + 0.05 * rng.standard_normal(nodes.shape)).ravel()
-    step, size = 1e-6, e.size
-    steps = step * np.eye(size)
-    ends = [np.stack([e + d for d in s * steps]) for s in (1.0, -1.0)]
-    slope = np.subtract(*(row.energy(x.reshape(size, 7, 4)) for x in ends)) / (2 * step)
-    force = row.force(e)
-    # Central differences: 1e-12 of truncation, 1e-10 of round-off.
-    assert np.abs(slope - force).max() < 1e-8 * np.abs(force).max()
-    rows, columns, values = row.tangent(e).T
-    tangent = sparse.coo_array(
-        (values, (rows.astype(int), columns.astype(int))), shape=(size, size)
-    ).toarray()
-    slopes = np.stack([row.force(a) - row.force(b) for a, b in zip(*ends, strict=True)]) / (
-        2 * step
-    )
-    assert np.abs(slopes - tangent).max() < 1e-8 * np.abs(tangent).max()
-    assert np.abs(tangent - tangent.T).max() < 1e-14 * np.abs(tangent).max()
-
-
-def test_mesh_order_is_four(beam, fitted_order):
-    """With soft shear, for which round-off stays below the error of 32 elements."""
-    soft = Ancf3(shear_correction=0.1)
-    meshes = [8, 16, 32]
-    exact = first_frequency(beam, 6.0, soft, 64)
-    errors = [first_frequency(beam, 6.0, soft, n) / exact - 1.0 for n in meshes]
-    assert -fitted_order(meshes, errors) == pytest.approx(4.0, abs=0.2)
 
 
 def test_mass_is_that_of_the_beam(beam):

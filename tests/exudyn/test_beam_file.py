@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from analytic import Beam, Damping, Ellipse, Rectangle
 from rotbeam_exu.files.beam_file import load_beam
-from rotbeam_exu.verdict import beam_attributes, beam_of
+from rotbeam_exu.runs.attributes import beam_attributes, beam_of
 
 GOOD = """[beam]
 length = 8.0

@@ -16,11 +16,10 @@ from analytic import (
 )
 from rotbeam_exu import SimulationError, load, natural_frequencies, save, simulate, steady_stretch
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact
-from rotbeam_exu.fem.elements.formulation import spun
-from rotbeam_exu.fem.linearization import mass_matrix
 from rotbeam_exu.fem.loading import Loading
-from rotbeam_exu.fem.system import exudyn_system
-from rotbeam_exu.verdict import beam_of, check_run, energy_drift
+from rotbeam_exu.fem.solver import exudyn_system, mass_matrix
+from rotbeam_exu.runs.attributes import beam_of
+from rotbeam_exu.runs.check import check_run, energy_drift
 
 
 def by_mass(beam, c):
@@ -119,7 +118,7 @@ def test_what_is_counted_as_taken_is_what_exudyn_takes(beam, elastic_force, mode
     power = -force @ moving.ravel()
     assert power > 0.0
     assert dissipation(at[None], moving[None]) == pytest.approx([power], rel=1e-9)
-    rotation = spun(model, at)
+    rotation = model.spun(at)
     force = elastic_force(model, blade, elements, at, rotation)[0] - resting
     assert np.abs(force).max() < 1e-9 * np.abs(resting).max()
     assert dissipation(at[None], rotation[None])[0] < 1e-12 * power
@@ -135,7 +134,7 @@ def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
         nodes = model.lay(mbs, blade, 4).nodes
         at = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
     loading = Loading(model, blade, 4, mass_matrix(model, blade, 4), [])
-    taken = -loading.power(np.zeros(1), np.zeros(1), rate * spun(model, at)[None])
+    taken = -loading.power(np.zeros(1), np.zeros(1), rate * model.spun(at)[None])
     wanted = rate**2 * d * ((radius + length) ** 3 - radius**3) / 3.0
     # A braked section would add μ times 3 of it.
     assert taken == pytest.approx([wanted], rel=1e-9)

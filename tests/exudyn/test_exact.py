@@ -9,7 +9,7 @@ from analytic import Beam, SpinUp, Theory, linear_modes
 from analytic.description import from_description
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Exact, formulation
-from rotbeam_exu.verdict import energy_drift
+from rotbeam_exu.runs.check import energy_drift
 
 THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
 
@@ -22,43 +22,6 @@ def test_nonlinear_frequency(beam, spin_up, nodes, frequency):
     assert steady_oscillation(run).frequency == pytest.approx(frequency, abs=6e-6)
     assert energy_drift(run)[0] < 1e-5
     assert np.abs(run["direction_residual"]).max() < 1e-12
-
-
-@pytest.mark.parametrize("nodes", [2, 3])
-def test_elastic_energy_is_the_potential_of_the_forces(beam, elastic_force, nodes):
-    """The energy is ours, the forces are Exudyn's."""
-    model, rng = Exact(nodes=nodes), np.random.default_rng(3)
-    _, reference = elastic_force(model, beam, 2)
-    deformed = reference + 0.01 * rng.standard_normal(reference.shape)
-    force, _ = elastic_force(model, beam, 2, deformed)
-    step, slope = 1e-6, np.empty(force.size)
-    for i in range(force.size):
-        change = np.zeros(force.size)
-        change[i] = step
-        ends = np.stack([deformed + s * change.reshape(deformed.shape) for s in (1, -1)])
-        slope[i] = np.subtract(*model.elastic_energy(beam, ends)) / (2 * step)
-    # Central differences leave (1e-6)² and round-off 1e-16/1e-6.
-    assert np.abs(np.abs(slope) - np.abs(force)).max() < 1e-8 * np.abs(force).max()
-
-
-@pytest.fixture(scope="module")
-def of_a_fine_mesh():
-    return natural_frequencies(THICK, 5.0, element=Exact(nodes=3), elements=128, count=1)[0]
-
-
-@pytest.mark.parametrize(("nodes", "order"), [(2, 2.0), (3, 4.0)])
-def test_mesh_order(nodes, order, fitted_order, of_a_fine_mesh):
-    """Reduced integration: linear elements converge with h², quadratic ones with h⁴."""
-    meshes = [4, 8, 16, 32]
-    errors = [
-        abs(
-            natural_frequencies(THICK, 5.0, element=Exact(nodes=nodes), elements=n)[0]
-            / of_a_fine_mesh
-            - 1.0
-        )
-        for n in meshes
-    ]
-    assert -fitted_order(meshes, errors) == pytest.approx(order, abs=0.1)
 
 
 def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(fitted_order):

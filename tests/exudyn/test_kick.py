@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Blade, OutOfPlane, Section, SteadyRotation, periodic_orbits
-from rotbeam_exu.fem.space.simulation import simulate_3d
-from rotbeam_exu.fem.space.state import kicked
-from rotbeam_exu.verdict import SimulationError
+from rotbeam_exu.fem.out_of_plane import kicked, simulate_3d
+from rotbeam_exu.runs.check import SimulationError
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
 

@@ -8,7 +8,7 @@ import xarray as xr
 from analytic import SpinUp
 from rotbeam_exu import load, save, simulate
 from rotbeam_exu.comparison import figure_14
-from rotbeam_exu.verdict import beam_of
+from rotbeam_exu.runs.attributes import beam_of
 
 
 def run(blade, ramp_time):

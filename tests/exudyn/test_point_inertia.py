@@ -10,8 +10,7 @@ from analytic import SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_stretch
 from rotbeam_exu.fem.elements import Ancf3, Chain, Exact
 from rotbeam_exu.fem.elements.point_masses import add_point_inertias, spins
-from rotbeam_exu.fem.solver import Sensors, solve, solver_settings
-from rotbeam_exu.fem.system import exudyn_system
+from rotbeam_exu.fem.solver import Sensors, exudyn_system, solve, solver_settings
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +71,7 @@ def test_a_free_slope_keeps_energy_and_angular_momentum():
         )
         mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=M * np.eye(4)))
         chain = Chain(nodes=(node,), turning=((0, J),))
-        add_point_inertias(mbs, chain, lambda t: 0.0)
+        add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
         sensors = Sensors(mbs, chain)
         mbs.Assemble()
         settings, _ = solver_settings(400, 2.5e-3, 200, "rotating", round_off=1e-10)

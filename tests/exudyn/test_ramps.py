@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from analytic import SmoothRamp, SpinUp, SteadyRotation, Table, spin_up_response
+from analytic import FourierRamp, SpeedTable, SpinUp, SteadyRotation, spin_up_response
 from rotbeam_exu import load, save, simulate
 from rotbeam_exu.fem.case import Case
-from rotbeam_exu.verdict import motion_of
+from rotbeam_exu.runs.attributes import motion_of
 
-DOWN = SmoothRamp(start=6.0, omega=1.0, ramp_time=2.0, cosines=(-1.2, 0.2), sines=(0.2, -0.1))
-TABLE = Table([0.0, 1.0, 2.0, 3.0], [2.0, 3.0, 5.0, 6.0])
+DOWN = FourierRamp(start=6.0, omega=1.0, ramp_time=2.0, cosines=(-1.2, 0.2), sines=(0.2, -0.1))
+TABLE = SpeedTable([0.0, 1.0, 2.0, 3.0], [2.0, 3.0, 5.0, 6.0])
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])

@@ -10,8 +10,9 @@ from analytic.quadrature import gauss_points
 from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import FORMULATIONS, formulation
-from rotbeam_exu.fem.linearization import growth_rate, mass_matrix
-from rotbeam_exu.verdict import _reach
+from rotbeam_exu.fem.linearization import growth_rate
+from rotbeam_exu.fem.solver import mass_matrix
+from rotbeam_exu.runs.check import _reach
 
 FLAP = 0.5 * math.pi
 GAUSS = np.append(gauss_points(40)[0], 1.0)
@@ -124,9 +125,10 @@ def test_an_orbit_stays_the_orbit_and_keeps_its_jacobi_energy(beam, psi):
         blade, SteadyRotation(omega=omega), elements=16, duration=3.0, step=1e-3, frame="rotating",
         initial_state=lambda x: orbit.state(0, x),
     )  # fmt: skip
-    phase = orbit.frequency[0] * run["time"].to_numpy()
+    seen = run.isel(time=slice(None, None, 10))
+    phase = orbit.frequency[0] * seen["time"].to_numpy()
     exact = [orbit.state(0, [blade.length], phase=p).v[0] for p in phase]
-    assert np.abs(run["q"] - exact).max() < 1e-3 * np.abs(exact).max()
+    assert np.abs(seen["q"] - exact).max() < 1e-3 * np.abs(exact).max()
     jacobi = run["jacobi_energy"].to_numpy()
     # Of second order in the step; a wrong energy would vary by the elastic one.
     assert np.ptp(jacobi) < 1e-5 * run["elastic_energy"].max()

@@ -17,7 +17,6 @@ from analytic import (
 )
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Ancf3, Exact
-from rotbeam_exu.verification.entries import theory_of
 
 SHARE = (5.0 / 6.0) / 2.6
 REISSNER = Theory(rotary_inertia=True, shear=SHARE)
@@ -51,7 +50,7 @@ HOMOGENEOUS = THICK.density * THICK.second_moment
 @pytest.mark.parametrize(("told", "has"), [(None, HOMOGENEOUS), (0.0, 0.0), (0.02, 0.02)])
 def test_rotary_inertia_is_that_which_is_told(model, told, has):
     """Zero is none, of elements as of theory; of what is not told elements have their own."""
-    theory = theory_of(model)
+    theory = model.theory
     blades = with_rotary_inertia(told), with_rotary_inertia(has), with_rotary_inertia(0.05)
     found, _, heavy = (natural_frequencies(one, 50.0, element=model, elements=32) for one in blades)
     _, exact, exactly_heavy = (

@@ -4,18 +4,16 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from analytic import SpinUp, linear_modes
+from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     SimulationError,
     divergence_speed,
     figures,
     growth_rate,
-    natural_frequencies,
     simulate,
 )
 from rotbeam_exu.fem.elements import Substructures, formulation
-from rotbeam_exu.fem.elements.linear_frames import FrameRow
 from rotbeam_exu.fem.stability import divergence_speeds
 
 
@@ -50,45 +48,13 @@ def test_it_is_where_growth_sets_in(beam, frame, n):
     )
 
 
-@pytest.mark.parametrize("frame", ["tangent", "pinned"])
-def test_many_frames_are_the_beam(beam, frame, fitted_order):
-    """They converge to the exact frequency from linear pieces: that is the point of them."""
-    exact, counts = linear_modes(beam, 4.0, 1).frequencies[0], [8, 16, 32]
-    errors = [
-        abs(
-            natural_frequencies(
-                beam, 4.0, element=Substructures(frame=frame, cells=1), elements=n, count=1
-            )[0]
-            / exact
-            - 1.0
-        )
-        for n in counts
-    ]
-    assert -fitted_order(counts, errors) == pytest.approx(2.0, abs=0.15)
-
-
-@pytest.mark.parametrize("frame", ["tangent", "pinned"])
-def test_tangent_and_force_are_derivatives(beam, frame):
-    row, rng = FrameRow(beam, 3, 2, frame), np.random.default_rng(1)
-    e = row.reference + 0.05 * rng.standard_normal(row.reference.size)
-    step, size = 1e-6, e.size
-    ends = [e + s * step * np.eye(size) for s in (1.0, -1.0)]
-    slope = np.subtract(*(row.energy(x.reshape(size, -1, 4)) for x in ends)) / (2 * step)
-    force, tangent = row.force(e), row.tangent(e)
-    assert np.abs(slope - force).max() < 1e-8 * np.abs(force).max()
-    dense = np.zeros((size, size))
-    np.add.at(dense, (tangent[:, 0].astype(int), tangent[:, 1].astype(int)), tangent[:, 2])
-    slopes = np.stack([row.force(a) - row.force(b) for a, b in zip(*ends, strict=True)])
-    assert np.abs(slopes / (2 * step) - dense).max() < 1e-8 * np.abs(dense).max()
-
-
 def test_stable_below_and_unstable_above(beam):
     """After a gentle spin-up to 6 rad/s a stable beam hardly moves; two tangent frames buckle."""
 
     def steady(n, frame):
         run = simulate(
             beam, SpinUp(omega=6.0, ramp_time=10.0), element=Substructures(frame=frame, cells=1),
-            elements=n, duration=15.0, step=8e-3,
+            elements=n, duration=15.0, step=1.5e-2,
         )  # fmt: skip
         return np.abs(run["q"].sel(time=slice(12.0, 15.0))).max().item()
 

@@ -8,7 +8,7 @@ import pytest
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import SimulationError, simulate
-from rotbeam_exu.verdict import check_run
+from rotbeam_exu.runs.check import check_run
 
 
 @pytest.fixture(scope="module")

@@ -9,16 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import Blade, Damping, Gravity, PointMass, Section, SmoothRamp, SpinUp, TipForce
+from analytic import Blade, Damping, FourierRamp, Gravity, PointMass, Section, SpinUp, TipForce
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification import kit as room
-from rotbeam_exu.verification import problem_statement
-from rotbeam_exu.verification.cases import CASES, VERSION, Asked, starting_orbit
+from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission_files.reading import read_submission
+from rotbeam_exu.verification.submission_files import read_submission
 
 HISTORIES = [case for case in CASES.values() if case.asked is Asked.HISTORY]
 
@@ -97,12 +96,23 @@ FORCE = TipForce(amplitude=0.1, frequency=3.0)
         ({"blade": S1.blade.with_damping(Damping(external=0.1))}, "damping.external"),
         ({"blade": S1.blade.with_taper(0.1, 0.1)}, "section.axial_stiffness, section.bending_"),
         ({"loads": (Gravity(2.0), FORCE)}, "loads"),
-        ({"motion": SmoothRamp(start=1.0, omega=6.0, ramp_time=3.0)}, "motion"),
+        ({"motion": FourierRamp(start=1.0, omega=6.0, ramp_time=3.0)}, "motion"),
     ],
 )
 def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):
     with pytest.raises(ValueError, match=f"cases.csv has no column for {lost}.* of case S1: add"):
         row_of(replace(S1, **change))
+
+
+def test_another_column_is_a_line(monkeypatch):
+    """In both tables and in the problem."""
+    drag = room.Column("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
+    monkeypatch.setitem(room.COLUMNS, "damping.external", drag)
+    case = replace(S1, name="S5", blade=S1.blade.with_damping(Damping(external=0.1)))
+    monkeypatch.setitem(CASES, "S5", case)
+    assert row_of(case)["drag"] == 0.1
+    document = json.loads(room.problem_numbers())
+    assert {row["id"]: row["besides"] for row in document["cases"]}["S5"] == ["drag 0.1 kg/(m s)"]
 
 
 def test_a_case_that_it_can_say_is_whole():
@@ -122,7 +132,7 @@ def test_drives_read_back_to_the_last_bit(folder):
 
 def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
     case = CASES["O"]
-    orbit = starting_orbit(case)
+    orbit = case.orbit
     for mesh in MESHES:
         start = columns(folder / f"start_O_{mesh}.csv")
         assert start["x"] == pytest.approx(np.linspace(0.0, 8.0, mesh + 1), abs=1e-15)
@@ -161,14 +171,14 @@ def test_the_sample_passes(folder):
 
 
 def test_the_paper_is_of_the_present_source():
-    """If this fails: python -m rotbeam_exu.verification.problem_statement, and look at it."""
-    assert problem_statement.DIGEST.read_text().strip() == problem_statement.digest()
-    assert problem_statement.PDF.read_bytes().startswith(b"%PDF")
+    """If this fails: python -m rotbeam_exu.verification.kit, and look at it."""
+    assert room.DIGEST.read_text().strip() == room.problem_digest()
+    assert room.PDF.read_bytes().startswith(b"%PDF")
 
 
 def test_the_paper_has_two_pages():
     pytest.importorskip("typst")
-    pages = problem_statement.typeset(format="png", ppi=20)
+    pages = room.typeset(format="png", ppi=20)
     assert len(pages) == 2
 
 

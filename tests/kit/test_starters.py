@@ -12,7 +12,7 @@ import pytest
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.kit import STATIC, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.submission_files.reading import read_submission
+from rotbeam_exu.verification.submission_files import read_submission
 
 STARTERS = STATIC / "starters"
 MESH, STEP = "4", "4e-4"

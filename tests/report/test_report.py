@@ -13,7 +13,7 @@ import pytest
 from rotbeam_exu.report.document import SCHEMA, Record, document
 from rotbeam_exu.report.page import TITLE, report_page
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.mistakes.search import mistakes_in
+from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome
 
 HOSTILE = "<script>alert('ω & \"x\"')</script> $d {e}"

@@ -6,31 +6,33 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import spin_up_response
-from rotbeam_exu.verification.peers import Entry
-
-
-def exact_history(beam, spin_up, duration):
-    """Time and the exact answer, fifty samples a period of the paper's beam."""
-    time = np.linspace(0.0, duration, math.ceil(duration / 0.02) + 1)
-    return time, spin_up_response(beam, spin_up, time, tolerance=1e-6)
+from analytic import SpinUp
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.verify import Entry, verify
 
 
 @pytest.fixture(scope="session")
 def made_of_the_exact_answer():
     """Return an entry whose q(t) is the exact one times 1 + h² + C/nᵖ, changed further."""
-    known = {}
 
     def make(change=None, *, power=2.0, size=1e-2, **options):
-        def code(beam, spin_up, *, elements, duration, step):
-            key = beam, spin_up, duration
-            if key not in known:
-                known[key] = exact_history(*key)
-            time, exact = known[key]
-            q = exact.q * (1.0 + step**2 + size / elements**power)
+        def code(case, *, elements, step):
+            # Fifty samples a period of the paper's beam.
+            duration = case.whole_duration(step)
+            time = np.linspace(0.0, duration, math.ceil(duration / 0.02) + 1)
+            exact = reference(case)
+            q = exact.history(time) * (1.0 + step**2 + size / elements**power)
             q = q if change is None else change(time, q, elements)
-            return xr.Dataset({"q": ("time", q), "q_dot": ("time", exact.q_dot)}, {"time": time})
+            columns = {"q": ("time", q), "q_dot": ("time", exact.rate(time))}
+            return xr.Dataset(columns, {"time": time})
 
         return Entry(name="mine", simulate=code, **{"order": power, **options})
 
     return make
+
+
+@pytest.fixture(scope="session")
+def judged_right(made_of_the_exact_answer):
+    """The judgement of a right code on one spin-up."""
+    entry = made_of_the_exact_answer(elements=32)
+    return verify(entry, spin_up=SpinUp(omega=6.0, ramp_time=3.0))

@@ -6,12 +6,15 @@ import signal
 import pytest
 
 from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
-from rotbeam_exu.verification.submission_files import content
+from rotbeam_exu.verification.submission_files import (
+    content,
+    digests,
+    read_submission,
+    write_submission,
+)
 from rotbeam_exu.verification.submission_files.content import LARGEST
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
-from rotbeam_exu.verification.submission_files.reading import digests, read_submission
 from rotbeam_exu.verification.submission_files.tables import number
-from rotbeam_exu.verification.submission_files.writing import write_submission
 
 SECRET = "example.org,password,hunter2\n"
 ENTRY = 'benchmark = "1.0"\ncode = "mine"\n'

@@ -9,9 +9,8 @@ from analytic import Beam, linear_modes
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.verification.cases import frequency_case
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.measures import handed_in
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import Entry
+from rotbeam_exu.verification.verify import Entry, handed_in
 
 
 def of_frequency(difference, power, size=0.05, higher=0.0, **options):
@@ -47,7 +46,7 @@ def test_another_limit_is_named():
     assert found.model_difference == pytest.approx(-3e-3, abs=1e-6)
 
 
-def test_a_verdict_never_gets_worse_by_refining():
+def test_a_judgement_never_gets_worse_by_refining():
     rank = list(Outcome)
     for difference in (0.0, 1.5e-4, 1.99e-4):
         seen = []

@@ -10,9 +10,8 @@ from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.mistakes.histories import mistake_in_history
-from rotbeam_exu.verification.mistakes.ramps import RAMPS
-from rotbeam_exu.verification.mistakes.search import mistakes_in
+from rotbeam_exu.verification.mistakes import mistakes_in
+from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import (

@@ -12,8 +12,7 @@ from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
-from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.sampled import sampled_history
+from rotbeam_exu.verification.references import reference, sampled_history
 from rotbeam_exu.verification.shipped import DURATION, shipped, shipped_backbones, shipped_histories
 
 BEAM = Beam.reference()
@@ -122,6 +121,8 @@ def test_a_blade_is_known_by_what_it_has():
     assert room.said((one, 6.0)) != room.said((other, 6.0))
     assert "hub_radius=0.5" in room.said(one)
     assert "setting_angle" not in room.said(one)  # nor what a blade may learn to have
+    assert "line" not in room.said(one)  # whose offsets are pairs of zeros
+    assert "mass_offset" in room.said(BEAM.with_offsets(mass=(0.01, 0.0)))
 
 
 def test_shipped_frequencies_are_those_of_more_functions():
@@ -238,8 +239,7 @@ def test_data_made_anew_are_taken_with_the_digest_that_is_written(tmp_path, monk
     code, data = tmp_path / "shipped.py", shipped().data
     code.write_text(Path(room.__file__).read_text("utf-8"), "utf-8")
     monkeypatch.setattr(room, "__file__", str(code))
-    for one in (room, regenerate):
-        monkeypatch.setattr(one, "FILE", tmp_path / "references.nc")
+    monkeypatch.setattr(room, "FILE", tmp_path / "references.nc")
     regenerate.write(data.assign_attrs(commit="another"))
     found = re.search(r'^DIGEST = "([0-9a-f]{64})"$', code.read_text("utf-8"), re.MULTILINE)[1]
     assert found != room.DIGEST

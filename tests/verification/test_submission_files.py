@@ -17,9 +17,12 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
+from rotbeam_exu.verification.submission_files import (
+    digests,
+    read_submission,
+    write_submission,
+)
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
-from rotbeam_exu.verification.submission_files.reading import digests, read_submission
-from rotbeam_exu.verification.submission_files.writing import write_submission
 
 DECLARATION = Declaration(
     code="Balken", version="2.1", url="https://example.org", licence="MIT", element="B22",

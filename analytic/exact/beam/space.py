@@ -25,8 +25,8 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_planar
 from ...lazily import linalg
 from ...methods.system import Tangent
-from ...out_of_plane import OutOfPlane
 from ...profiles import evaluated
+from ...section import OutOfPlane
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from .continuum import Continuum

@@ -16,7 +16,7 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, points_of_beam, positive
 from ...loads import Load, loads_in_time, rippled
-from ...ramps import AnyRamp, fastest, require_ramp
+from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
@@ -44,7 +44,7 @@ class SpinUpResponse:
     Attributes
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
     loads : tuple of loads
     theory : Theory
     time : ndarray (times,)
@@ -74,7 +74,7 @@ class SpinUpResponse:
     """
 
     beam: AnyBlade
-    spin_up: AnyRamp
+    spin_up: SpeedChange
     loads: tuple[Load, ...]
     theory: Theory
     time: FloatArray
@@ -128,7 +128,7 @@ class SpaceResponse(SpinUpResponse):
 @one_thread
 def spin_up_response(
     beam: AnyBlade,
-    spin_up: AnyRamp,
+    spin_up: SpeedChange,
     times: float | ArrayLike,
     *,
     tolerance: float = 1e-8,
@@ -144,7 +144,7 @@ def spin_up_response(
     Parameters
     ----------
     beam : Beam or Blade
-    spin_up : SpinUp, SmoothRamp or Table
+    spin_up : SpinUp, FourierRamp or SpeedTable
         Before it the beam is straight, and stretched as the speed at t = 0 has it.
     times : array_like
         Times of the response [s], ascending, not before 0.
@@ -175,7 +175,7 @@ def spin_up_response(
     """
     time, tolerance = _checked(times, tolerance)
     require_ramp(spin_up)
-    highest = fastest(spin_up)
+    highest = spin_up.fastest
     warn_if_rpm(beam, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
@@ -291,7 +291,7 @@ def _what_to_try(error: float, size: float, end: float) -> str:
     )
 
 
-def _require_feasible(beam: AnyBlade, spin_up: AnyRamp, end: float, digits: float) -> None:
+def _require_feasible(beam: AnyBlade, spin_up: SpeedChange, end: float, digits: float) -> None:
     """Refuse what would take too many steps, before it starts."""
     steps = sum(_steps(beam, spin_up, end, digits, level=1)[1])  # two solutions are the least
     if steps > _MOST_STEPS:
@@ -302,13 +302,13 @@ def _require_feasible(beam: AnyBlade, spin_up: AnyRamp, end: float, digits: floa
 
 
 def _steps(
-    beam: AnyBlade, spin_up: AnyRamp, end: float, digits: float, level: int
+    beam: AnyBlade, spin_up: SpeedChange, end: float, digits: float, level: int
 ) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
     A corner is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    rate = fastest(spin_up) / beam.frequency_scale
+    rate = spin_up.fastest / beam.frequency_scale
     first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
     longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]

@@ -16,8 +16,7 @@ shortens the axis. With the spin ω' = R K̇ relative to b, d'Alembert's princip
 
 A_c, ω and α being those in space. All integrals from the clamp are one matrix, all beyond a point
 its transpose with the weights: so mass and stiffness are symmetric, and the Jacobi integral is
-kept. The plane is the subset κ3, ε, γ2. Derived in the literature on rotor blades with strains as
-variables; see Su and Cesnik (2011) and Boyer and Renda (2017).
+kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesnik (2011).
 """
 
 from __future__ import annotations
@@ -246,6 +245,13 @@ class SpaceContinuum:
     def axis(self, q: FloatArray, x: FloatArray) -> FloatArray:
         """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
         return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
+
+    def tip_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
+        at, still = self._state(q), np.zeros_like(q)
+        motion = self._motion(at, still, still, 0.0, 0.0)
+        change = Changes(self, at, motion, *self._clamp(0.0, 0.0))
+        return np.moveaxis(self.weights @ change.slope, 0, 1)
 
     @property
     def setting(self) -> float:

@@ -84,23 +84,19 @@ def space_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> Sp
     ValueError
         If they do not.
     """
-    functions = max(FUNCTIONS, count + 4)
-    before, error = None, math.inf
-    while True:
-        model = space_continuum(blade, theory, functions)
-        steady = space_rotation(blade, omega, model)
+    model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
+    steady = space_rotation(blade, omega, model)
+    (found, shapes), error = _solved(steady), math.inf
+    while error > _SETTLED:
+        if steady.functions > MOST_FUNCTIONS:
+            raise ValueError(
+                f"the frequencies at omega = {omega:g} rad/s have not settled with "
+                f"{steady.functions} functions: the last refinement changes them by {error:.1e}; "
+                "ask for fewer modes, or rotate slower"
+            )
+        steady, before = steady.refined(), found[:count]
         found, shapes = _solved(steady)
-        if before is not None:
-            error = float(np.abs(found[:count] / before[:count] - 1.0).max())
-            if error <= _SETTLED:
-                break
-            if functions > MOST_FUNCTIONS:
-                raise ValueError(
-                    f"the frequencies at omega = {omega:g} rad/s have not settled with {functions} "
-                    f"functions: the last refinement changes them by {error:.1e}; ask for fewer "
-                    "modes, or rotate slower"
-                )
-        before, functions = found, 3 * functions // 2
+        error = float(np.abs(found[:count] / before - 1.0).max())
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], error)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_steady_state, warn_if_rpm
+from ...beam import AnyBlade, require_blade, require_steady_state, warn_if_rpm
 from ...input_checks import points_of_beam, rotation_speed
 from ...methods.system import Tangent
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -47,7 +47,7 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
             theory=theory,
             slenderness=beam.slenderness,
             bending=a_panel,
-            torsion=max(4, a_panel - 4),
+            torsion=a_panel,
             axial=max(4, 5 * a_panel // 8),
         )
     )
@@ -58,6 +58,7 @@ def lives_in_space(beam: AnyBlade) -> bool:
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
+    require_blade(beam)
     blade = beam.blade
     known = blade.section.out_of_plane
     turned = blade.setting_angle != 0.0 and known is not None and known.torsion_ratio is not None
@@ -87,11 +88,14 @@ class SpaceBlade:
         w̄ = ω/√(EI3/mL³).
     direction : tuple
         Of the gauge, in the root frame: the tip's place along it, less that of the steady state.
+    coarser : SpaceBlade, optional
+        The same on fewer functions, from whose steady state this one's is found.
     """
 
     model: SpaceContinuum
     rate: float
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    coarser: SpaceBlade | None = None
 
     @property
     def size(self) -> int:
@@ -117,6 +121,10 @@ class SpaceBlade:
         ValueError
             If it ends, or becomes unstable, at a lower speed.
         """
+        if self.coarser is not None:
+            near = self.coarser.model.padded(self.coarser.equilibrium, self.model)
+            if (found := _newton(self.model, near, self.rate)) is not None:
+                return found
         q, rate, step = np.zeros(self.size), 0.0, min(_LONGEST, self.rate or _LONGEST)
         while True:
             found = _newton(self.model, q, rate)
@@ -133,6 +141,27 @@ class SpaceBlade:
             else:
                 step *= 0.5
             rate = min(reached + step, self.rate)
+
+    @property
+    def driven(self) -> bool:
+        """No drive acts."""
+        return False
+
+    def gauge(self, q: FloatArray) -> FloatArray:
+        """Return the tip's place along the direction, less that of the steady state, (samples,)."""
+        return np.asarray((self.model.tip(q) - self.tip) @ np.array(self.direction))
+
+    def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return its rate, (samples,)."""
+        return np.asarray(self.model.tip_rate(q, q_dot) @ np.array(self.direction))
+
+    def gauge_gradient(self, q: FloatArray) -> FloatArray:
+        """Return its derivatives to the coordinates, (samples, n)."""
+        return np.asarray(np.array(self.direction) @ self.model.tip_gradient(q))
+
+    def lifted(self, q: FloatArray, finer: SpaceBlade) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return np.asarray(self.model.padded(q, finer.model))
 
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
@@ -152,7 +181,12 @@ class SpaceBlade:
 
     def refined(self) -> SpaceBlade:
         """Return the blade on half as many functions again."""
-        return SpaceBlade(self.model.refined(), self.rate, self.direction)
+        return SpaceBlade(self.model.refined(), self.rate, self.direction, self)
+
+    @cached_property
+    def tip(self) -> FloatArray:
+        """Place of the tip from the clamp in the steady state, (3,)."""
+        return np.asarray(self.model.tip(self.equilibrium[None])[0])
 
     @cached_property
     def linearized(self) -> Tangent:
@@ -203,13 +237,14 @@ class SteadyState:
     theory: Theory
     tip: FloatArray
     error: float
-    _model: SpaceContinuum
-    _coordinates: FloatArray
+    _steady: SpaceBlade
 
     def axis(self, x: ArrayLike) -> FloatArray:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
-        return np.asarray(self.blade.length * self._model.axis(self._coordinates[None], at)[0])
+        return np.asarray(
+            self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
+        )
 
 
 @one_thread
@@ -242,22 +277,19 @@ def steady_state(blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EU
     """
     omega = rotation_speed(omega)
     warn_if_rpm(blade, omega)
-    functions, before, error = FUNCTIONS, None, math.inf
-    while True:
-        model = space_continuum(blade, theory, functions)
-        steady = space_rotation(blade, omega, model)
-        tip = model.tip(steady.equilibrium[None])[0]
-        if before is not None:
-            error = float(np.abs(tip - before).max())
-        if error <= _SETTLED or functions > MOST_FUNCTIONS:
-            break
-        functions, before = 3 * functions // 2, tip
-    if error > _SETTLED:
-        raise ValueError(
-            f"the steady state at omega = {omega:g} rad/s has not settled with {functions} "
-            f"functions: the last refinement moves the tip by {error:.1e} L; rotate slower"
-        )
+    steady = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
+    tip, error = steady.tip, math.inf
+    while error > _SETTLED:
+        if steady.functions > MOST_FUNCTIONS:
+            raise ValueError(
+                f"the steady state at omega = {omega:g} rad/s has not settled with "
+                f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "
+                "L; rotate slower"
+            )
+        steady, before = steady.refined(), tip
+        tip = steady.tip
+        error = float(np.abs(tip - before).max())
     return SteadyState(
         blade=blade, omega=omega, theory=theory, tip=blade.length * tip, error=error,
-        _model=model, _coordinates=steady.equilibrium,
+        _steady=steady,
     )  # fmt: skip

@@ -1,33 +1,42 @@
-"""The beam formulations, behind one protocol, by the name a user gives them."""
+"""The beam formulations by the names a user gives them, those of the plane and those in space."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from analytic import AnyBlade
+from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
+from ..frame import Frame, require_frame
 from .ancf3 import Ancf3
-from .cable import Cable
+from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation
 from .linear_frames import Linear, Substructures
 from .reissner import Exact
+from .reissner_in_space import SpaceExact
 
-FORMULATIONS: dict[str, type[Any]] = {
-    cls.name: cls for cls in (Cable, Exact, Ancf3, Linear, Substructures)
-}
-"""The class of each formulation, a frozen dataclass whose fields are its options."""
+_ELEMENTS: tuple[type[Formulation], ...] = (
+    Cable, Exact, Ancf3, Linear, Substructures, SpaceCable, SpaceExact,
+)  # fmt: skip
 
+FORMULATIONS, SPACE_FORMULATIONS = (
+    {cls.name: cls for cls in _ELEMENTS if cls.leaves_plane is leaves} for leaves in (False, True)
+)
+"""The class of each formulation in the plane, and in space; its fields are its options."""
 
 ALIASES = {"reissner": "exact"}
 """Other names of formulations: "exact" is Reissner's beam, not the exact continuum."""
 
 
 def formulation(
-    element: str | Formulation, options: Mapping[str, object] | None = None
+    element: str | Formulation,
+    options: Mapping[str, object] | None = None,
+    *,
+    in_space: bool = False,
 ) -> Formulation:
     """Return the formulation called `element`, with `options`; a Formulation is passed through.
 
@@ -37,60 +46,83 @@ def formulation(
         If the name, or an option of it, is not known: the sentence says which are.
     """
     if not isinstance(element, str):
-        require_formulation(element)
+        if not _is_formulation(element):
+            raise TypeError(
+                "element must be the name of a formulation, or an instance of a frozen dataclass "
+                "that inherits from a kind of node and whose options are numbers and text, as "
+                f"Exact(nodes=3), got {shown(element)}"
+            )
         return element
     element = ALIASES.get(element, element)
-    if element not in FORMULATIONS:
-        names = ", ".join(repr(name) for name in FORMULATIONS)
+    known = SPACE_FORMULATIONS if in_space else FORMULATIONS
+    if element not in known:
+        names = ", ".join(map(repr, known))
         raise ValueError(
-            f"unknown element {element!r}; known are {names}; other codes are in "
-            "rotbeam_exu.verification.peers"
+            f"unknown element {'in space ' if in_space else ''}{element!r}; known are {names}; "
+            "other codes are in rotbeam_exu.verification.peers"
         )
-    cls = FORMULATIONS[element]
-    known = [field.name for field in dataclasses.fields(cls)]
+    cls: Any = known[element]
+    fields = [field.name for field in dataclasses.fields(cls)]
     for name in options or {}:
-        if name not in known:
-            has = f"its options are {', '.join(known)}" if known else "it has no options"
+        if name not in fields:
+            has = f"its options are {', '.join(fields)}" if fields else "it has no options"
             raise ValueError(f"element {element!r} has no option {name!r}; {has}")
     model: Formulation = cls(**(options or {}))
     return model
 
 
-def require_formulation(element: object) -> None:
-    """Refuse what is neither the name of a formulation nor one."""
-    if not hasattr(element, "lay"):
-        raise TypeError(
-            "element must be the name of a formulation, or one, which is an instance of a frozen "
-            f"dataclass, as Exact(nodes=3), got {shown(element)}"
-        )
+def _is_formulation(element: object) -> bool:
+    """Whether it is one, hashes, and a file can hold it."""
+    try:
+        _ = hash(element), describe(element)
+    except TypeError:
+        return False
+    return isinstance(element, Formulation)
 
 
-def require_modeled(beam: AnyBlade, model: Formulation) -> None:
-    """Refuse a blade that the formulation does not model.
+def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:
+    """Refuse a blade that the formulation does not model, or not in this frame.
 
     Raises
     ------
     ValueError
         Naming what it is that the blade has, and which formulations take it.
     """
+    require_frame(beam, frame)
+    if frame not in model.frames:
+        raise ValueError(
+            f"element {model.name!r} is solved in the {' or '.join(model.frames)} frame, its "
+            f"inertia being no constant matrix: take frame={model.frames[0]!r}"
+        )
+    model.require_section(beam)
     unit = beam.unit
     if unit == UNIFORM:
         return
-    if not getattr(model, "takes_blades", False):
+    if model.leaves_plane and any(unit.damping):
+        raise ValueError(
+            "simulate_3d is for undamped blades, as Exudyn's geometrically exact beam ignores its "
+            f"damping: this one has {unit.differences}; take "
+            "blade.with_damping(Damping())"
+        )
+    if model.leaves_plane and unit.masses:
+        raise ValueError(
+            f"simulate_3d is for blades without point masses, and this one has {unit.differences}"
+        )
+    if not model.takes_blades:
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
-            f"{unit.differences}: take {_those_with('takes_blades')}"
+            f"{unit.differences}: take {_any_of(lambda cls: cls.takes_blades)}"
         )
     bending, axial, _ = unit.damping
-    if (bending or axial) and not getattr(model, "takes_viscosity", False):
+    if (bending or axial) and not model.takes_viscosity:
         raise ValueError(
             f"element {model.name!r} has no viscosity, and this blade has bending or axial "
-            f"damping: take {_those_with('takes_viscosity')}, or external damping"
+            f"damping: take {_any_of(lambda cls: cls.takes_viscosity)}, or external damping"
         )
 
 
-def _those_with(ability: str) -> str:
-    names = [repr(name) for name, cls in FORMULATIONS.items() if getattr(cls, ability, False)]
+def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
+    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls)]
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
@@ -100,17 +132,7 @@ def options_of(element: Formulation) -> dict[str, Any]:
 
 
 __all__ = [
-    "ALIASES",
-    "FORMULATIONS",
-    "Ancf3",
-    "Cable",
-    "Chain",
-    "Exact",
-    "Formulation",
-    "Linear",
-    "Substructures",
-    "formulation",
-    "options_of",
-    "require_formulation",
-    "require_modeled",
-]
+    "ALIASES", "FORMULATIONS", "SPACE_FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
+    "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
+    "options_of", "require_modeled",
+]  # fmt: skip

@@ -12,13 +12,14 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn, items
+from ..lazily import exudyn
 from ..mesh import Mesh
 from .energy_body import Assembly, add_energy_body
-from .formulation import Chain, NoDivergence
+from .formulation import Chain
 from .node_kinds import SectionSlopeNodes
 from .point_masses import add_point_masses
-from .section import POISSON_RATIO, checked_shear, shear_share
+from .polynomials import lagrange
+from .section import POISSON_RATIO, Sheared
 
 Law = Literal["uncoupled", "coupled"]
 
@@ -28,18 +29,14 @@ _PAIRS = ((0, 0), (0, 2), (2, 2), (1, 1), (0, 1), (1, 2))
 _CONSTANT = np.array([0.5, 0.0, 0.0, 0.5, 0.0, 0.0])
 
 
-def _quadratic_forms() -> FloatArray:
-    forms = np.zeros((len(_PAIRS), 3, 3))
-    for form, (a, b) in zip(forms, _PAIRS, strict=True):
-        form[a, b] = form[b, a] = 1.0
-    return np.asarray(np.kron(forms, np.eye(2)), dtype=np.float64)
-
-
-_FORMS = _quadratic_forms()
+_FORMS: FloatArray = np.zeros((6, 3, 2, 3, 2))
+for _form, (_a, _b) in zip(_FORMS, _PAIRS, strict=True):
+    _form[_a, :, _b] = _form[_b, :, _a] = np.eye(2)
+_FORMS = _FORMS.reshape(6, 6, 6)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ancf3(SectionSlopeNodes, NoDivergence):
+class Ancf3(Sheared, SectionSlopeNodes):
     """García-Vallejo, Mikkola and Escalona's element (2007), in its plane form; Eqs. 2-12.
 
     Nodes carry r and the section's slope r_y = ∂r/∂y (Eq. 2, whose three slopes are those of the
@@ -79,22 +76,30 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
     shear_correction: float = 1.0
 
     name: ClassVar[str] = "ancf3"
-    takes_blades: ClassVar[bool] = True
     summary: ClassVar[str] = "the paper's ANCF element, three nodes, quadratic, shear-deformable"
+    order = 4.0
+    takes_blades: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         if self.law not in ("uncoupled", "coupled"):
             raise ValueError(f"unknown law {self.law!r}; known are 'uncoupled' and 'coupled'")
-        checked_shear(self.poisson_ratio, self.shear_correction)
+        super().__post_init__()
+
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """At 8 rad/s its order shows from 16 on; where it locks, coarse meshes say so."""
+        return (8, 16, 32, 64) if self.starts_in_motion else ()
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """No state says how thick its sections are, which the coupled law would need."""
+        return self.law != "coupled"
 
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
-        nodes = tuple(
-            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 0.0, 1.0]))
-            for x in mesh.positions
-        )
+        nodes = self.add_nodes(mbs, mesh.positions)
         add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)
         turning = add_point_masses(mbs, nodes, mesh)
         return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)
@@ -116,7 +121,7 @@ class Ancf3(SectionSlopeNodes, NoDivergence):
         """
         nu = self.poisson_ratio if self.law == "coupled" else 0.0
         plane = 1.0 / (1.0 - nu**2)
-        shear = shear_share(self.poisson_ratio, self.shear_correction)
+        shear = self.shear_share
         d = np.zeros((*EA.shape, 6, 6))
         for i, j, value in (
             (0, 0, plane * EA),
@@ -185,16 +190,10 @@ class _Row:
 def _axis_vectors(length: float) -> FloatArray:
     """B (points, 6, 12) of (r_x, r_y, r_xy) = B e from Eqs. 3-7 at y = 0, two Gauss points."""
     xi = gauss_points(2)[0]
-    values = _shape_functions(xi)
-    slopes = np.stack([4 * xi - 3, 4 - 8 * xi, 4 * xi - 1], axis=1) / length
+    values, slopes = lagrange(xi, 2), lagrange(xi, 2, 1) / length
     rows = np.zeros((2, 3, 3, 2))  # points, vectors, nodes, r or r_y
     rows[:, 0, :, 0], rows[:, 1, :, 1], rows[:, 2, :, 1] = slopes, values, slopes
     return np.asarray(np.kron(rows.reshape(2, 3, 6), np.eye(2)), dtype=np.float64)
-
-
-def _shape_functions(xi: FloatArray) -> FloatArray:
-    """Eqs. 3-5 at ξ = x/l, (points, nodes)."""
-    return np.stack([1 - 3 * xi + 2 * xi**2, 4 * xi - 4 * xi**2, 2 * xi**2 - xi], axis=1)
 
 
 def _mass(mesh: Mesh) -> FloatArray:
@@ -203,7 +202,7 @@ def _mass(mesh: Mesh) -> FloatArray:
     Five points are exact for sections that vary as those of a taper do, by x⁴ at most.
     """
     xi, weights = gauss_points(5)
-    section, values = mesh.sections_at(xi), _shape_functions(xi)
+    section, values = mesh.sections_at(xi), lagrange(xi, 2)
     mass = np.zeros((mesh.elements, 3, 2, 3, 2))  # nodes, r or r_y
     for kind, density in enumerate((section.mass_per_length, section.rotary_inertia)):
         mass[:, :, kind, :, kind] = np.einsum("pa,pb,ep->eab", values, values, density * weights)

@@ -1,32 +1,74 @@
-"""Exudyn's ANCF cable: two nodes, cubic, Bernoulli-Euler."""
+"""Exudyn's ANCF cable, in the plane and in space: two nodes, cubic, Bernoulli-Euler."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from analytic import AnyBlade
-from analytic.arrays import FloatArray
+from analytic.arrays import ComplexArray, FloatArray
+from analytic.exact.beam.space import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
-from .formulation import Chain, NoDivergence
-from .hermite import shapes
-from .node_kinds import SlopeNodes
+from .formulation import Chain, Formulation
+from .node_kinds import SlopeNodes, SpaceSlopeNodes
 from .point_masses import add_point_masses
+from .polynomials import shapes
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
 _GAUSS = tuple(zip(*gauss_points(2), strict=True))
 """Where Exudyn integrates axial force and bending moment, and the weights, as measured."""
 
 
+class _Cables(Formulation, abstract=True):
+    """Cables in a row, of the body that the class names."""
+
+    body: ClassVar[str]
+    order = 4.0
+    takes_blades: ClassVar[bool] = True
+
+    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+        """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
+        mesh, damping = Mesh(blade=beam, elements=elements), beam.damping
+        nodes, body = self.add_nodes(mbs, mesh.positions), getattr(items, self.body)
+        EI, EA = mesh.sections.bending_stiffness, mesh.sections.axial_stiffness
+        bodies = tuple(
+            mbs.AddObject(
+                body(
+                    nodeNumbers=list(pair),
+                    length=mesh.length,
+                    massPerLength=mesh.sections.mass_per_length[i],
+                    bendingStiffness=EI[i],
+                    axialStiffness=EA[i],
+                    bendingDamping=EI[i] * damping.bending,
+                    axialDamping=EA[i] * damping.axial,
+                    # Lobatto points for the axial strain: coarse meshes gain a digit.
+                    useReducedOrderIntegration=2,
+                )
+            )
+            for i, pair in enumerate(pairwise(nodes))
+        )
+        chain = self.chain(mesh, nodes, bodies)
+        return replace(chain, turning=add_point_masses(mbs, nodes, mesh))
+
+    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
+        """Return the chain with the energy or the dissipation that Exudyn does not report."""
+        raise NotImplementedError
+
+    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
+        """|r'| - 1 at the nodes."""
+        slopes = coordinates[..., coordinates.shape[-1] // 2 :]
+        return np.asarray(np.linalg.norm(slopes, axis=-1) - 1.0)
+
+
 @dataclass(frozen=True, kw_only=True)
-class Cable(SlopeNodes, NoDivergence):
+class Cable(_Cables, SlopeNodes):
     """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|².
 
     Examples
@@ -39,68 +81,88 @@ class Cable(SlopeNodes, NoDivergence):
     """
 
     name: ClassVar[str] = "cable"
-    takes_blades: ClassVar[bool] = True
-    takes_viscosity: ClassVar[bool] = True
     summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
+    takes_viscosity: ClassVar[bool] = True
+    body: ClassVar[str] = "ObjectANCFCable2D"
 
-    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
-        """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
-        mesh = Mesh(blade=beam, elements=elements)
-        nodes = tuple(
-            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 1.0, 0.0]))
-            for x in mesh.positions
-        )
-        bodies = tuple(
-            mbs.AddObject(
-                items.ObjectANCFCable2D(
-                    nodeNumbers=list(pair),
-                    length=mesh.length,
-                    massPerLength=section.mass_per_length,
-                    bendingStiffness=section.bending_stiffness,
-                    axialStiffness=section.axial_stiffness,
-                    bendingDamping=section.bending_stiffness * mesh.damping.bending,
-                    axialDamping=section.axial_stiffness * mesh.damping.axial,
-                    # Lobatto points for the axial strain: coarse meshes gain a digit.
-                    useReducedOrderIntegration=2,
-                )
+    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
+        """Return the chain with what viscosity takes: ∫(EI η_b κ̇² + EA η_a ε̇²) dx.
+
+        With z = r_x + i r_y: ε̇ = |z'| Re(ż'/z') and κ = Im(z''/z').
+        """
+        damping = mesh.blade.damping
+
+        def stretching(slope: ComplexArray, rate: ComplexArray) -> FloatArray:
+            return np.asarray(damping.axial * (np.abs(slope) * (rate / slope).real) ** 2)
+
+        def bending(
+            slope: ComplexArray, second: ComplexArray, rate: ComplexArray, turning: ComplexArray
+        ) -> FloatArray:
+            change = (turning - second * rate / slope) / slope
+            return np.asarray(damping.bending * change.imag**2)
+
+        def dissipation(coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
+            rows = (e[..., ::2] + 1j * e[..., 1::2] for e in (coordinates, velocities))
+            return _integrated(mesh, stretching, bending, *rows)
+
+        viscous = damping.bending or damping.axial
+        return Chain(nodes=nodes, bodies=bodies, dissipation=dissipation if viscous else None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpaceCable(_Cables, SpaceSlopeNodes):
+    """ObjectANCFCable: nodes carry r and r'; no torsion, and one EI for all directions."""
+
+    name: ClassVar[str] = "cable"
+    summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
+    new_jacobians: ClassVar[bool] = True  # half the time
+    body: ClassVar[str] = "ObjectANCFCable"
+
+    def require_section(self, blade: AnyBlade) -> None:
+        """Refuse a section that bends otherwise out of the plane than in it."""
+        ratio = require_out_of_plane(blade, torsion=False).bending_ratio
+        if abs(ratio - 1.0) > 1e-9:
+            raise ValueError(
+                f"element 'cable' bends alike in all directions, and this blade {ratio:.4g} times "
+                "as stiffly out of the plane as in it: take element='exact', or "
+                "blade.with_section_out_of_plane(bending_ratio=1.0)"
             )
-            for pair, section in zip(pairwise(nodes), mesh.sections(), strict=True)
-        )
-        viscous = mesh.damping.bending or mesh.damping.axial
-        return Chain(
-            nodes=nodes,
-            bodies=bodies,
-            turning=add_point_masses(mbs, nodes, mesh),
-            dissipation=partial(_dissipation, mesh) if viscous else None,
-        )
 
-    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
-        """|r'| - 1 at the nodes."""
-        return np.asarray(np.hypot(coordinates[..., 2], coordinates[..., 3]) - 1.0)
+    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
+        """Return the chain with its elastic energy, with κ = |r'×r''|/|r'|²."""
+
+        def stretching(slope: FloatArray) -> FloatArray:
+            return np.asarray(0.5 * (np.linalg.norm(slope, axis=-1) - 1.0) ** 2)
+
+        def bending(slope: FloatArray, second: FloatArray) -> FloatArray:
+            across = np.sum(np.cross(slope, second) ** 2, axis=-1)
+            return np.asarray(0.5 * across / np.sum(slope**2, axis=-1) ** 2)
+
+        def energy(coordinates: FloatArray) -> FloatArray:
+            vectors = coordinates.reshape(*coordinates.shape[:2], 2, 3)
+            return _integrated(mesh, stretching, bending, vectors)
+
+        return Chain(nodes=nodes, elastic_energy=energy)
 
 
-def _dissipation(mesh: Mesh, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
-    """Return the power (samples,) that bending and axial damping take: ∫(EI η_b κ̇² + EA η_a ε̇²) dx.
+def _integrated(
+    mesh: Mesh,
+    stretching: Callable[..., FloatArray],
+    bending: Callable[..., FloatArray],
+    *rows: Any,
+) -> FloatArray:
+    """Return ∫(EA stretching + EI bending) dx, (samples,), as Exudyn integrates.
 
-    With z = r_x + i r_y: ε̇ = |z'| Re(ż'/z') and κ = Im(z''/z').
+    A row is positions and slopes, (samples, nodes, 2, ...). The integrands take the first
+    derivative of each row, that of bending the second after it.
     """
-    e, e_dot = (
-        np.concatenate([z[:, :-1], z[:, 1:]], axis=2)
-        for z in (values[..., ::2] + 1j * values[..., 1::2] for values in (coordinates, velocities))
-    )
-    sections, damping = list(mesh.sections()), mesh.damping
-    EI, EA = (
-        np.array([getattr(section, name) for section in sections])
-        for name in ("bending_stiffness", "axial_stiffness")
-    )
-    power = np.zeros(len(coordinates))
-    for xi, weight in _LOBATTO:
-        first = shapes(xi, mesh.length, 1)
-        slope, rate = e @ first, e_dot @ first
-        power += damping.axial * weight * (np.abs(slope) * (rate / slope).real) ** 2 @ EA
-    for xi, weight in _GAUSS:
-        first, second = (shapes(xi, mesh.length, order) for order in (1, 2))
-        slope, rate = e @ first, e_dot @ first
-        turning = (e_dot @ second - (e @ second) * rate / slope) / slope
-        power += damping.bending * weight * turning.imag**2 @ EI
-    return mesh.length * power
+    ends = [np.concatenate((row[:, :-1], row[:, 1:]), axis=2) for row in rows]
+
+    def at(xi: float, orders: Sequence[int]) -> list[Any]:
+        weights = [shapes(xi, mesh.length, order) for order in orders]
+        return [np.einsum("k,sek...->se...", w, row) for row in ends for w in weights]
+
+    EA, EI = mesh.sections.axial_stiffness, mesh.sections.bending_stiffness
+    axial = sum(weight * stretching(*at(xi, [1])) @ EA for xi, weight in _LOBATTO)
+    bent = sum(weight * bending(*at(xi, [1, 2])) @ EI for xi, weight in _GAUSS)
+    return np.asarray(mesh.length * (axial + bent))

@@ -1,4 +1,4 @@
-"""A body of our own in Exudyn: constant mass matrix, elastic forces from a vectorized energy."""
+"""Bodies and forces of our own in Exudyn, over the coordinates of a row of nodes."""
 
 from __future__ import annotations
 
@@ -69,20 +69,44 @@ def add_energy_body(
     `force` returns f, the gradient of the elastic energy, and `tangent` its derivative as
     triplets to be added up.
     """
+    add_force(
+        mbs, nodes, mass.shape[0],
+        force=lambda t, e, rates: -force(e),
+        derivatives=lambda t, e: [(tangent(e), -1.0, 0.0)],
+        mass=mass,
+    )  # fmt: skip
+
+
+def add_force(
+    mbs: exudyn.MainSystem,
+    nodes: Sequence[exudyn.NodeIndex],
+    size: int,
+    *,
+    force: Callable[[float, FloatArray, FloatArray], FloatArray],
+    derivatives: Callable[[float, FloatArray], Sequence[tuple[FloatArray, float, float]]],
+    mass: sparse.csr_array | None = None,
+) -> None:
+    """Add M e'' = f(t, e, e') over the coordinates e of `nodes`, (size,), reference included.
+
+    `derivatives` returns parts, each a matrix as triplets to be added up, and the factors with
+    which it stands in ∂f/∂e and in ∂f/∂e'. Without `mass` M is zero.
+    """
     reference = np.concatenate([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
     container = exudyn.MatrixContainer()
-    container.SetWithSparseMatrix(sparse.csr_matrix(mass))
+    container.SetWithSparseMatrix(sparse.csr_matrix((size, size) if mass is None else mass))
 
     def applied(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
-        return -force(reference + np.asarray(q))
+        return force(t, reference + np.asarray(q), np.asarray(q_t))
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, factor_q: float, factor_q_t: float
     ) -> Any:
-        triplets = tangent(reference + np.asarray(q))
-        triplets[:, 2] *= factor_q
+        rows = []
+        for part, by_q, by_q_t in derivatives(t, reference + np.asarray(q)):
+            rows.append(part.copy())
+            rows[-1][:, 2] *= -(factor_q * by_q + factor_q_t * by_q_t)
         matrix = exudyn.MatrixContainer()
-        matrix.SetWithSparseMatrix(triplets, *mass.shape)
+        matrix.SetWithSparseMatrix(np.vstack(rows), size, size)
         return matrix
 
     mbs.AddObject(
@@ -93,3 +117,9 @@ def add_energy_body(
             jacobianUserFunction=jacobian,
         )
     )
+
+
+def triplets(matrix: sparse.csr_array) -> FloatArray:
+    """Return (rows, columns, values) of a matrix, as Exudyn takes them."""
+    entries = matrix.tocoo()
+    return np.column_stack([entries.row, entries.col, entries.data]).astype(np.float64)

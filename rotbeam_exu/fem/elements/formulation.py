@@ -1,20 +1,23 @@
-"""What a beam formulation must offer to be driven, solved and judged."""
+"""The base of beam formulations: what one must offer to be driven, solved and judged."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.description import Described
+from analytic.lazily import sparse
+from analytic.theory import Theory
 
-from ..lazily import exudyn
-
-TurningNode = tuple[int, float]
-"""A node, by its place in the chain, and the inertia [kg m²] against rotation of its slope."""
+from ..frame import Frame
+from ..lazily import exudyn, items
+from .point_masses import TurningNode, spins
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,86 +47,172 @@ class Chain:
     turning: tuple[TurningNode, ...] = ()
     dissipation: Callable[[FloatArray, FloatArray], FloatArray] | None = None
 
+    def reference(self, mbs: exudyn.MainSystem) -> FloatArray:
+        """Return the reference coordinates, (nodes, n)."""
+        return np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in self.nodes])
 
-class Formulation(Protocol):
-    """A planar beam element: its chain, its clamp and what its coordinates mean.
 
-    A formulation is a frozen dataclass whose fields are its options, and inherits from
-    `analytic.description.Described`, as kinds of nodes do: its class and its options say how to
-    make it again. The coordinates of a node are those that Exudyn integrates, reference
-    values included, here as arrays of shape (..., nodes, n). A rotation by θ takes them, and
-    mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and slopes,
-    a adds to angles. One that lays any `Blade` says so by ``takes_blades = True``, and by
-    ``takes_viscosity = True`` if with its bending and axial damping; to others only the uniform
-    beam is given, and blades without. One that moves in space, out of the plane of rotation too,
-    has ``leaves_plane = True``. Of the solver one may ask for ``new_jacobians = True``, in each
-    step, and for another ``spectral_radius`` than 0.9 in the inertial frame.
+class Formulation(Described, abstract=True):
+    """A beam element: its chain, its clamp, what its coordinates mean, and its abilities.
+
+    A formulation is a frozen dataclass whose fields are its options; its class and its options
+    say how to make it again. It inherits from a kind of node (`node_kinds`), and defines `lay` and
+    `axial_strain`. The coordinates of a node are those that Exudyn integrates, reference
+    values included, here as arrays of shape (..., nodes, n). A rotation by θ about the axis takes
+    them, and mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and
+    slopes, a adds to angles.
     """
 
     name: ClassVar[str]
-    """What the user calls it."""
+    """Name that the user gives; an element in space may have that of one in the plane."""
     summary: ClassVar[str]
     """One line that names the formulation."""
+
+    takes_blades: ClassVar[bool] = False
+    """Whether it lays any `Blade`, not the uniform beam alone."""
+    takes_viscosity: ClassVar[bool] = False
+    """Whether it has bending and axial damping."""
+    leaves_plane: ClassVar[bool] = False
+    """Whether it lives in space: z is across the plane of rotation."""
+    frames: ClassVar[tuple[Frame, ...]] = ("inertial", "rotating")
+    """Frames in which it can be solved."""
+    new_jacobians: ClassVar[bool] = False
+    """Whether the solver is to make a new Jacobian in each step."""
+    spectral_radius: ClassVar[float] = 0.9
+    """Spectral radius of the generalized-α integrator in the inertial frame."""
+
+    node: ClassVar[str]
+    """Exudyn's class of the nodes."""
+    straight: ClassVar[tuple[float, ...]]
+    """Reference coordinates of a node of the straight beam, but for its x, the first."""
     quarter_turn: ClassVar[FloatArray]
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
     angles: ClassVar[FloatArray]
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     fixed_at_root: ClassVar[tuple[int, ...]]
-    """Root coordinates held at their reference values, whatever the angle."""
+    """Root coordinates held at their reference values, whatever the angle: the position's."""
 
-    def __hash__(self) -> int:
-        """Equal options, equal hash: a formulation is a value."""
+    @property
+    def order(self) -> float | None:
+        """Order of convergence in the length of the elements; None if it is not known."""
+        return None
+
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """Numbers of elements on which it is judged; none of half, the same and twice as many."""
+        return ()
+
+    @property
+    def starts_in_motion(self) -> bool:
+        """Whether the state of a beam says all of its coordinates."""
+        return True
+
+    @property
+    def shear_share(self) -> float | None:
+        """k_s GA over EA of a beam that shears and has rotary inertia, else None."""
+        return None
+
+    @property
+    def theory(self) -> Theory:
+        """Theory of its beam."""
+        return Theory(shear=self.shear_share, rotary_inertia=self.shear_share is not None)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
+        raise NotImplementedError
+
+    def add_nodes(
+        self, mbs: exudyn.MainSystem, positions: FloatArray
+    ) -> tuple[exudyn.NodeIndex, ...]:
+        """Add the nodes of the straight beam at `positions` along the x axis."""
+        node = getattr(items, self.node)
+        return tuple(mbs.AddNode(node(referenceCoordinates=[x, *self.straight])) for x in positions)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
         """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
+        raise NotImplementedError
 
     def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.
 
         Its nodes are at `x` [m] from the axis.
         """
+        raise NotImplementedError
 
     def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
+        raise NotImplementedError
 
     def divergence_speed(self, beam: Any, elements: int) -> float:
-        """Speed [rad/s] above which the model diverges, infinite where its strains are exact."""
-
-
-class NoDivergence:
-    """The answer of formulations that describe large deformation exactly."""
-
-    takes_blades: ClassVar[bool] = False
-    takes_viscosity: ClassVar[bool] = False
-
-    def divergence_speed(self, beam: Any, elements: int) -> float:
-        """Return infinity: divergence is an artifact of linear elastic frames (Sec. 1)."""
+        """Speed [rad/s] above which the model diverges; infinite where its strains are exact."""
         return math.inf
 
+    def require_section(self, blade: AnyBlade) -> None:
+        """Refuse a blade whose section the element does not model."""
 
-def turned(element: Formulation, coordinates: FloatArray, angle: FloatArray) -> FloatArray:
-    """Return exp(θJ) e + θ a of coordinates (samples, nodes, n), `angle` θ (samples,) [rad]."""
-    return turned_velocities(element, coordinates, angle) + angle[:, None, None] * element.angles
+    def twist(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the twist [rad] of the tip's section about its normal, (samples,), if any."""
+        return None
 
+    def upright(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the axis of the sections that is along z at rest, (samples, nodes, 3), if any."""
+        return None
 
-def turned_velocities(
-    element: Formulation, velocities: FloatArray, angle: FloatArray
-) -> FloatArray:
-    """Return exp(θJ) v = v + sin θ J v + (1 - cos θ) J² v of vectors (samples, nodes, n)."""
-    once = velocities @ element.quarter_turn.T
-    twice = once @ element.quarter_turn.T
-    sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
-    return velocities + sine * once + versine * twice
+    @property
+    def radial(self) -> FloatArray:
+        """One for coordinates along the clamp's line, which J turns across it, else 0, (n,)."""
+        return np.asarray((self.quarter_turn > 0.0).any(axis=0), dtype=np.float64)
 
+    def spun(self, coordinates: FloatArray) -> FloatArray:
+        """Return J e + a, the rates of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
+        return coordinates @ self.quarter_turn.T + self.angles
 
-def radial(element: Formulation) -> FloatArray:
-    """Return one for coordinates along the clamp's line, which J turns across it, else 0, (n,)."""
-    return np.asarray((element.quarter_turn > 0.0).any(axis=0), dtype=np.float64)
+    def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
+        """Return exp(θJ) v = v + sin θ J v + (1 - cos θ) J² v of vectors (samples, nodes, n).
 
+        `angle` is θ (samples,) [rad]; to coordinates that are angles θ a comes in addition.
+        """
+        once = vectors @ self.quarter_turn.T
+        twice = once @ self.quarter_turn.T
+        sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
+        return vectors + sine * once + versine * twice
 
-def spun(element: Formulation, coordinates: FloatArray) -> FloatArray:
-    """Return J e + a, the velocities of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
-    return coordinates @ element.quarter_turn.T + element.angles
+    def energy_and_momentum(
+        self,
+        beam: Any,
+        mass: sparse.csr_array,
+        turning: tuple[TurningNode, ...],
+        coordinates: FloatArray,
+        velocities: FloatArray,
+        rate: FloatArray,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the kinetic energy T and the angular momentum L_z = ∂T/∂w about the axis.
+
+        Both are (samples,). The velocity in the plane of bending has a rotation by c w in it;
+        normal to the plane a point moves by s w times its distance x along the clamp's line, with
+        c = cos ψ and s = sin ψ.
+
+        Parameters
+        ----------
+        beam : Beam or Blade
+        mass : csr_array
+            Of the chain, but for the inertia of its turning nodes.
+        turning : tuple of TurningNode
+        coordinates : ndarray (samples, nodes, n)
+            In the frame of the clamp, reference included.
+        velocities : ndarray (samples, nodes, n)
+            Absolute, in the plane of bending, by the axes of that frame.
+        rate : ndarray (samples,)
+            w.
+        """
+        samples, setting = rate.size, beam.unit.setting
+        v = velocities.reshape(samples, -1)
+        along = (coordinates * self.radial).reshape(samples, -1)
+        momentum = v @ mass
+        about_normal = np.sum(self.spun(coordinates).reshape(samples, -1) * momentum, axis=1)
+        twice = np.sum(v * momentum, axis=1)
+        for inertia, spin in spins(turning, coordinates, velocities):
+            about_normal += inertia * spin
+            twice += inertia * spin**2
+        normal = (1.0 - setting**2) * rate * np.sum(along * (along @ mass), axis=1)
+        return 0.5 * (twice + rate * normal), setting * about_normal + normal

@@ -20,17 +20,17 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ..lazily import exudyn, items
+from ..lazily import exudyn
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
-from .hermite import HERMITE, scales
 from .node_kinds import QUARTER_TURN, SlopeNodes
+from .polynomials import HERMITE, scales
 
 FloatingFrame = Literal["tangent", "pinned"]
 
 
 class _LinearFrames(SlopeNodes, abstract=True):
-    """What both formulations below share: `row` says how a beam is cut into frames."""
+    """Linear frames; `row` says how a beam is cut into them."""
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
         """Return the beam cut into frames."""
@@ -39,10 +39,7 @@ class _LinearFrames(SlopeNodes, abstract=True):
     def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
-        nodes = tuple(
-            mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=reference))
-            for reference in row.reference.reshape(-1, 4)
-        )
+        nodes = self.add_nodes(mbs, row.reference[::4])
         add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
         return Chain(nodes=nodes, elastic_energy=row.energy)
 
@@ -88,6 +85,7 @@ class Linear(_LinearFrames):
 
     name: ClassVar[str] = "linear"
     summary: ClassVar[str] = "one linear floating frame, clamped to the root; diverges above ω0"
+    order = 4.0
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
         """Return one frame with `elements` cells."""
@@ -126,6 +124,7 @@ class Substructures(_LinearFrames):
 
     name: ClassVar[str] = "substructures"
     summary: ClassVar[str] = "linear floating frames in a row; each number has a divergence speed"
+    order = 2.0
 
     def __post_init__(self) -> None:
         if self.frame not in ("tangent", "pinned"):

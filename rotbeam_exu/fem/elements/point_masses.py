@@ -7,7 +7,7 @@ blade at a point, the more so the finer the mesh, and frequencies drift off it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,9 @@ from analytic.arrays import FloatArray
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
-from .formulation import Chain, TurningNode
+
+TurningNode = tuple[int, float]
+"""A node, by its place in the chain, and the inertia [kg m²] against rotation of its slope."""
 
 _SLOPE = slice(2, 4)
 """The coordinates of a node that are its slope."""
@@ -33,14 +35,17 @@ def add_point_masses(
 
 
 def add_point_inertias(
-    mbs: exudyn.MainSystem, chain: Chain, acceleration: Callable[[float], float]
+    mbs: exudyn.MainSystem,
+    nodes: Sequence[exudyn.NodeIndex],
+    turning: Iterable[TurningNode],
+    acceleration: Callable[[float], float],
 ) -> None:
-    """Add J (ϑ̈ + α) to the angles of the chain's turning nodes.
+    """Add J (ϑ̈ + α) to the angles of the turning nodes of a chain.
 
     α(t) is the angular acceleration of the frame about the normal of the plane of bending.
     """
-    for node, inertia in chain.turning:
-        _add_inertia(mbs, chain.nodes[node], inertia, acceleration)
+    for node, inertia in turning:
+        _add_inertia(mbs, nodes[node], inertia, acceleration)
 
 
 def _add_inertia(

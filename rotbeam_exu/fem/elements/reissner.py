@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
-from .formulation import Chain, NoDivergence
+from .formulation import Chain
 from .node_kinds import AngleNodes
-from .section import POISSON_RATIO, SHEAR_CORRECTION, checked_shear, shear_share
+from .polynomials import lagrange
+from .section import POISSON_RATIO, SHEAR_CORRECTION, Sheared
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exact(AngleNodes, NoDivergence):
+class Exact(Sheared, AngleNodes):
     """ObjectBeamGeometricallyExact2D: nodes carry r and the angle φ of the section.
 
     With d = (cos φ, sin φ) along the section's normal, strains are r'·d - 1, r'×d and φ',
@@ -49,94 +50,72 @@ class Exact(AngleNodes, NoDivergence):
     shear_correction: float = SHEAR_CORRECTION
 
     name: ClassVar[str] = "exact"
+    summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
     takes_blades: ClassVar[bool] = True
     takes_viscosity: ClassVar[bool] = True
-    summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
 
     def __post_init__(self) -> None:
         if self.nodes not in (2, 3):
             raise ValueError(f"nodes must be 2 or 3, got {self.nodes!r}")
-        checked_shear(self.poisson_ratio, self.shear_correction)
+        super().__post_init__()
+
+    @property
+    def order(self) -> float:
+        """Order in the mesh: of quadratic functions and two points twice that of linear and one."""
+        return 2.0 * (self.nodes - 1)
 
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
-        nodes = tuple(
-            mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, 0, 0]))
-            for x in mesh.positions
-        )
-        inner = self.nodes - 1
-        for i, section in zip(range(0, inner * elements, inner), mesh.sections(), strict=True):
+        nodes = self.add_nodes(mbs, mesh.positions)
+        inner, at, damping = self.nodes - 1, mesh.sections, beam.damping
+        for i in range(elements):
+            EI, EA = at.bending_stiffness[i], at.axial_stiffness[i]
             mbs.AddObject(
                 items.ObjectBeamGeometricallyExact2D(
-                    nodeNumbers=list(nodes[i : i + self.nodes]),
+                    nodeNumbers=list(nodes[inner * i : inner * (i + 1) + 1]),
                     length=mesh.length,
-                    massPerLength=section.mass_per_length,
-                    crossSectionInertia=section.rotary_inertia,
-                    bendingStiffness=section.bending_stiffness,
-                    axialStiffness=section.axial_stiffness,
-                    shearStiffness=self._shear_share * section.axial_stiffness,
-                    bendingDamping=section.bending_stiffness * mesh.damping.bending,
-                    axialDamping=section.axial_stiffness * mesh.damping.axial,
+                    massPerLength=at.mass_per_length[i],
+                    crossSectionInertia=at.rotary_inertia[i],
+                    bendingStiffness=EI,
+                    axialStiffness=EA,
+                    shearStiffness=self.shear_share * EA,
+                    bendingDamping=EI * damping.bending,
+                    axialDamping=EA * damping.axial,
                 )
             )
         for node, one in mesh.lumped():
             mbs.AddObject(
                 items.ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
             )
-        viscous = mesh.damping.bending or mesh.damping.axial
+        row = _Row(self, beam, elements)
+        viscous = damping.bending or damping.axial
         return Chain(
-            nodes=nodes,
-            elastic_energy=lambda e: self.elastic_energy(beam, e),
-            dissipation=partial(self._dissipation, mesh) if viscous else None,
+            nodes=nodes, elastic_energy=row.energy, dissipation=row.dissipation if viscous else None
         )
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
-        return self._strains(beam, coordinates)[0]
+        elements = (coordinates.shape[-2] - 1) // (self.nodes - 1)
+        return _Row(self, beam, elements).strains(coordinates)[0]
 
-    def elastic_energy(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
-        """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
-        axial, shear, curvature = self._strains(beam, coordinates)
-        EA, EI = self._stiffness(beam, coordinates)
-        density = EA * (axial**2 + self._shear_share * shear**2) + EI * curvature**2
-        # The points of an element, one or two, weigh the same.
-        return np.asarray(0.5 * beam.length * density.mean(axis=-1))
 
-    def _dissipation(
-        self, mesh: Mesh, coordinates: FloatArray, velocities: FloatArray
-    ) -> FloatArray:
-        """Return the power (samples,) that bending and axial damping take."""
-        e, e_x = self._at_gauss_points(mesh.blade, coordinates)
-        rate, rate_x = self._at_gauss_points(mesh.blade, velocities)
-        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
-        shear = cosine * e_x[..., 1] - sine * e_x[..., 0]
-        axial = cosine * rate_x[..., 0] + sine * rate_x[..., 1] + rate[..., 2] * shear
-        EA, EI = self._stiffness(mesh.blade, coordinates)
-        damping = mesh.damping
-        density = damping.axial * EA * axial**2 + damping.bending * EI * rate_x[..., 2] ** 2
-        return np.asarray(mesh.blade.length * density.mean(axis=-1))
+class _Row:
+    """Strains, energy and dissipation of a row of elements at all Gauss points, (..., points)."""
 
-    def _stiffness(self, beam: AnyBlade, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """EA and EI at the Gauss points, each (points,)."""
-        inner = self.nodes - 1
-        mesh = Mesh(blade=beam, elements=(coordinates.shape[-2] - 1) // inner)
-        sections = list(mesh.sections())
-        EA, EI = (
-            np.repeat([getattr(section, name) for section in sections], inner)
-            for name in ("axial_stiffness", "bending_stiffness")
-        )
-        return EA, EI
+    def __init__(self, element: Exact, beam: AnyBlade, elements: int) -> None:
+        self._inner = inner = element.nodes - 1
+        self._beam, self._shear_share = beam, element.shear_share
+        sections = Mesh(blade=beam, elements=elements).sections
+        self._EA = np.repeat(sections.axial_stiffness, inner)
+        self._EI = np.repeat(sections.bending_stiffness, inner)
+        points = gauss_points(inner)[0]
+        self._values = lagrange(points, inner)
+        self._slopes = lagrange(points, inner, 1) * elements / beam.length
 
-    @property
-    def _shear_share(self) -> float:
-        return shear_share(self.poisson_ratio, self.shear_correction)
-
-    def _strains(
-        self, beam: AnyBlade, coordinates: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Axial, shear and bending strain at the Gauss points, each (..., points)."""
-        e, e_x = self._at_gauss_points(beam, coordinates)
+    def strains(self, coordinates: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return axial, shear and bending strain."""
+        e, e_x = self._at_gauss_points(coordinates)
         sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
         return (
             cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0,
@@ -144,26 +123,31 @@ class Exact(AngleNodes, NoDivergence):
             e_x[..., 2],
         )
 
-    def _at_gauss_points(
-        self, beam: AnyBlade, coordinates: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the coordinates and their slopes at the Gauss points, each (..., points, 3)."""
-        inner = self.nodes - 1
-        count = (coordinates.shape[-2] - 1) // inner
-        length = beam.length / count
+    def energy(self, coordinates: FloatArray) -> FloatArray:
+        """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
+        axial, shear, curvature = self.strains(coordinates)
+        density = self._EA * (axial**2 + self._shear_share * shear**2) + self._EI * curvature**2
+        # The points of an element, one or two, weigh the same.
+        return np.asarray(0.5 * self._beam.length * density.mean(axis=-1))
+
+    def dissipation(self, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
+        """Return the power (samples,) that bending and axial damping take."""
+        shear, damping = self.strains(coordinates)[1], self._beam.damping
+        angle = self._at_gauss_points(coordinates)[0][..., 2]
+        rate, rate_x = self._at_gauss_points(velocities)
+        axial = np.cos(angle) * rate_x[..., 0] + np.sin(angle) * rate_x[..., 1]
+        axial += rate[..., 2] * shear
+        power = damping.axial * self._EA * axial**2
+        power += damping.bending * self._EI * rate_x[..., 2] ** 2
+        return np.asarray(self._beam.length * power.mean(axis=-1))
+
+    def _at_gauss_points(self, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the coordinates and their slopes, each (..., points, 3)."""
+        inner, count = self._inner, (coordinates.shape[-2] - 1) // self._inner
         per_element = coordinates[..., inner * np.arange(count)[:, None] + np.arange(inner + 1), :]
-        # Shape functions and their slopes to x at the Gauss points, (points, nodes).
-        points = np.polynomial.legendre.leggauss(inner)[0]
-        if inner == 1:
-            values = np.array([[0.5, 0.5]])
-            slopes = np.array([[-1.0, 1.0]]) / length
-        else:
-            values = np.stack(
-                [0.5 * points * (points - 1), 1 - points**2, 0.5 * points * (points + 1)], axis=1
-            )
-            slopes = np.stack([points - 0.5, -2 * points, points + 0.5], axis=1) * 2.0 / length
         flat = (*coordinates.shape[:-2], inner * count, 3)
         e, e_x = (
-            np.einsum("pn,...jnc->...jpc", s, per_element).reshape(flat) for s in (values, slopes)
+            np.einsum("pn,...jnc->...jpc", s, per_element).reshape(flat)
+            for s in (self._values, self._slopes)
         )
         return e, e_x

@@ -1,4 +1,59 @@
 """The usual mistakes: before a large error is held against a code, what explains it is looked for.
 
-A mistake explains an error if what the reference would look like with it leaves a fifth at most.
+A mistake explains an error if what the reference would look like with it leaves a fifth at most. A
+new one is a line or a function in the lists of `histories` or `tables`.
 """
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Collection
+
+from analytic.input_checks import RotbeamWarning
+
+from ..cases import CASES, Asked
+from ..judgement import Judgement
+from ..references import reference
+from ..submission import Submission
+from .histories import RAMPS, SMALL, mistake_in_history
+from .mistake import Mistake, largest
+from .tables import mistake_in_backbone, mistake_in_frequencies
+
+__all__ = ["Mistake", "mistakes_in"]
+
+
+def mistakes_in(submission: Submission, judgement: Judgement) -> list[Mistake]:
+    """Return the mistakes that explain large errors of a submission, one a case at most."""
+    found: list[Mistake] = []
+    ramps: Collection[str] = RAMPS
+    with warnings.catch_warnings():
+        # Of a speed that looks like rpm, which is what is tried.
+        warnings.simplefilter("ignore", RotbeamWarning)
+        for name in judgement.findings:
+            seen = judgement.histories.get(name)
+            try:
+                if seen is None:
+                    one = _in_table(name, submission)
+                else:
+                    run, true = seen.rows.finest, seen.reference.history
+                    one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
+            except (RuntimeError, ValueError):
+                continue  # no reference, which the judgement says
+            if one is not None:
+                found.append(one)
+            if one is not None and one.name in RAMPS:
+                ramps = (one.name,)  # a code has one ramp in all cases
+            elif one is None and seen is not None and seen.case.is_spun_up:
+                off = largest(seen.differences[seen.rows.finest]) > SMALL
+                ramps = () if off else ramps  # tried in vain
+    return found
+
+
+def _in_table(name: str, submission: Submission) -> Mistake | None:
+    case = CASES.get(name)
+    if case is None or case.asked is Asked.HISTORY:
+        return None
+    truth = reference(case, submission.declaration.theory)
+    if case.asked is Asked.FREQUENCIES:
+        return mistake_in_frequencies(case, submission.frequencies, truth)
+    return mistake_in_backbone(case, submission.backbone, truth)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from analytic import SpinUp, spin_up_response
+from analytic import spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import optimize
+from analytic.motion import SpeedChange
 
 from ..cases import Case
-from .mistake import LEFT, Mistake, explaining
-from .ramps import RAMPS
+from .mistake import LEFT, Mistake, explaining, largest
 
 SMALL = 1e-2
 """Error of q(t) over max|q| below which no mistake is looked for: what passes."""
@@ -24,18 +26,64 @@ _RAMP_WINDOW = 4.0  # of the ramp [s]: enough to tell one from another
 _SHORTENING = 0.581  # of a bent cantilever's first mode: the tip nears the clamp by this × q²/L
 _LINEAR = 0.1  # |q|/L up to which a response is proportional to the speed, early in a ramp
 
-_FACTORS: Mapping[str, tuple[str, Callable[[float], float]]] = {
-    "sign of q": (
-        "q has the wrong sign: it is negative while the rotation speeds up, Eq. 16",
-        lambda length: -1.0,
-    ),
-    "q over L": ("q is over L: hand it in in metres", lambda length: 1.0 / length),
-    "millimetres": ("q is in millimetres: hand it in in metres", lambda length: 1e3),
-}
 _UNITS = {
-    "degrees": 180.0 / math.pi, "revolutions per minute": 30.0 / math.pi, "hertz": 0.5 / math.pi,
-}  # fmt: skip
-_UNIT_NAMES = {"degrees": "degrees", "revolutions per minute": "rpm", "hertz": "Hz"}
+    "degrees": ("degrees", 180.0 / math.pi),
+    "revolutions per minute": ("rpm", 30.0 / math.pi),
+    "hertz": ("Hz", 0.5 / math.pi),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _WrongRamp(SpeedChange, abstract=True):
+    """A ramp that is taken for Eq. 1's: same speed, same time, another way to it."""
+
+    omega: float
+    ramp_time: float
+    start: float = 0.0
+
+    @property
+    def shortest_wave(self) -> float:  # type: ignore[override]
+        """Period of the acceleration during the ramp, T [s]."""
+        return self.ramp_time
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearRamp(_WrongRamp):
+    """A rate that grows linearly, ωt/T: Eq. 1 without its sine."""
+
+    def _within(self, t: Any, derivative: int) -> Any:
+        return self.omega / self.ramp_time * (0.5 * t**2, t, t < self.ramp_time)[derivative]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosineRamp(_WrongRamp):
+    """A rate that grows as half a cosine, (ω/2)(1 - cos(πt/T))."""
+
+    def _within(self, t: Any, derivative: int) -> Any:
+        k = np.pi / self.ramp_time
+        angle, rate = t - np.sin(k * t) / k, 2.0 * np.sin(0.5 * k * t) ** 2
+        return 0.5 * self.omega * (angle, rate, k * np.sin(k * t))[derivative]
+
+
+RAMPS: dict[str, type[_WrongRamp]] = {
+    "a rate that grows linearly, without the sine of Eq. 1": LinearRamp,
+    "a rate that grows as half a cosine": CosineRamp,
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Seen:
+    """A history that is off: samples of it and of the reference."""
+
+    case: Case
+    time: FloatArray
+    q: FloatArray
+    true: FloatArray
+    reference: Callable[[FloatArray], FloatArray]
+
+
+_Suspects = Iterator[tuple[str, str, float]]
+"""Name, sentence, and the largest |q| [m] that the mistake leaves unexplained."""
 
 
 def mistake_in_history(
@@ -45,145 +93,117 @@ def mistake_in_history(
     reference: Callable[[FloatArray], FloatArray],
     ramps: Collection[str] = RAMPS,
 ) -> Mistake | None:
-    """Return the mistake that explains what a history is off by, if there is one.
+    """Return the mistake that explains the error of a history, if there is one.
 
-    Parameters
-    ----------
-    case : Case
-    time, q : ndarray (samples,)
-        As handed in, [s] and [m].
-    reference : callable
-        The reference's q [m] at times [s] within the case.
-    ramps : collection of str
-        Wrong ramps to try, keys of RAMPS; each takes a second or two.
+    Times [s] and q [m] are as handed in; `reference` gives q [m] at times within the case. `ramps`
+    are the wrong ones to try, keys of RAMPS; each takes a second or two.
     """
     every = max(1, time.size // _SAMPLES)
     time, q = time[::every], q[::every]
-    true = reference(time)
-    scale = float(np.abs(true).max())
-    before = float(np.abs(q - true).max()) / scale
+    seen = _Seen(case=case, time=time, q=q, true=reference(time), reference=reference)
+    scale = largest(seen.true)
+    before = largest(q - seen.true) / scale
     if not before > SMALL:
         return None
-
-    def made(name: str, said: str, after: float) -> Mistake:
-        return Mistake(case=case.name, name=name, said=said, before=before, after=after / scale)
-
-    quick = [
-        *(made(*one) for one in _factors(case, q, true)),
-        *(made(*one) for one in _offset(case, time, q, reference)),
-        *(made(*one) for one in _inertial(case, time, q, true)),
-    ]
-    found = explaining(quick)
-    if found is not None or not isinstance(case.motion, SpinUp):
+    tried = ((name, said, left / scale) for of in SUSPECTS for name, said, left in of(seen))
+    found = explaining(case.name, before, tried)
+    if found is not None or not case.is_spun_up:
         return found
-    unit = _unit_of_speed(case, q, true)
-    if unit is not None:
-        return made(*unit)
-    return _ramp(case, case.motion, time, q, true, ramps)
+    for name, said, left in _unit_of_speed(seen):
+        return Mistake(case=case.name, name=name, said=said, before=before, after=left / scale)
+    return _ramp(seen, ramps)
 
 
-def _largest(values: FloatArray) -> float:
-    return float(np.abs(values).max())
-
-
-def _factors(case: Case, q: FloatArray, true: FloatArray) -> Iterator[tuple[str, str, float]]:
+def _factors(seen: _Seen) -> _Suspects:
     """Yield the best of all factors on q, by its name if it has one."""
-    factor = float(q @ true / (true @ true))
-    left = _largest(q - factor * true) / max(abs(factor), 1e-300)
-    for name, (said, exact) in _FACTORS.items():
-        if abs(factor / exact(case.blade.length) - 1.0) < LEFT:
+    factor = float(seen.q @ seen.true / (seen.true @ seen.true))
+    left = largest(seen.q - factor * seen.true) / max(abs(factor), 1e-300)
+    for name, said, exact in (
+        ("sign of q", "q has the wrong sign: it is negative while the rotation speeds up, Eq. 16",
+            -1.0),
+        ("q over L", "q is over L: hand it in in metres", 1.0 / seen.case.blade.length),
+        ("millimetres", "q is in millimetres: hand it in in metres", 1e3),
+    ):  # fmt: skip
+        if abs(factor / exact - 1.0) < LEFT:
             yield name, said, left
             return
     if factor:
         yield "factor", f"q is {factor:.5g} times the reference throughout", left
 
 
-def _offset(
-    case: Case, time: FloatArray, q: FloatArray, reference: Callable[[FloatArray], FloatArray]
-) -> Iterator[tuple[str, str, float]]:
+def _offset(seen: _Seen) -> _Suspects:
     """Yield the best offset of time; before the start a spin-up is at rest."""
+    case, q = seen.case, seen.q
 
     def left(offset: float) -> float:
-        moved = time - offset
+        moved = seen.time - offset
         inside = (moved >= 0.0) & (moved <= case.duration)
-        rest = q[moved < 0.0] if isinstance(case.motion, SpinUp) else np.empty(0)
-        return _largest(np.concatenate((q[inside] - reference(moved[inside]), rest)))
+        rest = q[moved < 0.0] if case.is_spun_up else np.empty(0)
+        return largest(np.concatenate((q[inside] - seen.reference(moved[inside]), rest)))
 
     tried = np.linspace(-_EARLIEST, _EARLIEST, _STEPS)
     best = float(tried[np.argmin([left(offset) for offset in tried])])
     width = tried[1] - tried[0]
     found = optimize.minimize_scalar(left, bounds=(best - width, best + width), method="bounded")
     word = "late" if found.x > 0.0 else "early"
-    said = f"q is {abs(found.x):.4g} s {word} throughout: the ramp begins at time zero"
-    if not isinstance(case.motion, SpinUp):
-        said = f"q is {abs(found.x):.4g} s {word} throughout: begin where the orbit begins"
-    yield "time offset", said, float(found.fun)
+    begin = "the ramp begins at time zero" if case.is_spun_up else "begin where the orbit begins"
+    yield "time offset", f"q is {abs(found.x):.4g} s {word} throughout: {begin}", float(found.fun)
 
 
-def _inertial(
-    case: Case, time: FloatArray, q: FloatArray, true: FloatArray
-) -> Iterator[tuple[str, str, float]]:
+def _inertial(seen: _Seen) -> _Suspects:
     """Yield q taken across a line that does not turn: the tip's position, or its displacement."""
-    if case.motion is None:
-        return
-    blade, angle = case.blade, case.motion.angle(time)
-    length = blade.length
-    hub = getattr(blade, "hub_radius", 0.0)
-    along = hub + length - _SHORTENING * true**2 / length
-    position = np.sin(angle) * along + np.cos(angle) * true
+    blade, angle = seen.case.blade, seen.case.rotation.angle(seen.time)
+    reach = (1.0 + blade.unit.hub) * blade.length
+    along = reach - _SHORTENING * seen.true**2 / blade.length
+    off = seen.q - np.sin(angle) * along - np.cos(angle) * seen.true
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"
-    straight = np.sin(angle) * (hub + length)
-    yield "inertial axis", said, min(_largest(q - position), _largest(q - position + straight))
+    yield "inertial axis", said, min(largest(off), largest(off + np.sin(angle) * reach))
 
 
-def _unit_of_speed(case: Case, q: FloatArray, true: FloatArray) -> tuple[str, str, float] | None:
-    """Return the unit that the speed was taken for; while q is small it is proportional to it.
+SUSPECTS = _factors, _offset, _inertial
+"""Mistakes of any history; those of spin-ups are tried where none of these explains it."""
+
+
+def _unit_of_speed(seen: _Seen) -> _Suspects:
+    """Yield the unit that the speed was taken for; while q is small it is proportional to it.
 
     A code may well break where it turns too fast, so that only the beginning is looked at.
     """
-    large = np.maximum(np.abs(q), np.abs(true)) > _LINEAR * case.blade.length
-    early = slice(0, int(np.argmax(large)) if large.any() else q.size)
-    if true[early].size < 3 or not true[early].any():
-        return None
-    factor = float(q[early] @ true[early] / (true[early] @ true[early]))
-    left = _largest(q[early] - factor * true[early])
-    if left > LEFT * _largest(q[early]):
-        return None
-    for name, unit in _UNITS.items():
-        short = _UNIT_NAMES[name]
+    large = np.maximum(np.abs(seen.q), np.abs(seen.true)) > _LINEAR * seen.case.blade.length
+    early = slice(0, int(np.argmax(large)) if large.any() else seen.q.size)
+    q, true = seen.q[early], seen.true[early]
+    if true.size < 3 or not true.any():
+        return
+    factor = float(q @ true / (true @ true))
+    left = largest(q - factor * true)
+    if left > LEFT * largest(q):
+        return
+    for name, (short, unit) in _UNITS.items():
         for size, said in (
             (unit, f"the speed was turned into {short} where rad/s are wanted"),
             (1.0 / unit, f"the speed in rad/s was taken for {short}"),
         ):
             if abs(factor / size - 1.0) < LEFT:
-                return name, f"{said}: early on q is {factor:.3g} times the reference", left
-    return None
+                yield name, f"{said}: early on q is {factor:.3g} times the reference", left
+                return
 
 
-def _ramp(
-    case: Case,
-    spin_up: SpinUp,
-    time: FloatArray,
-    q: FloatArray,
-    true: FloatArray,
-    ramps: Collection[str],
-) -> Mistake | None:
+def _ramp(seen: _Seen, ramps: Collection[str]) -> Mistake | None:
     """Return the wrong ramp that explains q while the rotation speeds up."""
-    during = time <= min(spin_up.ramp_time, _RAMP_WINDOW)
-    scale = _largest(true[during])
-    before = _largest((q - true)[during]) / scale
+    case = seen.case
+    during = seen.time <= min(case.ramp_time, _RAMP_WINDOW)
+    time, q, true = seen.time[during], seen.q[during], seen.true[during]
+    scale = largest(true)
+    before = largest(q - true) / scale
     if not before > SMALL:
         return None
     tried = []
     for name in ramps:
-        wrong = RAMPS[name](omega=spin_up.omega, ramp_time=spin_up.ramp_time)
+        wrong = RAMPS[name](omega=case.rotation.omega, ramp_time=case.ramp_time)
         try:
-            made = spin_up_response(
-                case.blade, wrong, time[during], tolerance=SMALL, loads=case.loads
-            ).q
+            made = spin_up_response(case.blade, wrong, time, tolerance=SMALL, loads=case.loads).q
         except (RuntimeError, ValueError):
             continue
-        after = _largest(q[during] - made) / scale
         said = f"the ramp has {name}: θ̇ = (ω/T)(t - T/(2π) sin(2πt/T))"
-        tried.append(Mistake(case=case.name, name=name, said=said, before=before, after=after))
-    return explaining(tried)
+        tried.append((name, said, largest(q - made) / scale))
+    return explaining(case.name, before, tried)

@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
+from analytic.arrays import FloatArray
+
 LEFT = 0.2
 """Share of the error that may be left by what explains it; meshes and steps have a share in it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mistake:
-    """What explains the error of a case.
+    """An explanation of the error of a case.
 
     Attributes
     ----------
@@ -34,7 +38,19 @@ class Mistake:
         return f"{self.said} (error {self.before:.1e}, without it {self.after:.1e})"
 
 
-def explaining(candidates: Iterable[Mistake]) -> Mistake | None:
-    """Return the mistake that leaves least, if it explains the error."""
-    best = min(candidates, key=lambda one: one.after / one.before, default=None)
-    return best if best is not None and best.after <= LEFT * best.before else None
+def explaining(
+    case: str, before: float, suspects: Iterable[tuple[str, str, float]]
+) -> Mistake | None:
+    """Return the mistake that leaves least, if it explains the error.
+
+    Suspects are names, sentences and what each leaves.
+    """
+    name, said, after = min(suspects, key=lambda one: one[2], default=("", "", np.inf))
+    if after > LEFT * before:
+        return None
+    return Mistake(case=case, name=name, said=said, before=before, after=after)
+
+
+def largest(values: FloatArray) -> float:
+    """Return the largest absolute value."""
+    return float(np.abs(values).max())

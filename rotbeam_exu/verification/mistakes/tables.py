@@ -14,20 +14,22 @@ from analytic.arrays import FloatArray
 from ..cases import Case
 from ..references import Reference
 from ..submission import BackbonePoint, Frequency
-from .mistake import Mistake, explaining
+from .mistake import Mistake, explaining, largest
 
 Row = TypeVar("Row", Frequency, BackbonePoint)
+_Suspects = Iterator[tuple[str, str, FloatArray]]
+"""Name, sentence, and the frequencies that a right code hands in with the mistake."""
 
 SMALL = 2e-4
 """Relative error of a frequency below which no mistake is looked for: what passes."""
 
 SMALL_OF_SHIFT = 1e-2
-"""Of backbones over the largest shift: a first harmonic for a peak is 5 % of it at 0.6."""
+"""The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
 
 _FREQUENCY_UNITS = {
-    "hertz": ("the frequencies are in Hz", 0.5 / math.pi),
-    "revolutions per minute": ("the frequencies are in rpm", 30.0 / math.pi),
-    "degrees": ("the frequencies are in degrees/s", 180.0 / math.pi),
+    "hertz": ("Hz", 0.5 / math.pi),
+    "revolutions per minute": ("rpm", 30.0 / math.pi),
+    "degrees": ("degrees/s", 180.0 / math.pi),
 }
 _SPEED_UNITS = {
     "degrees": ("the speeds in rad/s were taken for degrees/s", math.pi / 180.0),
@@ -44,28 +46,16 @@ def mistake_in_frequencies(
     if not finest:
         return None
     speeds = np.array([one.speed for one in finest])
-    found = np.array([one.frequency for one in finest])
     true = np.array([reference.first_frequency(speed) for speed in speeds])
-    before = _largest(found / true - 1.0)
-    if not before > SMALL:
-        return None
 
-    def made(name: str, said: str, expected: FloatArray) -> Mistake:
-        after = _largest(found / expected - 1.0)
-        return Mistake(case=case.name, name=name, said=said, before=before, after=after)
+    def suspects() -> _Suspects:
+        yield from _other_units(true)
+        yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
+        for name, (said, factor) in _SPEED_UNITS.items() if speeds.any() else ():
+            at = [linear_modes(case.blade, factor * w, 1).frequencies[0] for w in speeds]
+            yield name, said, np.array(at)
 
-    tried = [
-        made(name, f"{said}: hand in rad/s", factor * true)
-        for name, (said, factor) in _FREQUENCY_UNITS.items()
-    ]
-    said = "the frequencies are ω_n², eigenvalues: hand in their roots"
-    tried.append(made("eigenvalues", said, true**2))
-    if speeds.any():
-        tried += [
-            made(name, f"{said}", _at_speeds(case, factor * speeds))
-            for name, (said, factor) in _SPEED_UNITS.items()
-        ]
-    return explaining(tried)
+    return _explaining(case, finest, true, np.ones(true.size), SMALL, suspects())
 
 
 def mistake_in_backbone(
@@ -73,35 +63,42 @@ def mistake_in_backbone(
 ) -> Mistake | None:
     """Return the mistake that explains what the finest mesh's backbones are off by."""
     points = _finest(rows)
-    found = np.array([one.frequency for one in points])
     true = np.array([reference.frequency_at(one.amplitude, one.speed) for one in points])
     linear = np.array([reference.first_frequency(one.speed) for one in points])
-    scale = np.array([_largest((true / linear - 1.0)[_at(points, one.speed)]) for one in points])
-    before = _largest((found / true - 1.0) / scale)
-    if not before > SMALL_OF_SHIFT:
+    scale = np.array([largest((true / linear - 1.0)[_at(points, one.speed)]) for one in points])
+
+    def suspects() -> _Suspects:
+        yield from _other_units(true)
+        yield "linear frequency", "the frequencies are ω_n, whatever the amplitude", linear
+        a = np.array([one.amplitude for one in points])
+        said = "the amplitudes are those of the first harmonic: hand in the peak, max|q|/L"
+        yield "first harmonic", said, _of_orbits(case, points, a, first_harmonic=True)
+        said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
+        yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
+
+    return _explaining(case, points, true, scale, SMALL_OF_SHIFT, suspects())
+
+
+def _explaining(
+    case: Case,
+    rows: Sequence[Row],
+    true: FloatArray,
+    scale: FloatArray,
+    small: float,
+    suspects: _Suspects,
+) -> Mistake | None:
+    """Return the mistake that explains what frequencies are off by, relative to `scale`."""
+    found = np.array([one.frequency for one in rows])
+    before = largest((found / true - 1.0) / scale)
+    if not before > small:
         return None
-    tried = [
-        Mistake(
-            case=case.name, name=name, said=said, before=before,
-            after=_largest((found / expected - 1.0) / scale),
-        )
-        for name, said, expected in _backbones(case, points, true, linear)
-    ]  # fmt: skip
-    return explaining(tried)
+    left = ((name, said, largest((found / w - 1.0) / scale)) for name, said, w in suspects)
+    return explaining(case.name, before, left)
 
 
-def _backbones(
-    case: Case, points: Sequence[BackbonePoint], true: FloatArray, linear: FloatArray
-) -> Iterator[tuple[str, str, FloatArray]]:
-    """Yield name, sentence and frequencies of each mistake."""
-    for name, (said, factor) in _FREQUENCY_UNITS.items():
-        yield name, f"{said}: hand in rad/s", factor * true
-    yield "linear frequency", "the frequencies are ω_n, whatever the amplitude", linear
-    a = np.array([one.amplitude for one in points])
-    said = "the amplitudes are those of the first harmonic: hand in the peak, max|q|/L"
-    yield "first harmonic", said, _of_orbits(case, points, a, first_harmonic=True)
-    said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
-    yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
+def _other_units(true: FloatArray) -> _Suspects:
+    for name, (unit, factor) in _FREQUENCY_UNITS.items():
+        yield name, f"the frequencies are in {unit}: hand in rad/s", factor * true
 
 
 def _of_orbits(
@@ -128,14 +125,6 @@ def _at(points: Sequence[BackbonePoint], speed: float) -> np.ndarray[tuple[int],
     return np.array([one.speed == speed for one in points])
 
 
-def _at_speeds(case: Case, speeds: FloatArray) -> FloatArray:
-    return np.array([linear_modes(case.blade, speed, 1).frequencies[0] for speed in speeds])
-
-
 def _finest(rows: Sequence[Row]) -> list[Row]:
     most = max(one.elements for one in rows)
     return [one for one in rows if one.elements == most]
-
-
-def _largest(values: FloatArray) -> float:
-    return float(np.abs(values).max())

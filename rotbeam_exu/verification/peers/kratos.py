@@ -11,124 +11,120 @@ import math
 import os
 import sys
 import time as clock
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import dataclass
+from importlib import util
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
+from analytic.motion import Rotation
 from analytic.warning import warn
 
 from ...lazily import xr
-from ...resolution import require_resolved_ramp, sampling
-from ...verdict import SimulationError, beam_attributes, motion_attributes
+from ...runs.attributes import beam_attributes, motion_attributes
+from ...runs.check import SimulationError
+from ...runs.resolution import require_resolved_ramp, sampling
+from ..cases import Case
+from ..verify import Entry
 
 
-def simulate(
-    beam: AnyBlade,
-    spin_up: SpinUp,
-    *,
-    elements: int = 32,
-    duration: float = 15.0,
-    step: float = 5e-4,
-    tolerance: float = 1e-7,
-    iterations: int = 20,
-    progress: Callable[[float], None] | None = None,
-) -> xr.Dataset:
-    """Spin the beam up in Kratos.
+@dataclass(frozen=True, kw_only=True)
+class Kratos:
+    """The co-rotational beam of KratosMultiphysics, as a `Code` of spin-ups of the uniform beam.
 
     Parameters
     ----------
-    beam, spin_up, elements, duration, step, progress
-        As for `rotbeam_exu.simulate`.
     tolerance : float
         Newton's tolerance, of the residual over the first one of the step and of its root mean
         square over EI/L². At 1e-6, as Exudyn's here, what it leaves hides the order of small steps;
         round-off of the axial force EA leaves about 1e-8 N.
     iterations : int
         Newton iterations after which Kratos takes the step as it is and goes on.
-
-    Returns
-    -------
-    Dataset
-        q [m] and q_dot [m/s] (Eq. 16) over `time` [s]. The attributes hold the inputs, wall time,
-        and how many steps did not converge.
-
-    Raises
-    ------
-    SimulationError
-        If a number is not finite, or the tip leaves the reach of the beam.
-
-    Warns
-    -----
-    RotbeamWarning
-        If steps did not converge.
     """
-    straight = beam.uniform
-    if straight is None:
-        raise SimulationError("the adapter to Kratos takes the uniform Beam, not a Blade")
-    elements, step = whole_number("elements", elements), positive("step", step, "s")
-    require_resolved_ramp(spin_up.ramp_time, step)
-    steps = round(positive("duration", duration, "s") / step)
-    every = sampling(beam, spin_up.omega, steps, step)
-    strategy, part, kratos, _model = _assembled(straight, elements, tolerance, iterations)
-    root, tip = part.Nodes[1], part.Nodes[elements + 1]
-    time: FloatArray = step * np.arange(0.0, steps + 1.0, every)
-    q, q_dot = np.zeros(time.size), np.zeros(time.size)
-    unconverged, newton, started = 0, 0, clock.perf_counter()
-    for k in range(1, steps + 1):
-        t = k * step
-        part.CloneTimeStep(t)
-        part.ProcessInfo[kratos.STEP] = k
-        unconverged += not _turned_to(spin_up.angle(t), root, strategy, kratos)
-        newton += part.ProcessInfo[kratos.NL_ITERATION_NUMBER]
-        if k % every:
-            continue
-        u = tip.GetSolutionStepValue(kratos.DISPLACEMENT)
-        v = tip.GetSolutionStepValue(kratos.VELOCITY)
-        x, y = beam.length + u[0], u[1]
-        q[k // every], q_dot[k // every] = _from_the_clamp((x, y), (v[0], v[1]), spin_up, t)
-        if not math.hypot(x, y) < 1.05 * beam.length:
-            raise SimulationError(
-                f"the tip's distance from the clamp is {math.hypot(x, y):.4g} m at t = {t:.6g} s, "
-                f"beyond the beam's {beam.length:g} m: take a smaller step than {step:g} s"
-            )
-        if progress:
-            progress(k / steps)
-    wall_time = clock.perf_counter() - started
-    verdict = f"{unconverged} of {steps} steps did not converge to {tolerance:g}"
-    if unconverged:
-        warn(f"{verdict}; Kratos went on all the same")
-    run = _dataset(time, q, q_dot)
-    run.attrs = {
-        **beam_attributes(beam),
-        "omega": spin_up.omega,
-        "ramp_time": spin_up.ramp_time,
-        **motion_attributes(spin_up),
-        "element": "kratos",
-        "elements": elements,
-        "duration": duration,
-        "step": step,
-        "tolerance": tolerance,
-        "iterations_per_step": newton / steps,
-        "unconverged_steps": unconverged,
-        "wall_time": wall_time,
-        "verdict": verdict if unconverged else "passed",
-    }
-    return run
 
+    tolerance: float = 1e-7
+    iterations: int = 20
 
-def _dataset(time: FloatArray, q: FloatArray, q_dot: FloatArray) -> xr.Dataset:
-    return xr.Dataset(
-        {
-            "q": ("time", q, {"units": "m", "long_name": "tip displacement q"}),
-            "q_dot": ("time", q_dot, {"units": "m/s", "long_name": "tip velocity dq/dt"}),
-        },
-        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
-    )
+    name: ClassVar[str] = "kratos"
+    package: ClassVar[str] = "KratosMultiphysics with its StructuralMechanicsApplication"
+
+    def is_installed(self) -> bool:
+        """Say whether the package is at hand, without importing it: it would print a banner."""
+        found = util.find_spec("KratosMultiphysics")
+        return found is not None and any(
+            (Path(place) / "StructuralMechanicsApplication").is_dir()
+            for place in found.submodule_search_locations or ()
+        )
+
+    def entry(self) -> Entry:
+        """Return the code with its mesh and step."""
+        return Entry(name=self.name, simulate=self, elements=32, step=5e-4, order=2.0)
+
+    def __call__(self, case: Case, *, elements: int = 32, step: float = 5e-4) -> xr.Dataset:
+        """Spin the beam up, as `Code` does; RotbeamWarning if steps did not converge.
+
+        The attributes hold the inputs, wall time, and how many steps did not converge.
+        SimulationError if the blade is no uniform beam, or if the tip leaves its reach.
+        """
+        beam, spin_up = case.blade.uniform, case.rotation
+        if case.loads or not case.is_spun_up:
+            raise NotImplementedError("the adapter to Kratos takes spin-ups without loads")
+        if beam is None:
+            raise SimulationError("the adapter to Kratos takes the uniform Beam, not a Blade")
+        elements, step = whole_number("elements", elements), positive("step", step, "s")
+        require_resolved_ramp(case.ramp_time, step)
+        duration = case.whole_duration(step)
+        steps = round(positive("duration", duration, "s") / step)
+        every = sampling(beam, spin_up.omega, steps, step)
+        strategy, part, kratos, _model = _assembled(beam, elements, self.tolerance, self.iterations)
+        root, tip = part.Nodes[1], part.Nodes[elements + 1]
+        time: FloatArray = step * np.arange(0.0, steps + 1.0, every)
+        q, q_dot = np.zeros(time.size), np.zeros(time.size)
+        unconverged, newton, started = 0, 0, clock.perf_counter()
+        for k in range(1, steps + 1):
+            t = k * step
+            part.CloneTimeStep(t)
+            part.ProcessInfo[kratos.STEP] = k
+            unconverged += not _turned_to(spin_up.angle(t), root, strategy, kratos)
+            newton += part.ProcessInfo[kratos.NL_ITERATION_NUMBER]
+            if k % every:
+                continue
+            u = tip.GetSolutionStepValue(kratos.DISPLACEMENT)
+            v = tip.GetSolutionStepValue(kratos.VELOCITY)
+            x, y = beam.length + u[0], u[1]
+            q[k // every], q_dot[k // every] = _from_the_clamp((x, y), (v[0], v[1]), spin_up, t)
+            if not math.hypot(x, y) < 1.05 * beam.length:
+                raise SimulationError(
+                    f"the tip's distance from the clamp is {math.hypot(x, y):.4g} m at "
+                    f"t = {t:.6g} s, beyond the beam's {beam.length:g} m: take a smaller step than "
+                    f"{step:g} s"
+                )
+        verdict = f"{unconverged} of {steps} steps did not converge to {self.tolerance:g}"
+        if unconverged:
+            warn(f"{verdict}; Kratos went on all the same")
+        attrs = {
+            **beam_attributes(beam),
+            "omega": spin_up.omega,
+            "ramp_time": case.ramp_time,
+            **motion_attributes(spin_up),
+            "element": self.name,
+            "elements": elements,
+            "duration": duration,
+            "step": step,
+            "tolerance": self.tolerance,
+            "iterations_per_step": newton / steps,
+            "unconverged_steps": unconverged,
+            "wall_time": clock.perf_counter() - started,
+            "verdict": verdict if unconverged else "passed",
+        }
+        columns = {"q": ("time", q), "q_dot": ("time", q_dot)}
+        return xr.Dataset(columns, {"time": ("time", time)}, attrs)
 
 
 def _turned_to(angle: float, root: Any, strategy: Any, kratos: Any) -> bool:
@@ -142,7 +138,7 @@ def _turned_to(angle: float, root: Any, strategy: Any, kratos: Any) -> bool:
 
 
 def _from_the_clamp(
-    position: tuple[float, float], velocity: tuple[float, float], spin_up: SpinUp, t: float
+    position: tuple[float, float], velocity: tuple[float, float], spin_up: Rotation, t: float
 ) -> tuple[float, float]:
     """Return q and q̇ of Eq. 16 from the tip's position and velocity in the inertial frame."""
     (x, y), (u, v), angle = position, velocity, spin_up.angle(t)

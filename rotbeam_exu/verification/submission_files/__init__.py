@@ -1,1 +1,207 @@
-"""A submission as files: read with all faults told at once, and written so that it reads back."""
+"""The folder of a submission: entry.toml, L.csv, B.csv, runs.csv and the histories, both ways."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...files.results import writable_folder
+from ..cases import CASES, Asked, Case
+from ..submission import BackbonePoint, Frequency, Submission
+from . import entry, runs
+from .content import OUTSIDE, below, content_of
+from .faults import Faults, MalformedSubmissionError, near, printable
+from .tables import (
+    DIGITS,
+    FAILURE,
+    Column,
+    asked,
+    bounded,
+    digits,
+    rows_of,
+    sheet_of,
+    whole,
+    written,
+)
+
+_positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
+
+
+def read_submission(folder: str | os.PathLike[str]) -> Submission:
+    r"""Read what an author hands in.
+
+    Parameters
+    ----------
+    folder : path
+        With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
+
+    Returns
+    -------
+    Submission
+        Histories end with their case; later samples are left out.
+
+    Raises
+    ------
+    MalformedSubmissionError
+        With all faults of all files.
+    FileNotFoundError
+        If there is no such folder.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.verification.submission_files import read_submission
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
+    ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
+    ...     print(read_submission(folder).frequencies)
+    (Frequency(elements=8, speed=6.0, frequency=3.731123456, failure=''),)
+    """
+    root, faults = Path(folder), Faults()
+    if not root.is_dir():
+        raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
+    declaration = entry.declaration_of(root, faults)
+    points: dict[Asked, list[dict[str, Any]]] = {}
+    for file, case in _tables().items():
+        if os.path.lexists(root / file):
+            points[case.asked] = _points(root, file, case, faults)
+    histories = runs.runs_of(root, faults)
+    _strangers(root, faults)
+    frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
+    backbone = [row for row in backbone if "failure" not in row]
+    if not faults and not (frequencies or backbone or histories):
+        said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
+        faults.add(entry.FILE, said)
+    if faults or declaration is None:
+        raise MalformedSubmissionError(faults.told())
+    return Submission(
+        declaration=declaration,
+        frequencies=tuple(Frequency(**row) for row in frequencies),
+        backbone=tuple(BackbonePoint(**row) for row in backbone),
+        runs=histories,
+    )
+
+
+def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
+    """Write the files of a submission, as `read_submission` takes them, and return the folder.
+
+    They read back the same to the last bit.
+
+    Parameters
+    ----------
+    submission : Submission
+        From files, or of a code that was called, as `handed_in` returns it.
+    folder : path
+        New, or without a submission.
+
+    Raises
+    ------
+    FileExistsError
+        If there is a submission.
+    ValueError
+        If two runs have the same case, mesh and step.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
+    >>> from rotbeam_exu.verification.submission_files import write_submission
+    >>> mine = Frequency(elements=8, speed=6.0, frequency=3.731123456)
+    >>> submission = Submission(declaration=Declaration(code="mine"), frequencies=(mine,))
+    >>> with TemporaryDirectory() as folder:
+    ...     written = write_submission(submission, Path(folder, "mine"))
+    ...     print(sorted(path.name for path in written.iterdir()))
+    ['L.csv', 'entry.toml']
+    """
+    root = writable_folder(folder)
+    if (root / entry.FILE).exists():
+        raise FileExistsError(f"{root} holds a submission already: choose another folder")
+    named = [replace(run, file=runs.file_of(run)) for run in submission.runs]
+    files = [run.file for run in named]
+    twice = sorted({file for file in files if files.count(file) > 1})
+    if twice:
+        raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
+    texts = {entry.FILE: entry.entry_text(submission.declaration)}
+    for table, case in _tables().items():
+        one = case.asked is Asked.FREQUENCIES
+        points = submission.frequencies if one else submission.backbone
+        texts |= {table: written(_columns(case), points)} if points else {}
+    texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
+    for file, text in texts.items():
+        (root / file).write_text(text, encoding="utf-8", newline="\n")
+    for run in named:
+        if run.failure:
+            continue
+        held = [one.name for one in runs.HISTORY if getattr(run, one.name) is not None]
+        numbers = np.column_stack([getattr(run, name) for name in held])
+        (root / run.case).mkdir(exist_ok=True)
+        with (root / run.file).open("w", encoding="utf-8", newline="\n") as out:
+            # 17 digits of each number are enough in any spacing of the samples.
+            np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
+    return root
+
+
+def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
+    """Return the SHA-256 of each file that was judged, by its name below the folder."""
+    root = Path(folder)
+    files = [entry.FILE, *_tables(), runs.FILE, *(run.file for run in submission.runs)]
+    return {
+        file: hashlib.sha256(content_of(root, file)).hexdigest()
+        for file in files
+        if (root / file).is_file()
+    }
+
+
+def _tables() -> dict[str, Case]:
+    """Return the cases that are handed in as one table, by its file."""
+    return {f"{name}.csv": case for name, case in CASES.items() if case.asked is not Asked.HISTORY}
+
+
+def _columns(case: Case) -> tuple[Column, ...]:
+    """Return the columns of a case's table."""
+    places = [Column("elements", whole), Column("speed", asked(case.speeds), "rad/s")]
+    if case.amplitudes:
+        places.append(Column("amplitude", asked(case.amplitudes)))
+    return (*places, Column("frequency", _positive, "rad/s", measured=True), FAILURE)
+
+
+def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
+    """Return the rows of a case's table by field, those with a failure without a frequency."""
+    sheet = sheet_of(folder, file, _columns(case), faults)
+    found: dict[tuple[float, ...], dict[str, Any]] = {}
+    most = []
+    for line, cells, row in rows_of(sheet, faults) if sheet else ():
+        place = row["elements"], row["speed"], row.get("amplitude", 0.0)
+        if place in found:
+            faults.add(file, "the same row stands above: keep one", line)
+            continue
+        found[place] = row
+        most += [digits(cells["frequency"])] if "frequency" in row else []
+    if most and max(most) < DIGITS:
+        said = f"frequencies are written to {max(most)} digits, {DIGITS} are needed: write %.10g"
+        faults.add(file, said)
+    return list(found.values())
+
+
+def _strangers(root: Path, faults: Faults) -> None:
+    """Add tables and folders of histories that belong to no case: misspelled, most likely.
+
+    A link out of the folder may have any name, and is looked into under none.
+    """
+    tables = (*_tables(), runs.FILE)
+    for path in sorted(root.iterdir()):
+        name = printable(path.name)
+        if below(root, path.name) is None:
+            if path.name in CASES:
+                faults.add(name, OUTSIDE)
+        elif path.is_dir() and path.name not in CASES and any(path.glob("m*_h*.csv")):
+            faults.add(name, f"is the folder of no case; {near(name, CASES, str)}")
+        elif path.suffix.lower() == ".csv" and path.name not in tables:
+            faults.add(name, f"is a table that nobody asked for; {near(name, tables, str)}")

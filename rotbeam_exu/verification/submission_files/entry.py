@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -23,8 +23,9 @@ TAGS = ("shear", "rotary-inertia", "inextensible")
 _TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
 _ORDERS = ("order", "order_in_step")
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
-_Faults = Iterator[tuple[str, str]]
-"""The key and the sentence of each fault."""
+
+Kind = Callable[[str, Any], Any]
+"""From a key and its value to what is declared; ValueError with the sentences on a faulty one."""
 
 
 def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
@@ -41,20 +42,15 @@ def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
         place = re.search(r"at line (\d+)", str(error))
         faults.add(FILE, f"is not valid TOML: {error}", int(place[1]) if place else None)
         return None
-    said = list(_wrong_with(document))
-    for key, why in said:
-        faults.add(FILE, why, _line_of(key, text))
-    if said:
+    stated: dict[str, Any] = {}
+    wrong = [(said, _line_of(key, text)) for key, said in _read(document, stated)]
+    if faults.extend(FILE, wrong):
         return None
-    tags = document.get("tags", [])
-    stated: dict[str, Any] = {key: document[key].strip() for key in _TEXTS if key in document}
-    stated |= {key: float(document[key]) for key in _ORDERS if key in document}
-    return Declaration(
-        **stated,
-        authors=tuple(document.get("authors", ())),
-        theory=_theory(tags, document.get("shear")),
-        inextensible="inextensible" in tags,
-    )
+    tags, share = stated.pop("tags", ()), stated.pop("share", None)
+    if "k_s" in stated:
+        share = 0.5 * stated.pop("k_s") / (1.0 + stated.pop("nu"))
+    theory = Theory(shear=share, rotary_inertia="rotary-inertia" in tags)
+    return Declaration(**stated, theory=theory, inextensible="inextensible" in tags)
 
 
 def entry_text(declaration: Declaration) -> str:
@@ -79,21 +75,16 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _theory(tags: Iterable[str], shear: dict[str, float] | None) -> Theory:
-    share = None
-    if shear is not None:
-        share = shear["share"] if "share" in shear else 0.5 * shear["k_s"] / (1.0 + shear["nu"])
-    rotary = "rotary-inertia" in tags
-    return Theory(rotary_inertia=rotary, shear=share)
-
-
-def _wrong_with(document: dict[str, Any]) -> _Faults:
-    """Yield what is wrong with the keys, and which are missing."""
-    for key, value in document.items():
-        if key in _KEYS:
-            yield from _KEYS[key](key, value)
-        else:
-            yield key, f"unknown key {shown(key)}; {near(key, _KEYS)}"
+def _read(document: dict[str, Any], stated: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Read the keys into `stated`; yield key and sentence of each fault."""
+    for key, value, kinds in _items(document):
+        try:
+            if key not in kinds:
+                raise ValueError(f"unknown key {shown(key)}; {near(key, kinds)}")
+            stated[key] = kinds[key](key, value)
+        except ValueError as error:
+            for said in error.args:
+                yield key, said
     for key, example in (("benchmark", VERSION), ("code", "name of your code")):
         if not str(document.get(key, "")).strip():
             yield key, f'there is no {key}: write {key} = "{example}"'
@@ -102,46 +93,57 @@ def _wrong_with(document: dict[str, Any]) -> _Faults:
         yield "tags", f"the tag shear needs a table: {_SHEAR_REMEDY}"
 
 
-def _wrong_text(key: str, value: object) -> _Faults:
+def _items(document: dict[str, Any]) -> Iterator[tuple[str, Any, dict[str, Kind]]]:
+    """Yield all keys, those of [shear] too, with their values and the kinds they may be of."""
+    for key, value in document.items():
+        keys = sorted(value) if key == "shear" and isinstance(value, dict) else []
+        if keys in (["k_s", "nu"], ["share"]):
+            yield from ((name, one, _SHEAR) for name, one in value.items())
+        else:
+            yield key, value, _KEYS
+
+
+def _text(key: str, value: Any) -> str:
     if not isinstance(value, str):
-        yield key, f"{key} must be text in quotes, got {shown(str(value))}"
-    elif key == "benchmark" and value not in ("", VERSION):
-        yield key, f"benchmark is {shown(value)}, this judge knows {VERSION}: see the kit"
+        raise ValueError(f"{key} must be text in quotes, got {shown(str(value))}")
+    if key == "benchmark" and value not in ("", VERSION):
+        raise ValueError(f"benchmark is {shown(value)}, this judge knows {VERSION}: see the kit")
+    return value.strip()
 
 
-def _wrong_list(key: str, value: object) -> _Faults:
-    listed = value if isinstance(value, list) else [value]
+def _list(key: str, value: Any) -> tuple[str, ...]:
+    listed, wrong = value if isinstance(value, list) else [value], []
     if listed is not value or not all(isinstance(one, str) for one in listed):
-        yield key, f'{key} must be a list of texts, as {key} = ["...", "..."]'
+        wrong.append(f'{key} must be a list of texts, as {key} = ["...", "..."]')
     for tag in listed if key == "tags" else ():
         if isinstance(tag, str) and tag not in TAGS:
-            yield key, f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}"
+            wrong.append(f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}")
+    if wrong:
+        raise ValueError(*wrong)
+    return tuple(listed)
 
 
-def _wrong_number(key: str, value: object) -> _Faults:
+def _number(key: str, value: Any) -> float:
+    if not isinstance(value, int | float):
+        raise ValueError(f"{key} must be a number, got {shown(str(value))}")
     try:
-        if not isinstance(value, int | float):
-            raise TypeError(f"{key} must be a number, got {shown(str(value))}")
-        finite_number(key, value) if key == "nu" else positive(key, value)
-    except (TypeError, ValueError) as error:
-        yield key, str(error)
-    else:
-        if key == "nu" and not -1.0 < value <= 0.5:
-            yield key, f"nu must be above -1 and at most 0.5, got {value:g}"
+        found = finite_number(key, value) if key == "nu" else positive(key, value)
+    except TypeError as error:
+        raise ValueError(str(error)) from error
+    if key == "nu" and not -1.0 < found <= 0.5:
+        raise ValueError(f"nu must be above -1 and at most 0.5, got {value:g}")
+    return found
 
 
-def _wrong_shear(key: str, value: object) -> _Faults:
-    if isinstance(value, dict) and sorted(value) in (["k_s", "nu"], ["share"]):
-        for name, number in value.items():
-            yield from _wrong_number(name, number)
-    else:
-        yield key, _SHEAR_REMEDY
+def _no_shear(_key: str, _value: Any) -> None:
+    raise ValueError(_SHEAR_REMEDY)
 
 
-_KEYS: dict[str, Callable[[str, object], _Faults]] = {
-    **dict.fromkeys(_TEXTS, _wrong_text), "authors": _wrong_list,
-    **dict.fromkeys(_ORDERS, _wrong_number), "tags": _wrong_list, "shear": _wrong_shear,
+_KEYS: dict[str, Kind] = {
+    **dict.fromkeys(_TEXTS, _text), "authors": _list, **dict.fromkeys(_ORDERS, _number),
+    "tags": _list, "shear": _no_shear,
 }  # fmt: skip
+_SHEAR: dict[str, Kind] = dict.fromkeys(("k_s", "nu", "share"), _number)
 
 
 def _line_of(key: str, text: str) -> int | None:

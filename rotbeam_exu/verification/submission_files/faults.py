@@ -1,4 +1,4 @@
-"""What is wrong with a submission's files: all at once, each with its place and a remedy."""
+"""Faults of a submission's files: all at once, each with its place and a remedy."""
 
 from __future__ import annotations
 
@@ -22,17 +22,7 @@ _SHOWN = 40
 
 @dataclass(frozen=True, kw_only=True)
 class Fault:
-    """One fault of one file.
-
-    Attributes
-    ----------
-    file : str
-        Below the submission's folder, with slashes.
-    said : str
-        One sentence: what, where, what to do.
-    line : int, optional
-        In the file, the first being 1.
-    """
+    """A sentence on one file below the folder, and the line in it, the first being 1."""
 
     file: str
     said: str
@@ -66,6 +56,13 @@ class Faults:
         key = kind, file if file in files else files[-1]
         self._first.setdefault(key, Fault(file=file, said=said, line=line))
         self._count[key] += 1
+
+    def extend(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
+        """Keep faults of one file, each with its line, and return whether there are any."""
+        several = list(found)
+        for said, line in several:
+            self.add(file, said, line)
+        return bool(several)
 
     def of(self, file: str) -> bool:
         """Return whether a file has one."""

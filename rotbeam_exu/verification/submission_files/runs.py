@@ -1,10 +1,10 @@
-"""runs.csv: one row for each history, with what it cost, or why the code failed."""
+"""runs.csv, one row for each history with its cost or its failure, and the histories themselves."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -13,16 +13,38 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..cases import Asked, Case
+from ..cases import CASES, Asked, Case
 from ..submission import Run
 from .content import below
-from .faults import Faults, printable, shown
-from .histories import history_of
-from .tables import FAILURE, Column, Kind, bounded, rows_of, sheet_of, text, whole
+from .faults import Faults, printable, several, shown
+from .tables import (
+    DIGITS,
+    FAILURE,
+    Column,
+    Sheet,
+    bounded,
+    digits,
+    rows_of,
+    sheet_of,
+    text,
+    whole,
+)
 
 FILE = "runs.csv"
+FARTHEST = 0.02
+"""Largest distance of samples [s]: the estimator needs twenty a period, and 100 ms give it none."""
+
+FARTHEST_TIP = 1e4
+"""Largest |q|/L that is judged: millimetres for metres, and no more than that."""
+
+HISTORY = (
+    Column("time", unit="s"),
+    Column("q", unit="m"),
+    Column("q_dot", unit="m/s", needed=False, measured=True),
+)
+_SLACK = 1e-6
 _NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
-"""Of a history's file: elements, and step [s]."""
+"""Name of a history's file: elements, and step [s]."""
 
 _ROUNDED = 1e-2
 """Relative distance of a step from what the name of its file says."""
@@ -31,56 +53,49 @@ _positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, go
 _cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
 
 
-def columns_of(cases: Mapping[str, Case]) -> tuple[Column, ...]:
-    """Return the columns of runs.csv."""
-    return (
-        Column("file", _history_of(cases)), Column("elements", whole),
-        Column("step", _positive, "s"), Column("dof", whole, needed=False),
-        Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
-        FAILURE, Column("remark", text, needed=False),
-    )  # fmt: skip
+def _history(_: str, cell: str) -> str:
+    """Return the name of a history's file."""
+    case, _, name = cell.partition("/")
+    known = [one.name for one in CASES.values() if one.asked is Asked.HISTORY]
+    if case not in known:
+        among = f"known are {', '.join(known)}"
+        raise ValueError(f"{shown(case)} is no case with a history; {among}")
+    if not _NAME.fullmatch(name):
+        raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
+    return cell
 
 
-def _history_of(cases: Mapping[str, Case]) -> Kind:
-    """Return the kind of names of histories."""
-    known = tuple(name for name, case in cases.items() if case.asked is Asked.HISTORY)
-
-    def read(_: str, cell: str) -> str:
-        case, _, name = cell.partition("/")
-        if case not in known:
-            raise ValueError(
-                f"{shown(case)} is no case with a history; known are {', '.join(known)}"
-            )
-        if not _NAME.fullmatch(name):
-            raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
-        return cell
-
-    return read
+COLUMNS = (
+    Column("file", _history), Column("elements", whole),
+    Column("step", _positive, "s"), Column("dof", whole, needed=False),
+    Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
+    FAILURE, Column("remark", text, needed=False),
+)  # fmt: skip
 
 
-def file_of(case: str, elements: int, step: float) -> str:
+def file_of(run: Run) -> str:
     """Return the name of a history's file below the folder, as S1/m032_h1e-3.csv."""
-    _, digits, exponent = Decimal(repr(step)).normalize().as_tuple()
+    _, digits, exponent = Decimal(repr(run.step)).normalize().as_tuple()
     first, *rest = map(str, digits)
-    power = int(exponent) + len(rest)
-    return f"{case}/m{elements:03d}_h{first}{'.' if rest else ''}{''.join(rest)}e{power}.csv"
+    mantissa, power = f"{first}{'.' if rest else ''}{''.join(rest)}", int(exponent) + len(rest)
+    return f"{run.case}/m{run.elements:03d}_h{mantissa}e{power}.csv"
 
 
-def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run, ...]:
+def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
     """Return the runs that runs.csv lists, those that failed without a history."""
     there = [
         f"{name}/{printable(path.name)}"
-        for name, case in cases.items()
+        for name, case in CASES.items()
         if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir()
         for path in sorted((root / name).glob("*.csv"))
     ]
     if not there and not os.path.lexists(root / FILE):
         return ()
-    found, listed = [], list(_listed(root, cases, faults))
+    found, listed = [], list(_listed(root, faults))
     for row in listed:
         samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
-            samples = history_of(root, row["file"], cases[row["case"]], faults)
+            samples = history_of(root, row["file"], CASES[row["case"]], faults)
         if samples is not None:
             found.append(Run(**(row | samples)))
     if not faults.of(FILE):
@@ -91,9 +106,9 @@ def runs_of(root: Path, cases: Mapping[str, Case], faults: Faults) -> tuple[Run,
     return tuple(found)
 
 
-def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[dict[str, Any]]:
+def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     """Yield the rows of runs.csv that are right by themselves, with their case."""
-    sheet = sheet_of(root, FILE, columns_of(cases), faults)
+    sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         case, _, name = row["file"].partition("/")
@@ -107,7 +122,84 @@ def _listed(root: Path, cases: Mapping[str, Case], faults: Faults) -> Iterator[d
         place = case, row["elements"], row["step"]
         if not wrong and seen.setdefault(place, line) != line:
             wrong = [f"the same case, mesh and step stand in line {seen[place]}: keep one"]
-        for said in wrong:
-            faults.add(FILE, said, line)
-        if not wrong:
+        if not faults.extend(FILE, [(said, line) for said in wrong]):
             yield row | {"case": case}
+
+
+def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str, FloatArray] | None:
+    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong."""
+    sheet = sheet_of(folder, file, HISTORY, faults)
+    numbers = None if sheet is None else _numbers(sheet, faults)
+    if sheet is None or numbers is None:
+        return None
+    columns = {column.name: one for column, one in zip(sheet.columns, numbers.T, strict=True)}
+    with np.errstate(over="ignore", invalid="ignore"):
+        unfit = _few_digits(sheet, columns) + _unfit(columns["time"], columns["q"], case)
+    if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
+        return None
+    within = columns["time"] <= case.duration
+    return {name: values[within] for name, values in columns.items()}
+
+
+def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
+    """Return all numbers, (rows, columns); None if some are faulty, which is told row by row."""
+    shape = len(sheet.rows), len(sheet.columns)
+    try:
+        numbers = np.loadtxt(sheet.rows, delimiter=",", ndmin=2, comments=None)
+    except ValueError:
+        numbers = np.empty((0, 0))
+    if numbers.shape != shape or not np.isfinite(numbers).all():
+        rows = [list(values.values()) for _, _, values in rows_of(sheet, faults)]
+        numbers = np.array(rows, dtype=float)
+    return numbers if numbers.shape == shape else None
+
+
+def _unfit(time: FloatArray, q: FloatArray, case: Case) -> list[tuple[str, int | None]]:
+    """Return what keeps finite numbers from being the history of a case, and in which row."""
+    found: list[tuple[str, int | None]] = []
+    gaps = np.diff(time)
+    far = np.flatnonzero(np.abs(q) > FARTHEST_TIP * case.blade.length)
+    if far.size:
+        said = (
+            f"q is {q[far[0]]:.3g} m, of a beam of {case.blade.length:g} m: a run that "
+            "diverged has no file, but a sentence in the column failure of runs.csv"
+        )
+        found.append((said, int(far[0])))
+    back = np.flatnonzero(gaps <= 0.0)
+    if back.size:
+        k = int(back[0]) + 1
+        said = f"time must increase, but {time[k]:.10g} s follows {time[k - 1]:.10g} s"
+        remedy = ": sort the rows, keep one of each time, and write all digits"
+        return [*found, (said + several(back.size) + remedy, k)]
+    if time[0] < -_SLACK or time[0] > FARTHEST:
+        found.append((f"begins at {time[0]:.6g} s: begin at 0 s", 0))
+    if time[-1] < case.duration - FARTHEST:
+        said = f"ends at {time[-1]:.6g} s, case {case.name} lasts {case.duration:g} s: run it whole"
+        found.append((said, time.size - 1))
+    wide = np.flatnonzero(gaps > FARTHEST * (1.0 + _SLACK))
+    if wide.size:
+        k = int(wide[0]) + 1
+        said = (
+            f"samples are {1e3 * gaps[k - 1]:.4g} ms apart{several(wide.size)}, at most "
+            f"{1e3 * FARTHEST:g} ms leave something to measure: sample more often"
+        )
+        found.append((said, k))
+    return found
+
+
+def _few_digits(sheet: Sheet, columns: dict[str, FloatArray]) -> list[tuple[str, int | None]]:
+    """Return which columns are written to too few digits, and to how many."""
+    found: list[tuple[str, int | None]] = []
+    for number, (name, values) in enumerate(columns.items()):
+        gaps = np.diff(values)
+        if gaps.size and np.ptp(gaps) <= 1e-9 * np.abs(values).max():
+            continue  # even samples, such as 0.02 k, and zeros are exact however short
+        most = 0
+        for row in sheet.rows:
+            most = max(most, digits(row.split(",")[number]))
+            if most >= DIGITS:
+                break
+        else:
+            said = f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g"
+            found.append((said, None))
+    return found

@@ -1,19 +1,22 @@
 """CSV as a submission has it: one header row, commas, C floats, lines of # that are not read.
 
-A table is described by its columns, of a `Kind` each. `Sheet` is its lines, `rows_of` its values.
-Histories, which are long, are read at once by `histories` where they are right.
+A table is described by its columns, of a `Kind` each. `Sheet` is its lines, `rows_of` its values,
+`written` writes it. Histories, which are long, are read at once by `runs` where they are right.
 """
 
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from .content import text_of
 from .faults import Faults, near, shown
@@ -94,19 +97,10 @@ def asked(values: Sequence[float]) -> Kind:
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table.
+    """A column of a table, whose header may state its unit.
 
-    Attributes
-    ----------
-    name : str
-    kind : callable
-        Reads a cell.
-    unit : str
-        Which a header may state.
-    needed : bool
-        Whether each table has it; cells of one that is not needed may be empty.
-    measured : bool
-        Whether each row has a cell of it, but for those that tell a failure.
+    Each table has those that are needed; cells of the others may be empty. Each row has those that
+    are measured, but for rows that tell a failure.
     """
 
     name: str
@@ -124,25 +118,13 @@ class Column:
 FAILURE = Column("failure", text, needed=False)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sheet:
-    """The lines of a table that hold something, the header apart.
-
-    Attributes
-    ----------
-    file : str
-    columns : list of Column
-        In the order of the header.
-    rows : list of str
-        As written.
-    lines : list of int
-        Line number of each row.
-    """
+class Sheet(NamedTuple):
+    """Rows of a table as written, with their line numbers; columns as the header has them."""
 
     file: str
     columns: list[Column]
-    rows: list[str] = field(repr=False)
-    lines: list[int] = field(repr=False)
+    rows: list[str]
+    lines: list[int]
 
 
 def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults) -> Sheet | None:
@@ -150,38 +132,36 @@ def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults)
     content = text_of(folder, file, faults)
     if content is None:
         return None
-    if content.count("\n") > MOST_LINES:
-        faults.add(file, f"has more than {MOST_LINES:,} lines: sample less often")
-        return None
+    few = content.count("\n") <= MOST_LINES
     numbered = [
         (line, row)
-        for line, row in enumerate(content.split("\n"), 1)
+        for line, row in enumerate(content.split("\n") if few else (), 1)
         if row and not row.isspace() and not row.lstrip().startswith("#")
     ]
+    too_many = [(f"has more than {MOST_LINES:,} lines: sample less often", None)]
+    if faults.extend(file, _wrong_with(numbered, columns) if few else too_many):
+        return None
+    (_, title), *rest = numbered
+    known = {column.name: column for column in columns}
+    header = [known[_cell_of_header(cell)[0]] for cell in title.split(",")]
+    return Sheet(file, header, [row for _, row in rest], [line for line, _ in rest])
+
+
+def _wrong_with(
+    numbered: list[tuple[int, str]], columns: Sequence[Column]
+) -> list[tuple[str, int | None]]:
+    """Return what is wrong with a table as a whole, and in which line."""
     wanted = ",".join(column.name for column in columns if column.needed)
     if not numbered:
-        faults.add(file, f"is empty: begin with the header {wanted}")
-        return None
+        return [(f"is empty: begin with the header {wanted}", None)]
     for line, row in numbered:
         if len(row) > LONGEST_LINE:
-            said = f"has {len(row):,} letters, more than {LONGEST_LINE:,}: keep to {wanted}"
-            faults.add(file, said, line)
-            return None
-    (header, title), *rest = numbered
-    wrong = _wrong_header(title, columns, wanted)
-    if not wrong and not rest:
+            many = f"has {len(row):,} letters, more than {LONGEST_LINE:,}"
+            return [(f"{many}: keep to {wanted}", line)]
+    wrong = _wrong_header(numbered[0][1], columns, wanted)
+    if not wrong and len(numbered) == 1:
         wrong = ["has a header and no rows below it"]
-    for said in wrong:
-        faults.add(file, said, header)
-    if wrong:
-        return None
-    known = {column.name: column for column in columns}
-    return Sheet(
-        file=file,
-        columns=[known[_cell_of_header(cell)[0]] for cell in title.split(",")],
-        rows=[row for _, row in rest],
-        lines=[line for line, _ in rest],
-    )
+    return [(said, numbered[0][0]) for said in wrong]
 
 
 def _cell_of_header(cell: str) -> tuple[str, str]:
@@ -263,3 +243,22 @@ def digits(cell: str) -> int:
     """Return the significant digits that are written."""
     mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
     return len(mantissa.lstrip("0"))
+
+
+def written(columns: Iterable[Column], things: Sequence[object]) -> str:
+    """Return the table of the attributes of things, which reads back the same."""
+    held = [column for column in columns if hasattr(things[0], column.field)]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(column.name for column in held)
+    writer.writerows([_cell(getattr(one, column.field)) for column in held] for one in things)
+    return out.getvalue()
+
+
+def _cell(cell: object) -> str:
+    """Return a cell, empty of what is not known; a sentence has one line."""
+    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
+        return ""
+    if isinstance(cell, str):
+        return " ".join(cell.split())
+    return repr(cell.item() if isinstance(cell, np.generic) else cell)

@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import FloatArray
-from ..lazily import linalg
-from ..profiles import evaluated
-from ..settled import FoundT, settled
-from ..shape_functions import ShapeFunctions, shape_functions
-from ..unit_blade import UnitBlade
+from .arrays import FloatArray
+from .lazily import linalg
+from .profiles import evaluated
+from .settled import FoundT, settled
+from .shape_functions import ShapeFunctions, shape_functions
+from .unit_blade import UnitBlade
 
 
 class FirstMode(NamedTuple):

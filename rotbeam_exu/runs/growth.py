@@ -1,4 +1,4 @@
-"""How fast a run in space leaves the plane of rotation: a rate from its envelope."""
+"""Growth out of the plane of rotation of a run in space: a rate from its envelope."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import positive
 
-from .lazily import xr
+from ..lazily import xr
+from .oscillation import frequency_guess
 
 SMALL = 1e-2
 """Deflection out of the plane over L up to which the growth is that of small motion."""
+
+_DECADES = 3.0
+"""Powers of ten below it over which the growth is measured, at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,39 +29,27 @@ class GrowthRate:
         Of the envelope [1/s]; negative where it decays.
     decades : float
         Powers of ten over which it was measured.
-    start, largest : float
-        The envelope over the first period, and the largest of the run, over L; root mean squares
-        over a period.
     period : float
         Of the oscillation in the plane [s].
     """
 
     rate: float
     decades: float
-    start: float
-    largest: float
     period: float
 
 
-def growth_rate_of(
-    run: xr.Dataset, *, decades: float = 3.0, small: float = SMALL, period: float | None = None
-) -> GrowthRate:
+def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     """Return how fast the motion out of the plane grows, from its envelope.
 
     The envelope is the root mean square over a whole period of the oscillation in the plane, of w
     and w_dot/Ω, at every sample. What its logarithm gains in whole periods is averaged over the
-    last powers of ten in which it is small: what does not grow has been left behind by then.
+    last three powers of ten up to a hundredth of the length: what does not grow has been left
+    behind by then.
 
     Parameters
     ----------
     run : Dataset
         As made by `simulate_3d`, over at least two periods of the oscillation in the plane.
-    decades : float
-        Powers of ten to measure over, at most.
-    small : float
-        The envelope over L at which that ends.
-    period : float, optional
-        Of the oscillation in the plane [s]; otherwise from the zeros of q.
 
     Raises
     ------
@@ -87,38 +78,21 @@ def growth_rate_of(
             raise ValueError(
                 f"the run has no {name}: growth is measured of what simulate_3d returns"
             )
-    positive("decades", decades)
-    positive("small", small)
-    steady = run.sel(time=run["time"] >= float(run.attrs["ramp_time"]))
-    time, length = steady["time"].to_numpy(), float(run.attrs["beam_length"])
-    period = _period(time, steady["q"].to_numpy()) if period is None else positive("period", period)
+    ramp_time, length = float(run.attrs["ramp_time"]), float(run.attrs["beam_length"])
+    steady = run.sel(time=run["time"] >= ramp_time)
+    time, q = steady["time"].to_numpy(), steady["q"].to_numpy() / length
+    period = 2.0 * math.pi / frequency_guess(time - time[0], q, ramp_time)
     if time[-1] - time[0] < 2.0 * period:
         raise ValueError(
             f"a growth needs two periods of {period:.4g} s after the ramp, and the run has "
             f"{time[-1] - time[0]:.4g} s: take a duration above "
-            f"{float(run.attrs['ramp_time']) + 2.0 * period:.4g} s"
+            f"{ramp_time + 2.0 * period:.4g} s"
         )
     w, w_dot = steady["w"].to_numpy(), steady["w_dot"].to_numpy()
     squares = (w / length) ** 2 + (w_dot / length * period / (2.0 * math.pi)) ** 2
     envelope, at = _over_a_period(time, squares, period)
-    rate, fitted = _fitted(at, envelope, period, decades, small)
-    return GrowthRate(
-        rate=rate, decades=fitted, start=float(envelope[0]), largest=float(envelope.max()),
-        period=period,
-    )  # fmt: skip
-
-
-def _period(time: FloatArray, q: FloatArray) -> float:
-    """Return the mean time between the zeros at which q rises."""
-    before = np.flatnonzero((q[:-1] < 0.0) & (q[1:] >= 0.0))
-    if before.size < 2:
-        raise ValueError(
-            "the tip does not cross the line of the clamp twice after the ramp: take a longer "
-            "duration, or give the period"
-        )
-    share = q[before] / (q[before] - q[before + 1])
-    crossings = time[before] + share * (time[before + 1] - time[before])
-    return float((crossings[-1] - crossings[0]) / (before.size - 1))
+    rate, fitted = _fitted(at, envelope, period)
+    return GrowthRate(rate=rate, decades=fitted, period=period)
 
 
 def _over_a_period(
@@ -133,25 +107,22 @@ def _over_a_period(
     return np.sqrt(mean), time[starts]
 
 
-def _fitted(
-    time: FloatArray, envelope: FloatArray, period: float, decades: float, small: float
-) -> tuple[float, float]:
+def _fitted(time: FloatArray, envelope: FloatArray, period: float) -> tuple[float, float]:
     """Return the rate at which the envelope grows [1/s], and over how many decades.
 
     The mean of ln A(t + kT) - ln A(t) over kT, with k whole periods about half of the range:
     within a period the envelope of a growing motion is no straight line.
     """
-    above = np.flatnonzero(envelope > small)
+    above = np.flatnonzero(envelope > SMALL)
     end = int(above[0]) if above.size else envelope.size
     logarithm = np.log(np.maximum(envelope[:end], np.finfo(float).tiny))
-    lower = logarithm[-1] - decades * math.log(10.0) if end else math.inf
+    lower = logarithm[-1] - _DECADES * math.log(10.0) if end else math.inf
     start = int(np.flatnonzero(logarithm >= lower)[0]) if end else 0
     span = time[end - 1] - time[start]
     if end < 2 or span <= period:
         raise ValueError(
-            f"the motion out of the plane grows through the last {decades:g} powers of ten below "
-            f"{small:g} of the length in less than a period: start with a smaller kick and take "
-            "more decades"
+            f"the motion out of the plane grows through the last {_DECADES:g} powers of ten below "
+            f"{SMALL:g} of the length in less than a period: start with a smaller kick"
         )
     lag = max(1, int(0.5 * span / period)) * period
     later = np.interp(time[start:end] + lag, time[:end], logarithm, right=np.nan)

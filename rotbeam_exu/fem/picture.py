@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import exudyn
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import finite_array, flag, positive
+from analytic.input_checks import finite_array
 
 _WIDTH = 0.05
 """Height of the drawn sections over L: as drawn to scale a slender blade is a hair."""
@@ -32,27 +32,8 @@ _COLORS: tuple[_Color, ...] = (
 )
 
 
-class _View(NamedTuple):
-    """What is seen of the plane of rotation, over L.
-
-    Attributes
-    ----------
-    x, y : tuple of float
-        Ends of the floor.
-    center : tuple of float
-        The picture's middle, right and above of the clamp as it is seen.
-    zoom : float
-        Half of the picture's height.
-    """
-
-    x: tuple[float, float]
-    y: tuple[float, float]
-    center: tuple[float, float]
-    zoom: float
-
-
-_AHEAD = _View(x=(-0.1, 1.1), y=(-0.65, 0.2), center=(0.5, -0.22), zoom=0.37)
-_AROUND = _View(x=(-1.1, 1.1), y=(-1.05, 1.05), center=(0.0, -0.13), zoom=0.66)
+_FLOOR_SIZE = 1.1
+"""Half the length of the floor, a square below all that the blade can reach, over L."""
 
 
 def ray_traced(
@@ -60,15 +41,12 @@ def ray_traced(
     times: Sequence[float],
     *,
     size: tuple[int, int] = (1200, 700),
-    width: float = _WIDTH,
-    stretched: float = 1.0,
-    whole: bool = False,
 ) -> NDArray[np.uint8]:
     """Return a picture of the blade at some times, an RGB array (height, width, 3).
 
-    Seen from the clamp's frame, whose plane of rotation is the floor; early times are blue, late
-    ones red. Sections are drawn as strips of one height, along the axis that is in the plane at
-    rest, so that bending in the plane and twist are seen.
+    Seen from the clamp's frame, whose plane of rotation is the floor, with all that the blade can
+    reach; early times are blue, late ones red. Sections are drawn as strips of one height, along
+    the axis that is in the plane at rest, so that bending in the plane and twist are seen.
 
     Parameters
     ----------
@@ -78,13 +56,6 @@ def ray_traced(
         When [s]; the nearest samples are drawn.
     size : tuple of int
         Of the picture, width and height [pixels].
-    width : float
-        Of the strips, over L.
-    stretched : float
-        By what deflections out of the plane are drawn larger.
-    whole : bool
-        Show all that the blade can reach, not only what it does while it is bent less than a right
-        angle.
 
     Raises
     ------
@@ -109,9 +80,8 @@ def ray_traced(
     at = finite_array("times", times, "s").ravel()
     length = float(run.attrs["beam_length"])
     frames = run[["axis", "upright"]].sel(time=at, method="nearest")
-    scale = np.array([1.0, 1.0, positive("stretched", stretched)])
     shown = [
-        _strip(axis * scale, upright, 0.5 * width * length, _COLORS[k])
+        _strip(axis, upright, 0.5 * _WIDTH * length, _COLORS[k])
         for axis, upright, k in zip(
             frames["axis"].to_numpy(),
             frames["upright"].to_numpy(),
@@ -119,8 +89,9 @@ def ray_traced(
             strict=True,
         )
     ]
-    view = _AROUND if flag("whole", whole) else _AHEAD
-    return _rendered([_floor(length, view), *shown], length, size, view)
+    ends = length * np.array([-_FLOOR_SIZE, _FLOOR_SIZE])
+    floor = _surface(np.array([[[x, y, -0.15 * length] for y in ends] for x in ends]), _FLOOR)
+    return _rendered([floor, *shown], length, size)
 
 
 def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) -> dict[str, Any]:
@@ -131,13 +102,6 @@ def _strip(axis: FloatArray, upright: FloatArray, half: float, color: _Color) ->
     nodes = np.arange(len(axis))
     edges = CubicSpline(nodes, np.stack((axis - across, axis + across), axis=1))
     return _surface(edges(np.linspace(0, nodes[-1], 8 * nodes[-1] + 1)), color)
-
-
-def _floor(length: float, view: _View) -> dict[str, Any]:
-    """Return a strip parallel to the plane of rotation, below the blade."""
-    x, y = np.array(view.x) * length, np.array(view.y) * length
-    corners = np.array([[[a, b, -0.15 * length] for b in y] for a in x])
-    return _surface(corners, _FLOOR)
 
 
 def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
@@ -151,7 +115,7 @@ def _surface(points: FloatArray, color: _Color) -> dict[str, Any]:
 
 
 def _rendered(
-    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int], view: _View
+    surfaces: Sequence[dict[str, Any]], length: float, size: tuple[int, int]
 ) -> NDArray[np.uint8]:
     """Return the picture of the surfaces of a blade of `length`."""
     container = exudyn.SystemContainer()
@@ -170,9 +134,9 @@ def _rendered(
         settings.raytracer.advanced.showText = False
         container.renderer.ZoomAll()
         container.renderer.SetModelView(
-            zoom=view.zoom * length,
+            zoom=0.66 * length,
             rotationVector=[-0.95, 0.0, 0.0],
-            centerPoint=[*(length * c for c in view.center), 0.0],
+            centerPoint=[0.0, -0.13 * length, 0.0],
         )
         return np.asarray(container.renderer.RedrawAndGetImage(useRaytracer=True))
     finally:

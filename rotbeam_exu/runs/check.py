@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
-from analytic.description import describe, from_description
-from analytic.loads import Load
-from analytic.motion import Motion
+from analytic.arrays import FloatArray
 
-from .lazily import xr
+from ..lazily import xr
+from .attributes import beam_of
 
 STRAIN_LIMIT = 0.05
 """Axial strain beyond which a linear elastic law means nothing."""
@@ -26,7 +19,6 @@ RESIDUAL_LIMIT = 1e-8
 
 DRIFT_LIMIT = 1e-2
 """Drift of the steady Jacobi energy over the largest elastic energy; 1e-6 at the default step."""
-
 
 LARGE_SWING = 0.7
 """Deflection of the tip over L above which a beam in free swing may break into short waves."""
@@ -45,68 +37,6 @@ class SimulationError(RuntimeError):
     """
 
     run: xr.Dataset | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Check:
-    name: str
-    size: NDArray[np.float64]
-    limit: float
-
-    def failure(self, time: NDArray[np.float64]) -> tuple[float, str] | None:
-        """When the limit is first passed [s], and what to say of it."""
-        # Written so that NaN fails.
-        bad = ~(self.size <= self.limit)
-        if not bad.any():
-            return None
-        first = int(np.argmax(bad))
-        return float(time[first]), (
-            f"{self.name} reaches {self.size[first]:.3g} at t = {time[first]:.6g} s, "
-            f"above {self.limit:.3g}"
-        )
-
-
-def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
-    """Return the beam or blade that the attributes of a run describe."""
-    if "blade" in attrs:
-        return from_description(json.loads(attrs["blade"]), Blade)
-    return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
-
-
-def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
-    """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
-    if type(beam) is Beam:
-        return {f"beam_{field.name}": getattr(beam, field.name) for field in fields(Beam)}
-    return {"beam_length": beam.length, "blade": json.dumps(describe(beam))}
-
-
-def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
-    """Return the loads that the attributes of a run describe."""
-    return tuple(from_description(one, Load) for one in json.loads(attrs.get("loads", "[]")))
-
-
-def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
-    """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
-    return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
-
-
-def motion_of(attrs: Mapping[Any, Any]) -> Motion:
-    """Return the rotation of the clamp that the attributes of a run describe."""
-    if "motion" in attrs:
-        return from_description(json.loads(attrs["motion"]), Motion)
-    omega, ramp_time = float(attrs["omega"]), float(attrs["ramp_time"])
-    return SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
-
-
-def motion_attributes(motion: Motion) -> dict[str, Any]:
-    """Return the attribute by which a run says how it was driven; `motion_of` reads it.
-
-    Eq. 1 and a steady rotation need none beside omega and ramp_time. A rotation that is no known
-    kind is refused.
-    """
-    if type(motion) in (SpinUp, SteadyRotation):
-        return {}
-    return {"motion": json.dumps(describe(motion))}
 
 
 def remedy(run: xr.Dataset, t: float) -> str:
@@ -150,7 +80,7 @@ def remedy(run: xr.Dataset, t: float) -> str:
     return smaller
 
 
-def _reach(run: xr.Dataset) -> NDArray[np.float64]:
+def _reach(run: xr.Dataset) -> FloatArray:
     """Return the tip's distance from the clamp [m], (samples,)."""
     unit = beam_of(run.attrs).unit
     radius = unit.hub * float(run.attrs["beam_length"])
@@ -162,7 +92,7 @@ def _reach(run: xr.Dataset) -> NDArray[np.float64]:
     return np.asarray(np.hypot(in_plane, out_of_plane))
 
 
-def balanced_energy(run: xr.Dataset) -> tuple[NDArray[np.float64], str]:
+def balanced_energy(run: xr.Dataset) -> tuple[FloatArray, str]:
     """Return what of the energy [J] stays constant in steady rotation, (samples,), and its name.
 
     The Jacobi energy E - ω L_z, less what loads, damping and changes of the speed supplied of it,
@@ -205,37 +135,32 @@ def check_run(run: xr.Dataset) -> str:
     steady = time >= float(attrs["ramp_time"])
     energy, its_name = balanced_energy(run)
     drift = np.where(steady, np.abs(energy - energy[int(np.argmax(steady))]), 0.0)
-    checks = (
-        _Check(
-            name="the tip's distance from the clamp over the length",
-            size=_reach(run) / length,
-            limit=1.0 + STRAIN_LIMIT,
+    checks = {
+        "the tip's distance from the clamp over the length": (
+            _reach(run) / length, 1.0 + STRAIN_LIMIT
         ),
-        _Check(
-            name="the axial strain",
-            size=run["axial_strain"].to_numpy(),
-            limit=STRAIN_LIMIT,
+        "the axial strain": (run["axial_strain"].to_numpy(), STRAIN_LIMIT),
+        "the clamp's position error over the length": (
+            run["clamp_residual"].to_numpy() / length, RESIDUAL_LIMIT
         ),
-        _Check(
-            name="the clamp's position error over the length",
-            size=run["clamp_residual"].to_numpy() / length,
-            limit=RESIDUAL_LIMIT,
+        "the root's direction error": (
+            np.abs(run["direction_residual"].to_numpy()), RESIDUAL_LIMIT
         ),
-        _Check(
-            name="the root's direction error",
-            size=np.abs(run["direction_residual"].to_numpy()),
-            limit=RESIDUAL_LIMIT,
+        f"the drift of {its_name} over the largest elastic energy": (
+            drift / max(scale, np.finfo(float).tiny), DRIFT_LIMIT
         ),
-        _Check(
-            name=f"the drift of {its_name} over the largest elastic energy",
-            size=drift / max(scale, np.finfo(float).tiny),
-            limit=DRIFT_LIMIT,
-        ),
-    )
-    failures = [failure for check in checks if (failure := check.failure(time)) is not None]
-    if failures:
-        t, sentence = min(failures, key=lambda failure: failure[0])
-        raise SimulationError(f"{sentence}: {remedy(run, t)}")
+    }  # fmt: skip
+    # Written so that NaN fails.
+    failed = {
+        name: bad for name, (size, limit) in checks.items() if (bad := ~(size <= limit)).any()
+    }
+    if failed:
+        name = min(failed, key=lambda one: int(np.argmax(failed[one])))
+        first, (size, limit) = int(np.argmax(failed[name])), checks[name]
+        raise SimulationError(
+            f"{name} reaches {size[first]:.3g} at t = {time[first]:.6g} s, above {limit:.3g}: "
+            f"{remedy(run, time[first])}"
+        )
     if time[-1] < float(attrs["duration"]) - 0.5 * step:
         raise SimulationError(
             f"the solver stopped at t = {time[-1]:.6g} s of {attrs['duration']:g} s: "

@@ -7,6 +7,7 @@ the periodic oscillation of fundamental ω, the tones are what other modes add, 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -41,10 +42,8 @@ class Fit:
     ----------
     time, x, weights : ndarray of shape (samples,)
         The signal, and the weight of each sample.
-    fundamental : float
-        ω [rad per unit of time].
-    tones : ndarray of shape (J,)
-        ν_j [rad per unit of time].
+    rates : ndarray of shape (1 + J,)
+        ω and the ν_j [rad per unit of time].
     coefficients : ndarray of shape (1 + 2 (HARMONICS + J),)
         c₀, the cosines of harmonics and tones, then their sines.
     """
@@ -52,9 +51,13 @@ class Fit:
     time: FloatArray
     x: FloatArray
     weights: FloatArray
-    fundamental: float
-    tones: FloatArray
+    rates: FloatArray
     coefficients: FloatArray
+
+    @property
+    def fundamental(self) -> float:
+        """ω [rad per unit of time]."""
+        return float(self.rates[0])
 
     @property
     def cosines(self) -> FloatArray:
@@ -64,7 +67,7 @@ class Fit:
     @property
     def sines(self) -> FloatArray:
         """Sine coefficients of the harmonics, shape (HARMONICS,)."""
-        start = 1 + HARMONICS + self.tones.size
+        start = HARMONICS + self.rates.size
         return self.coefficients[start : start + HARMONICS]
 
     def periodic(self) -> FloatArray:
@@ -74,22 +77,32 @@ class Fit:
             self.coefficients[0] + np.cos(phases) @ self.cosines + np.sin(phases) @ self.sines
         )
 
+    @cached_property
     def remainder(self) -> FloatArray:
-        """Return what neither series nor tones explain, over time."""
-        columns = _columns(self.time, self.fundamental, self.tones)
-        return np.asarray(self.x - columns @ self.coefficients)
+        """Signal that neither series nor tones explain, over time."""
+        return np.asarray(self.x - _columns(self.time, self.rates) @ self.coefficients)
+
+    @property
+    def misfit(self) -> float:
+        """Weighted sum of the remainder's squares."""
+        return float(self.weights @ self.remainder**2)
+
+    def newton_step(self) -> FloatArray:
+        """Return the change of the rates that the linearized model asks for, coefficients free."""
+        change = _solve(self._tangent(), self.remainder, self.weights)
+        return change[self.coefficients.size :]
 
     def frequency(self) -> Known:
         """Return ω and its error."""
-        gradient = np.zeros(self.coefficients.size + 1 + self.tones.size)
+        gradient = np.zeros(self.coefficients.size + self.rates.size)
         gradient[self.coefficients.size] = 1.0
         return self._known(self.fundamental, gradient)
 
     def half_peak_to_peak(self) -> Known:
         """Return half the height of the series, from its lowest to its highest, and its error."""
         top, bottom = (self._turn(sign) for sign in (1.0, -1.0))
-        gradient = np.zeros(self.coefficients.size + 1 + self.tones.size)
-        start = 1 + HARMONICS + self.tones.size
+        gradient = np.zeros(self.coefficients.size + self.rates.size)
+        start = HARMONICS + self.rates.size
         gradient[1 : HARMONICS + 1] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
         gradient[start : start + HARMONICS] = 0.5 * (
             np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS)
@@ -130,7 +143,7 @@ class Fit:
         influence = self.weights * (tangent @ (inverse @ (inverse.T @ gradient)))
         samples = 2 * self.x.size
         of_influence, of_remainder = (
-            np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder())
+            np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder)
         )
         # Twice as many samples: two bins to the turn.
         filled = ndimage.maximum_filter1d(of_remainder, 4 * _LOBE + 1)
@@ -139,7 +152,7 @@ class Fit:
 
     def _tangent(self) -> FloatArray:
         """Return the derivatives of the model by coefficients, ω and ν, (samples, all)."""
-        columns = _columns(self.time, self.fundamental, self.tones)
+        columns = _columns(self.time, self.rates)
         slopes = _slopes(self.time, columns, self.coefficients)
         return np.hstack([columns, slopes])
 
@@ -159,25 +172,24 @@ def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
     """
     # Hann's window all but silences what is more than two turns away from a tone.
     weights = np.sin(np.pi * time) ** 2 * np.gradient(time)
-    best = fit = _descend(time, x, weights, guess, np.zeros(0))
+    best = fit = _descend(time, x, weights, np.array([guess]))
     failures = 0
     room = (2 * time.size // 3 - best.coefficients.size) // 3
     for _ in range(min(_TONES, room)):
         if best.frequency().error < 2.0 * _ROUND_OFF * best.fundamental or failures == 2:
             break
-        tones = np.append(fit.tones, _loudest(time, fit.remainder()))
-        fit = _descend(time, x, weights, fit.fundamental, tones)
+        rates = np.append(fit.rates, _loudest(time, fit.remainder))
+        fit = _descend(time, x, weights, rates)
         better = fit.uncertainty() < best.uncertainty()
         best, failures = (fit, 0) if better else (best, failures + 1)
-    return _descend(time, x, weights, best.fundamental, best.tones, most=20, enough=1e-9)
+    return _descend(time, x, weights, best.rates, most=20, enough=1e-9)
 
 
 def _descend(
     time: FloatArray,
     x: FloatArray,
     weights: FloatArray,
-    fundamental: float,
-    tones: FloatArray,
+    rates: FloatArray,
     *,
     most: int = 8,
     enough: float = 1e-3,
@@ -186,54 +198,28 @@ def _descend(
 
     It ends after `most` steps, or when one gains less than `enough` of the misfit.
     """
-    rates = np.append(fundamental, tones)
-    coefficients, misfit = _linear(time, x, weights, rates)
+
+    def at(rates: FloatArray) -> Fit:
+        coefficients = _solve(_columns(time, rates), x, weights)
+        return Fit(time=time, x=x, weights=weights, rates=rates, coefficients=coefficients)
+
+    fit = at(rates)
     for _ in range(most):
-        step = _newton_step(time, x, weights, rates, coefficients)
+        step = fit.newton_step()
         # Beyond a tenth of a turn over the window the linearization means nothing.
         step /= max(1.0, float(np.abs(step).max()) / 0.6)
         for _ in range(5):
-            trial, trial_misfit = _linear(time, x, weights, rates + step)
-            if trial_misfit < misfit:
+            trial = at(fit.rates + step)
+            if trial.misfit < fit.misfit:
                 break
             step /= 2.0
         else:
             break  # at the minimum, to round-off
-        gain = 1.0 - trial_misfit / misfit
-        rates, coefficients, misfit = rates + step, trial, trial_misfit
+        gain = 1.0 - trial.misfit / fit.misfit
+        fit = trial
         if gain < enough:
             break
-    return Fit(
-        time=time,
-        x=x,
-        weights=weights,
-        fundamental=float(rates[0]),
-        tones=rates[1:],
-        coefficients=coefficients,
-    )
-
-
-def _linear(
-    time: FloatArray, x: FloatArray, weights: FloatArray, rates: FloatArray
-) -> tuple[FloatArray, float]:
-    """Weighted least-squares coefficients at given frequencies, and their misfit."""
-    columns = _columns(time, rates[0], rates[1:])
-    coefficients = _solve(columns, x, weights)
-    return coefficients, float(weights @ (x - columns @ coefficients) ** 2)
-
-
-def _newton_step(
-    time: FloatArray,
-    x: FloatArray,
-    weights: FloatArray,
-    rates: FloatArray,
-    coefficients: FloatArray,
-) -> FloatArray:
-    """Change of the frequencies that the linearized model asks for, coefficients free."""
-    columns = _columns(time, rates[0], rates[1:])
-    tangent = np.hstack([columns, _slopes(time, columns, coefficients)])
-    change = _solve(tangent, x - columns @ coefficients, weights)
-    return change[coefficients.size :]
+    return fit
 
 
 def _solve(columns: FloatArray, x: FloatArray, weights: FloatArray) -> FloatArray:
@@ -248,9 +234,9 @@ def _solve(columns: FloatArray, x: FloatArray, weights: FloatArray) -> FloatArra
     return np.asarray(solution / scale, dtype=np.float64)
 
 
-def _columns(time: FloatArray, fundamental: float, tones: FloatArray) -> FloatArray:
+def _columns(time: FloatArray, rates: FloatArray) -> FloatArray:
     """One, the cosines and the sines of harmonics and tones, shape (samples, coefficients)."""
-    phases = np.outer(time, np.concatenate([fundamental * _ORDERS, tones]))
+    phases = np.outer(time, np.concatenate([rates[0] * _ORDERS, rates[1:]]))
     return np.hstack([np.ones((time.size, 1)), np.cos(phases), np.sin(phases)])
 
 

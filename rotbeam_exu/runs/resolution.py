@@ -1,4 +1,4 @@
-"""What a mesh and a step can resolve, said before a run instead of after it."""
+"""Limits of what a mesh and a step resolve, told before a run instead of after it."""
 
 from __future__ import annotations
 
@@ -21,21 +21,11 @@ STEPS_PER_RAMP = 20
 LEAST_SLENDERNESS = 1e-11
 """μ below which the round-off of |r'| - 1 spoils the axial force by more than 1e-5 of it."""
 
-_LARGEST_MEMORY = 8e9
-"""Of samples or of a matrix [bytes]."""
-
-_LONGEST_RUN = 3e6
-"""Wall time [s], about a month."""
-
-_SECONDS_PER_ELEMENT_STEP = 2e-6
-"""The least that was measured, so that what is refused would indeed take too long."""
-
 
 def checked_steps(
     beam: AnyBlade,
     omega: float,
     ramp_time: float,
-    elements: int,
     duration: float,
     step: float,
     driven: Sequence[float] = (),
@@ -64,11 +54,7 @@ def checked_steps(
         )
     require_stretch(beam)
     require_resolved_ramp(ramp_time, step)
-    require_feasible(elements, steps)
-    every = sampling(beam, omega, steps, step, driven)
-    require_feasible(elements, steps, samples=steps // every)
-    warn_if_rounded(beam, elements)
-    return steps, every
+    return steps, sampling(beam, omega, steps, step, driven)
 
 
 def sampling(
@@ -113,39 +99,6 @@ def require_stretch(beam: AnyBlade) -> None:
             "where round-off of the stretch spoils the axial force: lower the axial stiffness EA "
             f"below {beam.bending_stiffness / (LEAST_SLENDERNESS * beam.length**2):.3g} N, which "
             "changes nothing else"
-        )
-
-
-def warn_if_rounded(beam: AnyBlade, elements: int) -> None:
-    """Warn where the round-off of the stretch may show in q(t).
-
-    Over seconds of the paper's spin-up it does by up to 1e-16 n/μ of the length, as measured with
-    16 and 64 elements at μ from 1e-11 to 1e-9.
-    """
-    rounded = 1e-16 * elements / beam.slenderness
-    if rounded > 1e-5:
-        warn(
-            f"the slenderness I/(AL²) = {beam.slenderness:.3g} of {elements} elements is so small "
-            f"that round-off may show in q/L at {rounded:.1g}: lower the axial stiffness EA by "
-            f"{rounded / 1e-5:.2g}, which changes nothing else"
-        )
-
-
-def require_feasible(elements: int, steps: int = 0, samples: int = 0) -> None:
-    """Refuse by an estimate what would not fit into memory or end within a month."""
-    coordinates = 4.0 * (elements + 1.0)
-    memory = max(8.0 * coordinates**2, 2 * 8.0 * coordinates * samples)
-    if memory > _LARGEST_MEMORY:
-        raise ValueError(
-            f"{elements:.6g} elements and {samples:.6g} samples need about {memory / 1e9:.3g} GB "
-            f"of memory, more than {_LARGEST_MEMORY / 1e9:g} GB: take fewer elements or a shorter "
-            "duration"
-        )
-    seconds = _SECONDS_PER_ELEMENT_STEP * elements * steps
-    if seconds > _LONGEST_RUN:
-        raise ValueError(
-            f"{steps:.6g} steps of {elements} elements would take about {seconds / 86400:.3g} "
-            "days: take a larger step, fewer elements or a shorter duration"
         )
 
 

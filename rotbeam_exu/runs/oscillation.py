@@ -13,9 +13,9 @@ from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
-from .lazily import xr
+from ..lazily import xr
+from .attributes import beam_of
 from .tones import fit_signal
-from .verdict import beam_of
 
 SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
@@ -80,7 +80,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """Measure the oscillation of q from the end of the ramp to the end of the run.
 
     A Fourier series and, for the other modes, free tones are fitted to q, frequencies included, by
-    least squares weighted with Hann's window (`rotbeam_exu.tones`). The errors bound what the
+    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). The errors bound what the
     remainder of the fit could have done, were its phases the least lucky. Time may be in any
     unit, evenly sampled or not.
 
@@ -116,7 +116,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     if omega_n is not None:
         # The nonlinear frequency may be lower, by a few percent.
         _check_samples(time, 0.9 * omega_n, "of the beam's slowest oscillation")
-    guess = _frequency_guess(time, x, ramp_time, omega_n)
+    guess = frequency_guess(time, x, ramp_time, omega_n)
     _check_samples(time, guess, "found")
     # More than some fifty samples a period of so smooth a signal cost time and add nothing.
     every = max(1, int(_samples(time, guess) // 50))
@@ -125,7 +125,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     fit = fit_signal(time / window, x / height, guess * window)
     frequency, amplitude = fit.frequency(), fit.half_peak_to_peak()
     _check_frequency(frequency.value / window, omega_n)
-    _check_cycles(window, frequency.value / window, ramp_time)
+    cycles = _whole_cycles(window, frequency.value / window, ramp_time)
     harmonics = height * np.hypot(fit.cosines, fit.sines)
     return SteadyOscillation(
         amplitude=height * amplitude.value,
@@ -135,7 +135,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
         frequency_error=frequency.error / window,
         offset=height * float(fit.coefficients[0]),
         residual=height * float(np.sqrt(np.mean((fit.x - fit.periodic()) ** 2))),
-        cycles=_cycles(window, frequency.value / window),
+        cycles=cycles,
         harmonics=harmonics,
     )
 
@@ -195,9 +195,6 @@ def _check_form(run: xr.Dataset) -> None:
             f"q must run over time alone, it has the dimensions {dims}"
             ": choose one run by run.isel or run.sel"
         )
-    for name in ("time", "q"):
-        if run[name].dtype.kind not in "fiu":
-            raise NoOscillationError(f"{name} must hold real numbers, not {run[name].dtype}")
 
 
 def _natural_frequency(run: xr.Dataset) -> float | None:
@@ -219,10 +216,13 @@ def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
             return None  # so fast that theory has no answer to compare with
 
 
-def _frequency_guess(
-    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None
+def frequency_guess(
+    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None = None
 ) -> float:
-    """Frequency from the zero crossings between samples well above and well below the middle."""
+    """Return the frequency from the crossings between samples well above and below the middle.
+
+    Of q/L over the time from the ramp's end on; `omega_n` is for the sentence if there are none.
+    """
     height = float(np.ptp(x))
     if height <= 1e-12:
         raise NoOscillationError(
@@ -249,18 +249,16 @@ def _frequency_guess(
     return float(np.pi * (turns.size - 1) / (crossings[-1] - crossings[0]))
 
 
-def _cycles(window: float, frequency: float) -> int:
-    return int(window * frequency / (2.0 * math.pi) + 1e-9)
-
-
-def _check_cycles(window: float, frequency: float, ramp_time: float) -> None:
-    cycles = _cycles(window, frequency)
+def _whole_cycles(window: float, frequency: float, ramp_time: float) -> int:
+    """Return how many cycles there are, refusing fewer than two."""
+    cycles = int(window * frequency / (2.0 * math.pi) + 1e-9)
     if cycles < 2:
         raise NoOscillationError(
             f"the steady window of {window:.3g} s holds {cycles} whole cycles of "
             f"{frequency:.4g} rad/s, two are needed: run for "
             f"{ramp_time + 5.0 * math.pi / frequency:.3g} s or longer"
         )
+    return cycles
 
 
 def _samples(time: FloatArray, frequency: float) -> float:

@@ -17,17 +17,17 @@ import math
 
 import numpy as np
 
-from ..arrays import FloatArray
-from ..beam import AnyBlade, require_planar, require_steady_state, warn_if_rpm
-from ..input_checks import rotation_speed, whole_number
-from ..lazily import linalg
-from ..methods.gyroscopic import reciprocal_modes
-from ..profiles import evaluated
-from ..settled import refined, settled
-from ..shape_functions import shape_functions
-from ..threads import one_thread
-from ..unit_blade import UnitBlade
-from .blade_functions import blade_functions
+from ...arrays import FloatArray
+from ...beam import AnyBlade, require_planar, require_steady_state, warn_if_rpm
+from ...blade_functions import blade_functions
+from ...input_checks import rotation_speed, whole_number
+from ...lazily import linalg
+from ...methods.gyroscopic import reciprocal_modes
+from ...profiles import evaluated
+from ...settled import refined, settled
+from ...shape_functions import shape_functions
+from ...threads import one_thread
+from ...unit_blade import UnitBlade
 
 _FEWEST, _MOST = 24, 96
 _SETTLED = 1e-5

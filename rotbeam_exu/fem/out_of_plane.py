@@ -3,30 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, fields
+
+import numpy as np
 
 from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_number
+from analytic.lazily import integrate
 
-from ...lazily import xr
-from ...verdict import SimulationError
-from ..case import Case
-from ..frame import Frame
-from ..simulation import run_case
-from .columns import space_columns
-from .elements import SpaceFormulation, space_formulation
-from .state import SpaceState, kicked
+from ..lazily import xr
+from ..runs.check import SimulationError
+from .case import Case
+from .elements import Formulation, formulation
+from .frame import Frame
+from .simulation import run_case
 
 _LARGEST_KICK = 0.1
 _SMALL_KICK = 1e-6
 """With it a blade of slenderness 1e-8 starts at steps at which it does not with 1e-4."""
+
+_BETWEEN = 8
+"""Pieces of an element over which the kick is integrated."""
 
 
 def simulate_3d(
     blade: AnyBlade,
     motion: SpinUp | SteadyRotation,
     *,
-    element: str | SpaceFormulation = "exact",
+    element: str | Formulation = "exact",
     elements: int = 16,
     duration: float = 15.0,
     step: float = 1e-3,
@@ -46,13 +51,9 @@ def simulate_3d(
         ``beam.with_section_out_of_plane(...)``; set at no angle, without point masses.
     motion : SpinUp or SteadyRotation
         Prescribed rotation of the clamped end.
-    element : {"exact", "cable"} or SpaceFormulation
+    element : {"exact", "cable"} or Formulation
         The geometrically exact beam, sheared and twisted, or the cable, which has no torsion and
         bends alike in all directions.
-    elements : int
-        Number of elements of equal length.
-    duration, step : float
-        End of the run and step size [s].
     frame : {"inertial", "rotating"}
         As in `simulate`; the rotating one is for the cable.
     kick : float
@@ -60,8 +61,8 @@ def simulate_3d(
         that does not stretch the blade.
     initial_state : callable, optional
         Planar state at t = 0, as of `simulate`, onto which the kick is put.
-    progress : callable, optional
-        Called with the fraction done.
+    elements, duration, step, progress
+        As in `simulate`.
 
     Returns
     -------
@@ -74,7 +75,7 @@ def simulate_3d(
     ValueError, TypeError
         If an input is refused.
     SimulationError
-        If the solver fails, or the run does not pass the checks of `rotbeam_exu.verdict`.
+        If the solver fails, or the run does not pass the checks of `rotbeam_exu.runs.check`.
 
     Examples
     --------
@@ -86,8 +87,7 @@ def simulate_3d(
     >>> print(f"q {run.q.min().item():.3f} m, w at most {abs(run.w).max().item():.4f} m")
     q -4.652 m, w at most 0.0080 m
     """
-    model = space_formulation(element)
-    _require_modeled(blade, model, frame)
+    model = formulation(element, in_space=True)
     kick = finite_number("kick", kick)
     if abs(kick) > _LARGEST_KICK:
         raise ValueError(
@@ -103,7 +103,7 @@ def simulate_3d(
         return kicked(initial_state, x, blade.length, kick)
 
     try:
-        run = run_case(case, initial_state=start, progress=progress, pack=space_columns)
+        run = run_case(case, initial_state=start, progress=progress)
     except SimulationError as error:
         if error.run is None or error.run["time"].size > 1 or abs(kick) <= _SMALL_KICK:
             raise
@@ -113,22 +113,52 @@ def simulate_3d(
     return run.assign_attrs(kick=kick)
 
 
-def _require_modeled(blade: AnyBlade, model: SpaceFormulation, frame: Frame) -> None:
-    """Refuse what the elements in space do not model."""
-    model.require_section(blade)
-    unit = blade.unit
-    if any(unit.damping):
-        raise ValueError(
-            "simulate_3d is for undamped blades, as Exudyn's geometrically exact beam ignores its "
-            f"damping: this one has {unit.differences}; take "
-            "blade.with_damping(Damping())"
-        )
-    if unit.masses:
-        raise ValueError(
-            f"simulate_3d is for blades without point masses, and this one has {unit.differences}"
-        )
-    if frame in ("inertial", "rotating") and frame not in model.frames:
-        raise ValueError(
-            f"element {model.name!r} is solved in the {' or '.join(model.frames)} frame, its "
-            f"inertia being no constant matrix: take frame={model.frames[0]!r}"
-        )
+@dataclass(frozen=True, kw_only=True)
+class SpaceState(BeamState):
+    """State of the blade at material points in the frame of the clamp: r = (x + u, v, w).
+
+    Sections are turned about their tangent by nothing, in motion as at rest.
+
+    Attributes
+    ----------
+    w : ndarray (points,)
+        Displacement along the axis of rotation [m].
+    w_slope : ndarray (points,)
+        Its derivative to x, w' [-].
+    w_dot, w_slope_dot : ndarray (points,)
+        Their rates [m/s, 1/s].
+    """
+
+    w: FloatArray
+    w_slope: FloatArray
+    w_dot: FloatArray
+    w_slope_dot: FloatArray
+
+
+def kicked(
+    planar: Callable[[FloatArray], BeamState] | None, x: FloatArray, length: float, kick: float
+) -> SpaceState:
+    """Return a planar state, or the straight blade at rest, bent out of its plane by an arc.
+
+    Its tangents are turned out of the plane by 2 kick x/L, and w = kick L (x/L)² of small kicks.
+    An arc is no mode: it has a share of each, so that whatever grows has something to grow from.
+    It bends and does not stretch, which of a slender blade would take all its energy.
+    `x` (nodes,) goes from 0 to the length evenly [m].
+    """
+    fine = np.linspace(0.0, length, _BETWEEN * (x.size - 1) + 1)
+    zero = np.zeros(fine.size)
+    at_rest = dict.fromkeys((one.name for one in fields(BeamState)), zero)
+    state = BeamState(**at_rest) if planar is None else planar(fine)
+    tilt = 2.0 * kick * fine / length
+    # What is added to the slopes (u', v', w') turns the tangent, and leaves it as long as it was.
+    tangent = np.stack((1.0 + state.u_slope, state.v_slope))
+    added = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))
+    u_slope, v_slope, w_slope = added
+    u, v, w = integrate.cumulative_simpson(added, x=fine, initial=0.0)
+    bent = vars(state) | {
+        "u": state.u + u, "v": state.v + v, "w": w,
+        "u_slope": state.u_slope + u_slope, "v_slope": state.v_slope + v_slope,
+        "w_slope": w_slope, "w_dot": zero, "w_slope_dot": zero,
+    }  # fmt: skip
+    nodes = slice(None, None, _BETWEEN)
+    return SpaceState(**{name: np.add(value, zero)[nodes] for name, value in bent.items()})

@@ -1,1 +1,0 @@
-"""The blade in space: Exudyn's elements in three dimensions, and what leaves the plane."""

@@ -1,0 +1,1 @@
+"""A run, whoever computed it: its checks, its steady oscillation, its growth. Knows no Exudyn."""

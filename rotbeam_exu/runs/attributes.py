@@ -1,0 +1,56 @@
+"""The attributes by which a run says its beam, motion, loads and versions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import Any
+
+from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
+from analytic.description import describe, from_description
+from analytic.loads import Load
+from analytic.motion import Motion
+
+
+def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
+    """Return the beam or blade that the attributes of a run describe."""
+    if "blade" in attrs:
+        return from_description(json.loads(attrs["blade"]), Blade)
+    return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
+
+
+def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
+    """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
+    if type(beam) is Beam:
+        return {f"beam_{field.name}": getattr(beam, field.name) for field in fields(Beam)}
+    return {"beam_length": beam.length, "blade": json.dumps(describe(beam))}
+
+
+def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
+    """Return the loads that the attributes of a run describe."""
+    return tuple(from_description(one, Load) for one in json.loads(attrs.get("loads", "[]")))
+
+
+def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
+    """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
+    return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
+
+
+def motion_of(attrs: Mapping[Any, Any]) -> Motion:
+    """Return the rotation of the clamp that the attributes of a run describe."""
+    if "motion" in attrs:
+        return from_description(json.loads(attrs["motion"]), Motion)
+    omega, ramp_time = float(attrs["omega"]), float(attrs["ramp_time"])
+    return SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
+
+
+def motion_attributes(motion: Motion) -> dict[str, Any]:
+    """Return the attribute by which a run says how it was driven; `motion_of` reads it.
+
+    Eq. 1 and a steady rotation need none beside omega and ramp_time. A rotation that is no known
+    kind is refused.
+    """
+    if type(motion) in (SpinUp, SteadyRotation):
+        return {}
+    return {"motion": json.dumps(describe(motion))}

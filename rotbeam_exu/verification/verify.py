@@ -1,0 +1,255 @@
+"""`verify`: a code that can be called runs the cases, and is judged by what it hands in.
+
+Anyone can have a code of their own judged: write a function with the signature of `Code`, wrap it
+in an `Entry`, and read the judgement::
+
+    def mine(case, *, elements, step):
+        ...                                   # spin the blade up; sample q [m] and q_dot [m/s]
+        return xarray.Dataset({"q": ("time", q), "q_dot": ("time", q_dot)}, {"time": time})
+
+    verify(Entry(name="mine", simulate=mine))
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import time as clock
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from analytic import AnyBlade, Beam, SpinUp, spin_up_response
+from analytic.arrays import FloatArray
+from analytic.input_checks import whole_number
+from analytic.theory import BERNOULLI_EULER, Theory
+
+from ..lazily import xr
+from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
+from .judgement import Judgement, judged
+from .submission import Declaration, Frequency, Run, Submission
+
+DEFAULT = ("L", "S1", "S2", "O", "S4")
+"""Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
+the orbit of O the beam hardens; S2 leaves too little for that."""
+
+LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
+"""Meshes and steps [s] by which the cost at equal error is found; steps scaled as speeds are."""
+
+
+class Code(Protocol):
+    """A code that computes the history of a case."""
+
+    def __call__(self, case: Case, *, elements: int, step: float) -> xr.Dataset:
+        """Return q [m] and q_dot [m/s] of the tip over `time` [s], as Eq. 16 has them.
+
+        The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
+        `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
+        is the `BeamState` at material points x [m]. Samples are even, at least 100 a period, and
+        go from 0 to `case.duration` or a little beyond.
+
+        Raises
+        ------
+        NotImplementedError
+            Of a case that the code does not do, which is then not submitted.
+        RuntimeError
+            With one sentence, where it fails.
+        """
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """A code to be judged, its name and the discretization it is judged at.
+
+    Parameters
+    ----------
+    name : str
+        Shown in the table.
+    simulate : Code
+    first_frequency : callable, optional
+        (beam, omega, elements) -> first natural frequency [rad/s] in steady rotation, where the
+        code has it.
+    elements, step
+        Mesh and step [s] of the judged run.
+    meshes : tuple of int, optional
+        Meshes on which convergence is judged, three or more to have an order; half, the same and
+        twice as many elements unless given.
+    theory : Theory
+        The beam theory whose linear frequencies the code should have; Bernoulli-Euler's by default.
+    order, order_in_step : float, optional
+        Orders that the author declares, in the mesh and in the step; the observed ones are judged
+        against them.
+    """
+
+    name: str
+    simulate: Code
+    first_frequency: Callable[[AnyBlade, float, int], float] | None = None
+    elements: int = 16
+    step: float = 1e-3
+    meshes: tuple[int, ...] = ()
+    theory: Theory = BERNOULLI_EULER
+    order: float | None = None
+    order_in_step: float | None = 2.0
+
+    def __post_init__(self) -> None:
+        for elements in (self.elements, *self.meshes):
+            whole_number("meshes", elements)
+
+    @property
+    def own_meshes(self) -> tuple[int, ...]:
+        """Meshes on which convergence is judged, coarse to fine."""
+        around = (max(self.elements // 2, 1), self.elements, 2 * self.elements)
+        return tuple(sorted(set(self.meshes or around)))
+
+
+def verify(
+    entry: Entry,
+    *,
+    beam: AnyBlade | None = None,
+    spin_up: SpinUp | None = None,
+    duration: float = 15.0,
+) -> Judgement:
+    """Judge a code against the exact beam.
+
+    Parameters
+    ----------
+    entry : Entry
+        The code, its meshes and its step.
+    beam : Beam, optional
+        The paper's by default, whose cases L, S1, S2, O and S4 are then judged.
+    spin_up : SpinUp, optional
+        A single one to be judged instead; of a beam that is given ω = 6 rad/s in T = 3 s.
+    duration : float
+        End of that one [s].
+
+    Examples
+    --------
+    >>> from analytic import SpinUp
+    >>> from rotbeam_exu.fem.elements import Cable
+    >>> from rotbeam_exu.verification.entries import formulation_entry
+    >>> from rotbeam_exu.verification.verify import verify
+    >>> entry = formulation_entry(Cable(), elements=4, step=2e-3)
+    >>> print(verify(entry, spin_up=SpinUp(omega=2.0, ramp_time=3.0), duration=8.0).outcome)
+    no verdict (L); converges to the reference (S)
+    """
+    if beam is None and spin_up is None:
+        cases = [CASES[name] for name in DEFAULT]
+    else:
+        blade, motion = _by_default(beam, spin_up)
+        speeds = tuple(speed * faster_than_paper(blade) for speed in SPEEDS)
+        cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
+    return judged(handed_in(entry, cases), cases={case.name: case for case in cases})
+
+
+def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
+    """Run a code over the cases that it does, and return what it would submit.
+
+    Frequencies on its own meshes; histories on these meshes at twice its step, and on its mesh at
+    one, two and four of its steps. What fails is on record with its sentence.
+    """
+    frequencies = [
+        _frequency(entry, case, speed, elements)
+        for case in cases
+        if case.asked is Asked.FREQUENCIES and entry.first_frequency is not None
+        for speed in case.speeds
+        for elements in entry.own_meshes
+    ]
+    runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
+    return Submission(
+        declaration=Declaration(
+            code=entry.name, theory=entry.theory, order=entry.order,
+            order_in_step=entry.order_in_step,
+        ),
+        frequencies=tuple(frequencies), runs=tuple(runs),
+    )  # fmt: skip
+
+
+def faster_than_paper(beam: AnyBlade) -> float:
+    """Return the ratio of the beam's natural frequency at rest to that of the paper's beam."""
+    return beam.omega_0 / Beam.reference().omega_0
+
+
+def _by_default(beam: AnyBlade | None, spin_up: SpinUp | None) -> tuple[AnyBlade, SpinUp]:
+    return beam or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
+
+
+def _frequency(entry: Entry, case: Case, speed: float, elements: int) -> Frequency:
+    assert entry.first_frequency is not None
+    try:
+        found = entry.first_frequency(case.blade, speed, elements)
+    except RuntimeError as error:
+        return Frequency(elements=elements, speed=speed, failure=str(error))
+    return Frequency(elements=elements, speed=speed, frequency=found)
+
+
+def _runs(entry: Entry, case: Case) -> list[Run]:
+    """Return the runs of a case; none of one that the code does not do."""
+    resolutions = {(elements, 2.0 * entry.step) for elements in entry.own_meshes}
+    resolutions |= {(entry.elements, factor * entry.step) for factor in (1.0, 2.0, 4.0)}
+    try:
+        return [_run(entry, case, elements, step) for elements, step in sorted(resolutions)]
+    except NotImplementedError:
+        return []
+
+
+def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
+    nothing, started = np.empty(0), clock.perf_counter()
+    run = Run(case=case.name, elements=elements, step=step, time=nothing, q=nothing)
+    try:
+        found = entry.simulate(case, elements=elements, step=step)
+    except NotImplementedError:
+        raise
+    except RuntimeError as error:
+        return replace(run, failure=str(error))
+    # A whole number of steps may end a little later than the case.
+    found = found.isel(time=found["time"].to_numpy() <= case.duration)
+    own = str(found.attrs.get("verdict", "passed"))
+    time, q, q_dot = (found[name].to_numpy() for name in ("time", "q", "q_dot"))
+    wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
+    return replace(run, time=time, q=q, q_dot=q_dot, wall=wall, remark=remark)
+
+
+def cost_at_error(
+    entry: Entry,
+    error: float = 1e-2,
+    *,
+    beam: AnyBlade | None = None,
+    spin_up: SpinUp | None = None,
+) -> tuple[float, FloatArray]:
+    """Return the wall time [s] at which a code reaches an error, and the ladder it is read from.
+
+    LADDER's runs of twice the ramp time are timed one after the other, on one core if the caller
+    sees to it; the error is the largest of q(t) over max|q|; time over error is interpolated
+    between runs, logarithmically. NaN where the ladder does not reach the error; where even its
+    first run is better, the time of that, an upper bound.
+
+    Returns
+    -------
+    seconds : float
+    ladder : ndarray (runs, 2)
+        Error and seconds of each run.
+    """
+    beam, spin_up = _by_default(beam, spin_up)
+    case, ladder = spin_up_case(beam, spin_up, 2.0 * spin_up.ramp_time), []
+    rungs = [(elements, step / faster_than_paper(beam)) for elements, step in LADDER]
+    with contextlib.suppress(RuntimeError):  # the first run loads the code; it does not count
+        entry.simulate(case, elements=rungs[0][0], step=rungs[0][1])
+    for elements, step in rungs:
+        started = clock.perf_counter()
+        try:
+            run = entry.simulate(case, elements=elements, step=step)
+        except RuntimeError:
+            ladder.append((math.nan, math.nan))
+            continue
+        seconds = clock.perf_counter() - started
+        exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6).q
+        ladder.append((float(np.abs(run["q"] - exact).max() / np.abs(exact).max()), seconds))
+    rows = np.array(ladder)
+    finished = rows[np.isfinite(rows[:, 0])]
+    if not finished.size:
+        return math.nan, rows
+    errors, times = np.log(finished[np.argsort(finished[:, 0])]).T
+    at_error = np.interp(math.log(error), errors, times, left=math.nan)
+    return math.exp(float(at_error)), rows
