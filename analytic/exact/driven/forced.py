@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...beam import AnyBlade, require_planar, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Load
 from ...methods.newton import NoOrbitError
@@ -83,6 +83,7 @@ def forced_response(
     >>> print(found.amplitude[found.at(5.0)].round(4))
     [0.1355]
     """
+    require_planar(beam)
     unit = unit_load(beam, load)
     if load.frequency is not None:
         raise ValueError(
