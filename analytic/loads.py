@@ -248,9 +248,9 @@ class Gravity(Load):
 
     Examples
     --------
-    >>> from analytic import Beam, Damping, gravity_response
+    >>> from analytic import Beam, Damping, Gravity, forced_response
     >>> blade = Beam.reference().with_damping(Damping(external=0.3))
-    >>> found = gravity_response(blade, [5.0, 5.5], gravity=1.62, functions=8)
+    >>> found = forced_response(blade, [5.0, 5.5], Gravity(1.62), functions=8)
     >>> found.load
     Gravity(gravity=1.62)
     >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")

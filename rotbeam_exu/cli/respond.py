@@ -187,7 +187,7 @@ def respond(
         how: Any = {"theory": theory, "functions": functions}
         try:
             if omega is None:
-                return analytic.gravity_response(beam, frequencies, load.size, **how)
+                return analytic.forced_response(beam, frequencies, load, **how)
             return analytic.forced_response(beam, omega, load, frequencies, **how)
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
