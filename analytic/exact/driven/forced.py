@@ -85,6 +85,8 @@ def forced_response(
     """
     require_planar(beam)
     unit = unit_load(beam, load)
+    if load.varied is None:
+        raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "
