@@ -62,8 +62,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m];
-    [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not of point
-    masses, each zero where it is not given.
+    [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
+    and not of point masses, each zero where it is not given.
 
     Raises
     ------
