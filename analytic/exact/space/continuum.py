@@ -56,13 +56,10 @@ class SpaceContinuum:
         self._frames = Frames(grid, masses.places)
         self.masses = masses
         self.strains = functions.at(grid.points)
-        # ∫ over the tip and the length, for loads that act there.
         self.outboard = {
             "length": self.inner.T @ self.weights,
             "tip": self.weights,
         }
-
-    # What the coordinates make of the shape.
 
     def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
@@ -215,8 +212,6 @@ class SpaceContinuum:
         residual = self._work(at, q, q_dot, force, moment)
         return Tangent(residual, stiffness, damping, mass)
 
-    # What is read off the shape.
-
     @property
     def bending(self) -> int:
         """Number of functions for each curvature."""
@@ -248,10 +243,7 @@ class SpaceContinuum:
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
-        at, still = self._state(q), np.zeros_like(q)
-        motion = self._motion(at, still, still, 0.0, 0.0)
-        change = Changes(self, at, motion, *self._clamp(0.0, 0.0))
-        return np.moveaxis(self.weights @ change.slope, 0, 1)
+        return np.moveaxis(self.weights @ self.changes(q).slope, 0, 1)
 
     @property
     def setting(self) -> float:
@@ -277,13 +269,6 @@ class SpaceContinuum:
             result[0] = np.multiply.outer(np.stack(parts), self.outboard[acts_on])
         return result
 
-    def changes(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return δr and δφ at points `x` for changes of a state `q` (n,), (3, points, n)."""
-        at, still = self._state(q[None]), np.zeros((1, self.size))
-        change = Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))
-        onto = self.functions.grid.integral(x)
-        return onto @ change.slope[:, 0], onto @ change.bend[:, 0]
-
     def refined(self) -> SpaceContinuum:
         """Return the discretization with half as many functions again, on every panel."""
         return SpaceContinuum(self.functions.refined())
@@ -308,15 +293,7 @@ class SpaceContinuum:
         energy = np.sum(velocity**2, axis=0) @ self.masses.mass
         return np.asarray(energy + np.sum(spin * self.inertia(at, spin), axis=(0, 2)))
 
-    def displacements(self, q: FloatArray) -> tuple[FloatArray, FloatArray, Any]:
-        """Return what coordinates move: δr_c and δφ at the masses (3, masses, n), and the masses.
-
-        About one state `q` (n,).
-        """
-        change = self._changes(q)
-        return change.center[:, 0], change.turn_m[:, 0], self.masses
-
-    def _changes(self, q: FloatArray) -> Changes:
-        """Return the derivatives about one state `q` (n,) at rest."""
-        at, still = self._state(q[None]), np.zeros((1, self.size))
+    def changes(self, q: FloatArray) -> Changes:
+        """Return the derivatives about states `q` (samples, n) at rest."""
+        at, still = self._state(q), np.zeros_like(q)
         return Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))

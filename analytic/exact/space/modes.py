@@ -68,7 +68,9 @@ class SpaceModes:
     def _moved(self, x: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
         length = self.blade.length
         at = np.append(points_of_beam("x", x, length), 1.0)
-        places, turns = self.model.changes(self._steady, at)
+        change = self.model.changes(self._steady[None])
+        onto = self.model.functions.grid.integral(at)
+        places, turns = onto @ change.slope[:, 0], onto @ change.bend[:, 0]
         shapes = self.coordinates.T
         place, turn = length * places @ shapes, turns @ shapes
         tip = place[1:, -1]
@@ -158,9 +160,9 @@ def reversible_modes(steady: SpaceBlade) -> tuple[FloatArray, FloatArray]:
 
 def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:
     """Return the shares of flap, lag and torsion in the kinetic energy, (modes, 3)."""
-    center, turn, masses = steady.model.displacements(steady.equilibrium)
-    moved = masses.mass @ np.abs(center @ coordinates) ** 2
-    turned = turn @ coordinates
+    change, masses = steady.model.changes(steady.equilibrium[None]), steady.model.masses
+    moved = masses.mass @ np.abs(change.center[:, 0] @ coordinates) ** 2
+    turned = change.turn_m[:, 0] @ coordinates
     twist = np.einsum("ipk,ijp,jpk->k", turned.conj(), masses.inertia, turned).real
     parts = np.stack((moved[2], moved[1], twist), axis=-1)
     return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])
