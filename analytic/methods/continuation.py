@@ -59,11 +59,18 @@ THOROUGH = Care()
 
 
 def linear_orbit(system: S, shape: FloatArray, frequency: float, amplitude: float) -> Orbit[S]:
-    """Return the motion q₀ + `amplitude` times `shape` (n,), odd coordinates in the sine."""
+    """Return the motion q₀ + `amplitude` times `shape` (n,), odd coordinates in the sine.
+
+    Without symmetry a complex shape x makes the motion Re x exp(iφ).
+    """
     coefficients = np.zeros((2 * _FEWEST_HARMONICS + 1, system.size))
     coefficients[0] = system.equilibrium
-    coefficients[1] = amplitude * np.where(system.odd, 0.0, shape)
-    coefficients[_FEWEST_HARMONICS + 1] = amplitude * np.where(system.odd, shape, 0.0)
+    if system.odd is None:
+        cosine, sine = shape.real, -shape.imag
+    else:
+        cosine, sine = np.where(system.odd, 0.0, shape), np.where(system.odd, shape, 0.0)
+    coefficients[1] = amplitude * cosine
+    coefficients[_FEWEST_HARMONICS + 1] = amplitude * sine
     return Orbit(system=system, amplitude=amplitude, frequency=frequency, coefficients=coefficients)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 
-Parts = list[tuple[NDArray[np.intp], slice]]
+Parts = list[tuple[NDArray[np.intp], slice | NDArray[np.intp]]]
 """Coordinates, and the rows of the coefficients that are theirs."""
 
 
@@ -59,10 +59,22 @@ def period(harmonics: int, half: bool, fine: bool = False) -> Period:
     return Period(harmonics, half, count if half else 2 * count)
 
 
-def parts_of(odd: NDArray[np.bool_] | None, size: int, harmonics: int) -> Parts:
-    """Return the coefficients that are no zeros, by the symmetry of `System.odd`."""
+def parts_of(
+    odd: NDArray[np.bool_] | None, size: int, harmonics: int, pinned: int | None = None
+) -> Parts:
+    """Return the coefficients that are no zeros, by the symmetry of `System.odd`.
+
+    Without a drive or symmetry the first cosine of the coordinate `pinned` is zero too, which
+    fixes the phase. Its equation follows from all others, for the energy is conserved.
+    """
     if odd is None:
-        return [(np.arange(size), slice(None))]
+        every = np.arange(size)
+        if pinned is None:
+            return [(every, slice(None))]
+        return [
+            (every[every != pinned], slice(None)),
+            (every[[pinned]], np.delete(np.arange(2 * harmonics + 1), 1)),
+        ]
     return [
         (np.flatnonzero(odd), slice(harmonics + 1, None)),
         (np.flatnonzero(~odd), slice(0, harmonics + 1)),
@@ -71,15 +83,16 @@ def parts_of(odd: NDArray[np.bool_] | None, size: int, harmonics: int) -> Parts:
 
 def packed(coefficients: FloatArray, parts: Parts) -> FloatArray:
     """Return the coefficients that are no zeros, (unknowns,)."""
-    return np.concatenate([coefficients[rows, at].ravel() for at, rows in parts])
+    return np.concatenate([coefficients[rows][:, at].ravel() for at, rows in parts])
 
 
 def unpacked(unknowns: FloatArray, parts: Parts, shape: tuple[int, int]) -> FloatArray:
     """Return the coefficients of the `shape` (2H + 1, n) that `packed` packed."""
     coefficients, start = np.zeros(shape), 0
     for at, rows in parts:
-        place = coefficients[rows]
-        end = start + len(place) * at.size
-        place[:, at] = unknowns[start:end].reshape(len(place), at.size)
+        count = len(coefficients[rows])
+        end = start + count * at.size
+        across = rows if isinstance(rows, slice) else rows[:, None]
+        coefficients[across, at] = unknowns[start:end].reshape(count, at.size)
         start = end
     return coefficients

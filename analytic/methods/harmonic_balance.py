@@ -127,7 +127,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     """
     tangent, crest = tangent or LastTangent(), crest_of(guess)
     parts, shape = guess.parts, guess.coefficients.shape
-    moving = slice(guess.sines.size)
+    moving = guess.moving
 
     def orbit(z: FloatArray) -> Orbit[S]:
         return replace(
@@ -135,6 +135,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
             coefficients=unpacked(z[:-1], parts, shape),
             frequency=float(z[-1]),
             peak_phase=crest.phase,
+            low_phase=crest.low_phase,
         )
 
     def residual(z: FloatArray) -> FloatArray:
@@ -186,7 +187,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
         tangent.factor(orbit)
     finer = orbit.system.refined()
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
-    moved, peak = orbit.on(finer), np.array([orbit.peak_phase])
+    moved, (peaks, weights) = orbit.on(finer), np.array(orbit.crests).T
     at, defect = orbit.period(fine=True), orbit.finer_defect
     for step in range(_FINER_STEPS):
         if step > 0:
@@ -194,7 +195,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
             defect = finer.residual(*moved.summed(at.waves))
         harmonics = packed(at.onto @ defect, moved.parts)
         change = -unpacked(harmonics, moved.parts, moved.coefficients.shape)
-        height = finer.gauge(moved.coordinates(peak)[0])
+        height = weights @ finer.gauge(moved.coordinates(peaks)[0])
         defects = np.append(-packed(change[:, kept], orbit.parts), height - orbit.amplitude)
         known = -solved(tangent.factors, defects)
         change[:, kept] = unpacked(known[:-1], orbit.parts, orbit.coefficients.shape)

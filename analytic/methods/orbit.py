@@ -39,6 +39,9 @@ class Orbit(Generic[S]):
         Phase of the peak.
     frequency_error : float
         Relative change of Ω under one more refinement; NaN where it was not asked for.
+    low_phase : float
+        Phase of the lowest point of a free orbit without symmetry, whose amplitude is half the
+        distance between both; NaN of others.
     """
 
     system: S
@@ -47,6 +50,7 @@ class Orbit(Generic[S]):
     amplitude: float = math.nan
     peak_phase: float = 0.5 * np.pi
     frequency_error: float = math.nan
+    low_phase: float = math.nan
 
     @property
     def harmonics(self) -> int:
@@ -56,7 +60,9 @@ class Orbit(Generic[S]):
     @cached_property
     def parts(self) -> Parts:
         """Coefficients that symmetry does not make zero, as `parts_of` has them."""
-        return parts_of(self.system.odd, self.system.size, self.harmonics)
+        free = self.system.odd is None and not self.system.driven
+        pinned = self.system.pinned if free else None
+        return parts_of(self.system.odd, self.system.size, self.harmonics, pinned)
 
     def period(self, fine: bool = False) -> Period:
         """Return the period, or the half of it that is all of it."""
@@ -66,6 +72,29 @@ class Orbit(Generic[S]):
     def sines(self) -> FloatArray:
         """Harmonics 1 to H of the odd coordinates, (H, odd)."""
         return self.coefficients[self.harmonics + 1 :, self.system.odd]
+
+    @property
+    def sizes(self) -> FloatArray:
+        """Sizes of harmonics 1 to H, (H,), of the odd coordinates where there are some."""
+        if self.system.odd is not None:
+            return np.asarray(np.linalg.norm(self.sines, axis=1))
+        H = self.harmonics
+        both = np.hstack((self.coefficients[1 : H + 1], self.coefficients[H + 1 :]))
+        return np.asarray(np.linalg.norm(both, axis=1))
+
+    @property
+    def moving(self) -> slice:
+        """Unknowns by which the motion is measured: the sines, or all but the mean."""
+        if self.system.odd is not None:
+            return slice(self.sines.size)
+        return slice(self.parts[0][0].size, None)
+
+    @property
+    def crests(self) -> list[tuple[float, float]]:
+        """Phases of the peak and, where it counts, of the lowest point, and their weights."""
+        if math.isnan(self.low_phase):
+            return [(self.peak_phase, 1.0)]
+        return [(self.peak_phase, 0.5), (self.low_phase, -0.5)]
 
     def coordinates(self, phase: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return q, dq/dτ, d²q/dτ² (phases, n) at the phases (phases,)."""
@@ -208,6 +237,27 @@ class Orbit(Generic[S]):
         return replace(self, amplitude=amplitude, coefficients=coefficients)
 
 
+class Swing:
+    """Half the distance from the lowest point of the gauge to its peak, as `Crest` has one.
+
+    Attributes
+    ----------
+    phase, low_phase, height : float
+    """
+
+    def __init__(self, high: Crest, low: Crest) -> None:
+        self._both = high, low
+
+    phase = property(lambda self: self._both[0].phase)
+    low_phase = property(lambda self: self._both[1].phase)
+    height = property(lambda self: 0.5 * (self._both[0].height - self._both[1].height))
+
+    def follow(self, orbit: Orbit[Any]) -> None:
+        """Take the next step of both."""
+        for crest in self._both:
+            crest.follow(orbit)
+
+
 class Crest:
     """The peak of the gauge near the phase that an orbit has, by Newton's method.
 
@@ -222,6 +272,8 @@ class Crest:
     phase, height : float
         Of the peak, or of the lowest point.
     """
+
+    low_phase = math.nan
 
     def __init__(self, orbit: Orbit[Any]) -> None:
         self.phase, self._moved = orbit.peak_phase, np.inf
@@ -252,14 +304,16 @@ def _gauge_near(orbit: Orbit[Any], phase: FloatArray) -> tuple[FloatArray, Float
     return orbit.system.gauge(q), orbit.system.gauge_rate(q, change)
 
 
-def crest_of(orbit: Orbit[Any]) -> Crest:
-    """Return the peak, of the gauge or, where the series is full, of its size."""
+def crest_of(orbit: Orbit[Any]) -> Crest | Swing:
+    """Return the peak of the gauge; of a full series that of its size or, free, half its swing."""
     half = orbit.system.odd is not None
     at = orbit.period(fine=not half)
     gauge = orbit.system.gauge(orbit.summed(at.waves)[0])
     # Both sides are nearly as high, and samples do not tell which is higher.
     places = [np.argmax(gauge)] if half else [np.argmax(gauge), np.argmin(gauge)]
     crests = [Crest(replace(orbit, peak_phase=float(at.phase[i]))) for i in places]
+    if not half and not orbit.system.driven:
+        return Swing(*crests)
     return max(crests, key=lambda crest: abs(crest.height))
 
 
@@ -274,7 +328,10 @@ def peak_gradient(orbit: Orbit[Any]) -> FloatArray:
 
     The phase is where the gauge is stationary, so it adds nothing to them.
     """
-    (wave,) = waves(np.array([orbit.peak_phase]), orbit.harmonics, order=0)[0]
-    q = wave[None] @ orbit.coefficients
-    rows = wave[:, None] * orbit.system.gauge_gradient(q)[0]
-    return np.append(np.sign(orbit.system.gauge(q)[0]) * packed(rows, orbit.parts), 0.0)
+    phases, weights = np.array(orbit.crests).T
+    wave = waves(phases, orbit.harmonics, order=0)[0]
+    q = wave @ orbit.coefficients
+    if phases.size == 1:
+        weights = np.sign(orbit.system.gauge(q))
+    rows = (wave.T * weights) @ orbit.system.gauge_gradient(q)
+    return np.append(packed(rows, orbit.parts), 0.0)

@@ -51,6 +51,11 @@ class System(Protocol):
         """
         ...
 
+    @property
+    def pinned(self) -> int | None:
+        """Coordinate whose first cosine is zero in a free orbit without time reversal."""
+        ...
+
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the quantity whose peak is called the amplitude, (samples,)."""
         ...

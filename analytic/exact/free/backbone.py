@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, cast
+from typing import Any, Literal, cast
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -13,7 +13,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
 from ..space.continuum import SpaceContinuum
-from ..space.modes import reversible_modes, space_modes_on
+from ..space.modes import orbit_modes, space_modes_on
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
@@ -103,8 +103,8 @@ class Backbone(ModePath):
 class SpaceBackbone(Backbone):
     """Free orbits of a blade in space that grow out of one mode; made by `backbone`.
 
-    Of blades that time reversal maps onto themselves by a half turn: with any twist and setting
-    angle, without precone, prebend, sweep and offsets.
+    By half a Fourier series where time reversal maps the blade onto itself and the gauge is odd,
+    by a full one elsewhere: with twist and precone, or with precone and flap.
 
     Attributes
     ----------
@@ -135,19 +135,14 @@ class SpaceBackbone(Backbone):
 
     def _rotation(self) -> SpaceBlade:
         steady = space_rotation(self.beam, self.omega, self.model)
-        if not self.model.functions.blade.half_turn:
-            raise ValueError(
-                "motions of this blade have no time reversal by a half turn, which its free orbits "
-                "are found with: leave precone, prebend, sweep and offsets out"
-            )
         gauge = self.gauge
         if gauge is None:
             shares = space_modes_on(self.model, self.beam, self.omega, self.mode).shares
             gauge = "flap" if shares[-1, 0] > shares[-1, 1] else "lag"
         return replace(steady, direction=_DIRECTIONS[gauge])
 
-    def _solved(self, steady: SpaceBlade) -> tuple[FloatArray, FloatArray]:
-        return reversible_modes(steady)
+    def _solved(self, steady: SpaceBlade) -> tuple[FloatArray, Any]:
+        return orbit_modes(steady)
 
 
 def backbone(

@@ -162,7 +162,7 @@ def _tongue(
 
 def _share(orbit: BeamOrbit, k: int) -> float:
     """Return the size of harmonic k over that of the first."""
-    sizes = np.linalg.norm(orbit.sines, axis=1)
+    sizes = orbit.sizes
     return float(sizes[k - 1] / sizes[0])
 
 

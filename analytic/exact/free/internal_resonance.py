@@ -202,7 +202,7 @@ def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int)
 def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
     """Return the harmonics larger than the one before that may be near another mode."""
     others = modes[_others(modes, mode)]
-    sizes = np.linalg.norm(orbit.sines, axis=1)
+    sizes = orbit.sizes
     return [
         k + 1
         for k in range(2, sizes.size)

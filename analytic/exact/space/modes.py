@@ -142,20 +142,21 @@ def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
     return 1.0 / inverse[kept], np.asarray(shapes[:, kept], dtype=np.complex128)
 
 
-def reversible_modes(steady: SpaceBlade) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies and shapes (modes, n) of a blade that time reversal maps onto itself.
+def orbit_modes(steady: SpaceBlade) -> tuple[FloatArray, FloatArray | ComplexArray]:
+    """Return frequencies and shapes (modes, n) from which orbits grow, their gauge a sine.
 
-    Odd coordinates go with the sine, the others with the cosine; the gauge of each is 1.
+    Under time reversal odd coordinates go with the sine, the others with the cosine: real shapes.
+    Without it the motion is the real part of the shape times exp(iφ).
     """
     frequencies, shapes = _solved(steady)
-    odd = steady.odd
-    assert odd is not None
+    odd, gradient = steady.odd, steady.gauge_gradient(steady.equilibrium[None])[0]
+    if odd is None:
+        return frequencies, np.asarray((-1j * shapes / (gradient @ shapes)).T)
     # The phase that turns the odd ones into the sine.
     turn = np.sum(shapes[odd] ** 2, axis=0)
     shapes = shapes * 1j * np.conj(np.sqrt(turn / np.abs(turn)))
     parts = np.where(odd[:, None], -shapes.imag, shapes.real).T
-    gauge = parts @ steady.gauge_gradient(steady.equilibrium[None])[0]
-    return frequencies, np.asarray(parts / gauge[:, None])
+    return frequencies, np.asarray(parts / (parts @ gradient)[:, None])
 
 
 def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:

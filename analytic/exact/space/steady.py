@@ -109,8 +109,18 @@ class SpaceBlade:
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
-        """Which coordinates time reversal turns around, (n,); None where there is no reversal."""
+        """Which coordinates time reversal turns around, (n,); None where there is no reversal.
+
+        Nor where the gauge is not among them: of blades with precone the lag is, flap is not.
+        """
+        if self.direction[2] and not self.model.functions.blade.half_turn:
+            return None
         return self.model.functions.odd
+
+    @property
+    def pinned(self) -> int:
+        """The first coordinate of the gauge's curvature."""
+        return 1 if self.direction[2] else 0
 
     @cached_property
     def equilibrium(self) -> FloatArray:
