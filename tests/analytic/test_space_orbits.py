@@ -37,7 +37,7 @@ def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
 
 
 def test_the_softening_of_a_coned_blade_by_half_of_the_swing():
-    """Its orbits have no symmetry in flap: full Fourier series, of one side larger than the other."""
+    """Its orbits have no symmetry in flap: full Fourier series, one side larger."""
     blade = BLADE.with_precone(math.radians(5.0))
     found = periodic_orbits(blade, 1.0, [0.05], gauge="flap", theory=SOLID)
     assert found.omega_n == pytest.approx(1.394894932, abs=6e-10)
