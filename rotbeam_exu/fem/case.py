@@ -123,7 +123,7 @@ class Case:
     def steps_and_sampling(self) -> tuple[int, int]:
         """Number of steps, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.fastest, self.ramp_time, self.duration, self.step,
+            self.beam, self.fastest, self.ramp_time, self.elements, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 

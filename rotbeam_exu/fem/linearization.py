@@ -17,7 +17,7 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
-from ..runs.resolution import require_stretch, warn_if_coarse
+from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
 from .elements import Chain, Formulation, SpaceCable, formulation
 from .lazily import exudyn
 from .rotating_beam import add_rotating_beam
@@ -246,6 +246,7 @@ def steady_system(
     require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
+    require_feasible(elements)
     require_stretch(beam)
     units = Units.of(beam)
     unit_beam, rotation = units.beam(undamped(beam)), units.rotation(SteadyRotation(omega=omega))

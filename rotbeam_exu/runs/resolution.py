@@ -21,11 +21,14 @@ STEPS_PER_RAMP = 20
 LEAST_SLENDERNESS = 1e-11
 """μ below which the round-off of |r'| - 1 spoils the axial force by more than 1e-5 of it."""
 
+_MOST_ELEMENTS, _MOST_ELEMENT_STEPS = 7900, 1.5e12  # 8 GB for a matrix; a month at 2 µs each
+
 
 def checked_steps(
     beam: AnyBlade,
     omega: float,
     ramp_time: float,
+    elements: int,
     duration: float,
     step: float,
     driven: Sequence[float] = (),
@@ -54,6 +57,7 @@ def checked_steps(
         )
     require_stretch(beam)
     require_resolved_ramp(ramp_time, step)
+    require_feasible(elements, steps)
     return steps, sampling(beam, omega, steps, step, driven)
 
 
@@ -99,6 +103,15 @@ def require_stretch(beam: AnyBlade) -> None:
             "where round-off of the stretch spoils the axial force: lower the axial stiffness EA "
             f"below {beam.bending_stiffness / (LEAST_SLENDERNESS * beam.length**2):.3g} N, which "
             "changes nothing else"
+        )
+
+
+def require_feasible(elements: int, steps: int = 1) -> None:
+    """Refuse a mesh that no memory holds, and runs that would take more than a month."""
+    if elements > _MOST_ELEMENTS or elements * steps > _MOST_ELEMENT_STEPS:
+        raise ValueError(
+            f"{elements:.6g} elements and {steps:.6g} steps are more than memory or a month take: "
+            "take fewer elements, a larger step or a shorter duration"
         )
 
 
