@@ -140,7 +140,7 @@ class Grid:
     def integrals(self, values: FloatArray, x: FloatArray) -> FloatArray:
         """Return the integrals from 0 to `x` (places,) of values (points, n): (places, n).
 
-        Exact for what is on each cell a polynomial of a degree below its count.
+        Exact for polynomials on each cell of a degree below its count.
         """
         cell, parts = self._inside(x)
         on_cells = np.add.reduceat(self.weights[:, None] * values, self._first)

@@ -5,7 +5,7 @@ On the unit beam (m = EI = L = 1, so that ω becomes w̄ and EA becomes 1/μ) th
 
     T = ½M q̇² + 2 q² q̇² ∫φ_u² dx + ½w̄² ∫[v² + (x + u)²] dx,    V = V_b + V_l,
 
-so that every model is Eq. 41 and differs from the others only in u, as `axial` has it.
+so that every model is Eq. 41 and differs from the others only in u (module `axial`).
 The coefficients of Eq. 41 come from quadrature here and in symbols from `symbolic`.
 """
 
@@ -37,7 +37,7 @@ class EnergyCoefficients:
     bending, spin : float
         Linear stiffness from bending, and from rotation (centrifugal stiffening less softening).
     thinning, stretching : float
-        What the elongation Δl ~ μw̄² adds, Table 4: in bending ~ w̄², in V_l and T ~ w̄⁴.
+        Share of the elongation Δl ~ μw̄², Table 4: in bending ~ w̄², in V_l and T ~ w̄⁴.
     cubic_bending, cubic_spin : float
         Cubic stiffness.
     g2 : float

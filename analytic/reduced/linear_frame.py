@@ -69,7 +69,7 @@ def linear_response(
 
     Linear theory of the inextensible, undamped blade, in its first five modes. Without the
     foreshortening it diverges above the first natural frequency at rest, ω0, at the rate
-    √(ω² - ω0²) in the plane of rotation; `spin_up_response` is what it should be.
+    √(ω² - ω0²) in the plane of rotation; `spin_up_response` has the true motion.
 
     Parameters
     ----------

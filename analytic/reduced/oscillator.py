@@ -127,7 +127,7 @@ class Perturbation:
 
         ω_NL = ω_n (1 - λ a² - κ a⁴),      q/L = a cos ψ - h2 a² sin 2ψ - h3 a³ cos 3ψ.
 
-    Eqs. 63 and 65 are those of one mode: without κ and h2, and h3 = λ_x.
+    Eqs. 63 and 65 hold for one mode: without κ and h2, and h3 = λ_x.
 
     Parameters
     ----------

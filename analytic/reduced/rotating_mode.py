@@ -78,7 +78,7 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
 def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
     """Return the first rotating mode, Eq. 87, at the degree at which the series has converged.
 
-    Or at another `degree`, to see what the paper's does.
+    Another `degree` shows the effect of the paper's.
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.

@@ -1,4 +1,4 @@
-"""Tables 1-5 as printed, beside what the package derives."""
+"""Tables 1-5 as printed, compared with the values that the package derives."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def closed_form(
     """Return Eqs. 42-44, 64, 65 or Table 4: (quantity, monomial in Ω and μ) to coefficient.
 
     For a shape that does not depend on Ω, with w̄ = `beta`²Ω. λ_ω and λ_x share the denominator
-    ω_n²; what is returned of them are the numerators.
+    ω_n²; their numerators are returned.
     """
     c, s = coefficients, beta**4
     omega_n_squared = {
