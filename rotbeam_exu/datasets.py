@@ -1,7 +1,6 @@
 """Results as labeled data: `dataset_of` makes the Dataset that is saved, printed and drawn.
 
-A kind of result is one function here: it names the result's numbers, their dims, and by a label
-what they are.
+A kind of result is one function here: it names the result's numbers, their dims and their labels.
 """
 
 from __future__ import annotations
@@ -78,9 +77,9 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, whose names are those of a run by `simulate`; a ForcedResponse, with its
-        stability and the backbone that it leans on; a PlanarStability, and if it likes the
-        StabilityLimit beside it, which is all attributes.
+        A SpinUpResponse, with the names of a run by `simulate`; a ForcedResponse, with its
+        stability and its backbone; a PlanarStability, or both it and its StabilityLimit, which
+        becomes attributes.
 
     Returns
     -------
@@ -119,7 +118,7 @@ def _described(result: Any) -> xr.Dataset:
 
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
-    """Over `time`, named as `simulate` names what it returns; Eq. 16."""
+    """Over `time`, with the names of `simulate`; Eq. 16."""
     theory = response.theory
     sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     angle = rippled(response.spin_up, response.loads).angle(response.time)

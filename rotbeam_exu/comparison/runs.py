@@ -76,7 +76,7 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
     Dataset
         `q_bar` and `q_dot_bar` [-] over (case, sample): first ω = 4 rad/s with T = 1.5, 2 and
         3 s (a), then T = 3 s with ω = 4, 6 and 8 rad/s (b). `sample` counts from the end of the
-        ramp, and what a shorter steady phase lacks is NaN. `smear` over case: the largest velocity
+        ramp, and a shorter steady phase is filled with NaN. `smear` over case: the largest velocity
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
     beam = beam or Beam.reference()

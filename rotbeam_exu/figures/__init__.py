@@ -51,13 +51,13 @@ PAPER_FIGURES: dict[int, PaperFigure] = {
 
 
 def caption(number: int, data: xr.Dataset) -> str:
-    """Return a figure's caption: what it shows, of which beam, what the paper says, what is true.
+    """Return a figure's caption: the content, the beam, the paper's claim, and the truth.
 
     Parameters
     ----------
     number : int
         3, 4, 5, or 8 to 15.
     data : Dataset
-        What is drawn, as made by the function `figure_...` of `rotbeam_exu.comparison`.
+        The data, as made by the function `figure_...` of `rotbeam_exu.comparison`.
     """
     return PAPER_FIGURES[number].caption(data)
