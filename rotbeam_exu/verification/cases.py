@@ -1,4 +1,4 @@
-"""The cases of the benchmark: each a blade, its motion and loads, and the quantity asked for.
+"""The cases of the benchmark: each a blade, its motion and loads, and the quantity asked for."""
 
 from __future__ import annotations
 
