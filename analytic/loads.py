@@ -30,6 +30,8 @@ class Load(Described, abstract=True):
         Powers of length, mass and time in the size.
     acts_on : {"mass", "length", "tip"} or None
         Carrier of the force, which is per unit of it; None for a load that moves the clamp.
+    by_angle : bool
+        Whether it goes around with the blade, once a turn: its frequency is ω.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
     """
@@ -39,6 +41,7 @@ class Load(Described, abstract=True):
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
+    by_angle: ClassVar[bool] = False
     frequency: float | None = None
 
     @property
@@ -242,9 +245,9 @@ class Gravity(Load):
 
     Examples
     --------
-    >>> from analytic import Beam, Damping, gravity_response
+    >>> from analytic import Beam, Damping, Gravity, forced_response
     >>> blade = Beam.reference().with_damping(Damping(external=0.3))
-    >>> found = gravity_response(blade, [5.0, 5.5], gravity=1.62, functions=8)
+    >>> found = forced_response(blade, [5.0, 5.5], Gravity(1.62), functions=8)
     >>> found.load
     Gravity(gravity=1.62)
     >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")
@@ -258,6 +261,7 @@ class Gravity(Load):
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[Literal["mass"]] = "mass"
+    by_angle: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))

@@ -16,14 +16,13 @@ import numpy as np
 from analytic import (
     AmplitudeNotReachedError,
     AnyBlade,
-    Backbone,
     ForcedResponse,
-    Gravity,
+    Orbits,
     PlanarStability,
     SpinUpResponse,
     StabilityLimit,
 )
-from analytic.loads import HarmonicLoad, rippled
+from analytic.loads import Load, rippled
 
 from .lazily import xr
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
@@ -189,7 +188,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
     over its orbits.
     """
-    weight = isinstance(response.load, Gravity)
+    weight = response.load.by_angle
     swept = "rotation speed ω" if weight else "drive frequency ν"
     # The weight across the blade is greatest, and negative, at θ = 0.
     phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"
@@ -203,12 +202,12 @@ def _(response: ForcedResponse) -> xr.Dataset:
         "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
         "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
     }
-    backbone: Backbone | None = None
+    backbone: Orbits | None = None
     if not weight:
         try:
-            backbone = response.backbone
+            backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
         except AmplitudeNotReachedError as error:
-            backbone = error.backbone  # what of it is reached
+            backbone = error.orbits  # what of it is reached
     if backbone is not None:
         free = np.append(backbone.omega_n, backbone.frequency)
         label = "frequency of the free, undamped orbit [rad/s]"
@@ -222,9 +221,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     return dataset(variables, {}, {**inputs, **known})
 
 
-def response_inputs(
-    beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
-) -> dict[str, Any]:
+def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
         **beam_attributes(beam),

@@ -133,14 +133,14 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 def _exact(
     beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
-) -> tuple[analytic.Backbone, str]:
+) -> tuple[analytic.Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
     except analytic.AmplitudeNotReachedError as error:
-        if error.backbone is None:
+        if error.orbits is None:
             raise
-        return error.backbone, str(error)
+        return error.orbits, str(error)
 
 
 def _frequencies(
@@ -182,7 +182,7 @@ def _each(
 
 
 def _exact_columns(
-    truth: analytic.Backbone, amplitude: list[float], times: int
+    truth: analytic.Orbits, amplitude: list[float], times: int
 ) -> dict[str, list[float]]:
     found = [
         truth.frequency[near[0]] if near.size else math.nan
@@ -196,7 +196,7 @@ def _exact_columns(
 
 
 def _print_coefficients(
-    models: list[analytic.ReducedModel], truth: analytic.Backbone | None, omega: float
+    models: list[analytic.ReducedModel], truth: analytic.Orbits | None, omega: float
 ) -> None:
     """Print one row of coefficients for each model, and one for the exact beam."""
     if not models:

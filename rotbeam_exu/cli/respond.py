@@ -210,7 +210,7 @@ def _response(
     **options: Any,
 ) -> analytic.ForcedResponse:
     if isinstance(load, Gravity):
-        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
+        return analytic.forced_response(beam, frequencies, load, **options)
     assert omega is not None
     return analytic.forced_response(beam, omega, load, frequencies, **options)
 

@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from analytic import Beam, periodic_orbits, planar_note, reduced_model
+from analytic import Beam, periodic_orbits, reduced_model
+from analytic.exact.plane.planarity import planar_note
 
 from ..datasets import AMPLITUDE, OMEGA, dataset, labeled
 from ..fem.frame import Frame

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
+from analytic import Beam, Orbits, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
@@ -229,7 +229,7 @@ def _from_the_peak(
     return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
 
 
-def _from_exact_peak(backbone: Backbone, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _from_exact_peak(backbone: Orbits, time: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return x = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
     x, rate = backbone.orbit(0, 401)
     period = 2.0 * np.pi / backbone.frequency[0]

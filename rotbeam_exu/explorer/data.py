@@ -188,9 +188,9 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
         try:
             backbone = periodic_orbits(beam, omega, wanted)
         except AmplitudeNotReachedError as error:
-            if error.backbone is None:
+            if error.orbits is None:
                 raise
-            backbone = error.backbone
+            backbone = error.orbits
     found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
 
     def at_all(values: FloatArray) -> FloatArray:

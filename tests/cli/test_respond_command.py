@@ -161,7 +161,7 @@ def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     monkeypatch.setattr(
-        job.analytic, "gravity_response", lambda *_, **__: pytest.fail("computed first")
+        job.analytic, "forced_response", lambda *_, **__: pytest.fail("computed first")
     )
     code, _, error = call(*lone, "--external-damping", "0.6")
     assert code == 2
