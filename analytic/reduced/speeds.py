@@ -25,7 +25,8 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
 
     Examples
     --------
-    >>> from analytic import Beam, softening_speed
+    >>> from analytic import Beam
+    >>> from analytic.reduced.speeds import softening_speed
     >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
     2.9730 rad/s
     """
@@ -50,7 +51,8 @@ def divergence_speed(beam: Beam) -> float:
 
     Examples
     --------
-    >>> from analytic import Beam, divergence_speed
+    >>> from analytic import Beam
+    >>> from analytic.reduced.speeds import divergence_speed
     >>> print(f"{divergence_speed(Beam.reference()):.4f} rad/s")
     2.9092 rad/s
     """

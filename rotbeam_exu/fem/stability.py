@@ -41,7 +41,7 @@ def divergence_speed(
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import divergence_speed
+    >>> from rotbeam_exu.fem.stability import divergence_speed
     >>> for substructures in (1, 2, 4):
     ...     print(f"{substructures}: {divergence_speed(Beam.reference(), substructures):.4f} rad/s")
     1: 2.9106 rad/s

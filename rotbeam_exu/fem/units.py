@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
-from analytic import AnyBlade, BeamState
+from analytic import AnyBlade
+from analytic.exact.beam.state import BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
 

@@ -1,7 +1,7 @@
 """The figures: each takes data and `ax=`, by default of a new figure, returns Axes, shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
-`rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` an `analytic.Campbell`,
+`rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` a `Campbell`,
 `forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
 `divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
 """

@@ -13,8 +13,9 @@ from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 
-from analytic import LinearResponse, SpinUpResponse
 from analytic.arrays import FloatArray
+from analytic.exact.driven.response import SpinUpResponse
+from analytic.reduced.linear_frame import LinearResponse
 
 from ..paper import BLUE, ORANGE, RED
 from .style import STYLE, new_figure

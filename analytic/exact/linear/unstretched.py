@@ -59,7 +59,8 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
 
     Examples
     --------
-    >>> from analytic import Beam, linear_modes, unstretched_frequencies
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.exact.linear.unstretched import unstretched_frequencies
     >>> beam = Beam.reference()
     >>> print(unstretched_frequencies(beam, omega=6.0).round(5))
     [ 3.73048 23.01044 56.64848]
