@@ -30,10 +30,11 @@ class Load(Described, abstract=True):
         Powers of length, mass and time in the size.
     acts_on : {"mass", "length", "tip"} or None
         Carrier of the force, which is per unit of it; None for a load that moves the clamp.
-    by_angle : bool
-        Whether it goes around with the blade, once a turn: its frequency is ω.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
+    varied : {"frequency", "speed"} or None
+        Abscissa of a response: the load's frequency, or the rotation speed if the load goes around
+        once a turn; None for a load without a response.
     """
 
     unit: ClassVar[str]
@@ -41,7 +42,7 @@ class Load(Described, abstract=True):
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
-    by_angle: ClassVar[bool] = False
+    varied: ClassVar[Literal["frequency", "speed"] | None] = None
     frequency: float | None = None
 
     @property
@@ -103,6 +104,8 @@ class HarmonicLoad(Load, abstract=True):
 
     amplitude: float
     frequency: float | None = None
+
+    varied: ClassVar[Literal["frequency", "speed"] | None] = "frequency"
 
     def __post_init__(self) -> None:
         self._keep(amplitude=finite_number("amplitude", self.amplitude, self.unit))
@@ -261,7 +264,7 @@ class Gravity(Load):
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[Literal["mass"]] = "mass"
-    by_angle: ClassVar[bool] = True
+    varied: ClassVar[Literal["frequency", "speed"] | None] = "speed"
 
     def __post_init__(self) -> None:
         self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))

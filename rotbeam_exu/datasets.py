@@ -188,7 +188,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
     over its orbits.
     """
-    weight = response.load.by_angle
+    weight = response.load.varied == "speed"
     swept = "rotation speed ω" if weight else "drive frequency ν"
     # The weight across the blade is greatest, and negative, at θ = 0.
     phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"

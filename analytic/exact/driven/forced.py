@@ -85,12 +85,14 @@ def forced_response(
     """
     require_planar(beam)
     unit = unit_load(beam, load)
+    if load.varied is None:
+        raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "
             "leave it out of the load, and give it among the frequencies"
         )
-    if load.by_angle:
+    if load.varied == "speed":
         if frequencies is not None:
             raise ValueError(
                 f"{load.called} goes around once a turn, at ω itself: give the speeds as omega, "
@@ -104,8 +106,8 @@ def forced_response(
     model = resolved_model(beam, 1, theory, functions)
     rate = steady_rate(beam, highest, model)
     if not any(beam.unit.damping):
-        _require_no_resonance(beam, None if load.by_angle else highest, theory, asked)
-    system = DrivenBeam(model, None if load.by_angle else rate, unit)
+        _require_no_resonance(beam, None if load.varied == "speed" else highest, theory, asked)
+    system = DrivenBeam(model, None if load.varied == "speed" else rate, unit)
     least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
     try:
         found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least)

@@ -109,7 +109,7 @@ class ForcedResponse(Branch):
     @property
     def backbone(self) -> Backbone:
         """The backbone of the first mode of the undamped blade, on which the response leans."""
-        if self.load.by_angle:
+        if self.load.varied == "speed":
             raise ValueError(
                 f"{self.load.called} goes around with the speed, and each speed has its own "
                 "backbone: take periodic_orbits at one of them"
@@ -137,7 +137,7 @@ class ForcedResponse(Branch):
         fold = np.array(self.marks) == "fold"
         line = {"label": str(self.load), **line}
         draw_response(ax, self.frequency, self.amplitude, self.stable, fold, **line)
-        swept = "rotation speed ω" if self.load.by_angle else "drive frequency ν"
+        swept = "rotation speed ω" if self.load.varied == "speed" else "drive frequency ν"
         ax.set(xlabel=f"{swept} [rad/s]", ylabel="peak |q|/L")
         ax.set_ylim(bottom=0.0)
         ax.legend()
