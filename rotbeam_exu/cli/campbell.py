@@ -12,6 +12,7 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
+from analytic.exact.linear.campbell import Campbell
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
@@ -97,7 +98,7 @@ def campbell(
 
 
 def _families(beam: AnyBlade) -> list[Plane]:
-    """Return the families of modes of which the beam's section tells."""
+    """Return the families of modes that the beam's section determines."""
     known = beam.section.out_of_plane
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
@@ -105,7 +106,7 @@ def _families(beam: AnyBlade) -> list[Plane]:
     return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
 
 
-def _print(diagram: analytic.Campbell, form: Format) -> None:
+def _print(diagram: Campbell, form: Format) -> None:
     """Print frequencies over speed, and the crossings; ten digits in CSV.
 
     A table has as many as are known: of torsion four, for the section may be kept from warping.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import analytic
+from analytic.exact.driven.response import SpinUpResponse
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes
@@ -67,7 +68,7 @@ def reference(
     ).run()
 
 
-def _print(response: analytic.SpinUpResponse) -> None:
+def _print(response: SpinUpResponse) -> None:
     spin_up = response.spin_up
     farthest = int(np.abs(response.q).argmax())
     print_line("spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")

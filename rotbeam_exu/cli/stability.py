@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 import analytic
-from analytic.exact.plane.planarity import LEAST_GROWTH
+from analytic.exact.plane.planarity import LEAST_GROWTH, PlanarStability
+from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes
@@ -61,7 +62,7 @@ def stability(
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     inputs["growth"] = growth
 
-    def computed() -> tuple[analytic.PlanarStability, analytic.StabilityLimit]:
+    def computed() -> tuple[PlanarStability, StabilityLimit]:
         found = analytic.planar_stability(blade, omega, amplitudes, mode)
         return found, analytic.stability_limit(
             blade, omega, mode, growth=growth, largest=amplitudes[-1]
@@ -79,7 +80,7 @@ def stability(
     ).run()
 
 
-def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:
+def _print(found: PlanarStability, limit: StabilityLimit) -> None:
     print_text(f"{limit}.")
     rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
     print_columns(

@@ -45,7 +45,7 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes at hand, by what they tend to.
+    """Judge elements, and other codes at hand, by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
