@@ -1,7 +1,7 @@
 """The one Lagrangian of Secs. 3 and 4, with two switches: the shape, and the axial model.
 
-On the unit beam (m = EI = L = 1, so that ω becomes w̄ and EA becomes 1/μ) the point x moves to
-(x + u, v), v = φ_v q, in a frame that turns at w̄. Eqs. 31, 37, 71, 76 and 77 give, to fourth order,
+On the unit beam (m = EI = L = 1) ω becomes w̄ and EA becomes 1/μ. The point x moves to (x + u, v),
+v = φ_v q, in a frame that turns at w̄. Eqs. 31, 37, 71, 76 and 77 give, to fourth order,
 
     T = ½M q̇² + 2 q² q̇² ∫φ_u² dx + ½w̄² ∫[v² + (x + u)²] dx,    V = V_b + V_l,
 

@@ -68,9 +68,9 @@ class Oscillator:
     def exact_frequency(self, a: FloatArray) -> FloatArray:
         """Return 2π over the exact period at amplitude `a`, of any shape, in units of 1/τ.
 
-        With x = a sin ψ the period is ∫₀^2π √((1 + g2 x²)/(ω_n² + ½g1 (a² + x²))) dψ, an analytic
-        periodic integrand: the midpoint rule converges geometrically, at the rate set by the
-        integrand's nearest singularity in the complex plane.
+        With x = a sin ψ the period is ∫₀^2π √((1 + g2 x²)/(ω_n² + ½g1 (a² + x²))) dψ. The integrand
+        is analytic and periodic: the midpoint rule converges geometrically, at the rate set by its
+        nearest singularity in the complex plane.
         """
         square = a**2
         count = self._midpoints(float(np.max(square, initial=0.0)))

@@ -3,9 +3,9 @@
 Nothing is expanded by hand here. The ordering of Secs. 3 and 4, q ~ ε and μ ~ ε² (so that Δl ~ q²),
 is put into the Lagrangian of Eqs. 31, 32, 34 and 72; terms up to order ε⁴ are kept.
 
-Multiple time scales on Eq. 41, Eqs. 46-65, are carried out as well. With ψ = ω_n T0 + φ(T1) and
-z = exp(jψ), every function on the way is a Laurent polynomial in z, and the derivatives with
-respect to the two times are D0 = jω_n z ∂/∂z and D1 = a' ∂/∂a + jφ' z ∂/∂z.
+Multiple time scales on Eq. 41, Eqs. 46-65, are carried out as well. With ψ = ω_n T0 + φ(T1) and z =
+exp(jψ), every function on the way is a Laurent polynomial in z. The derivatives with respect to the
+two times are D0 = jω_n z ∂/∂z and D1 = a' ∂/∂a + jφ' z ∂/∂z.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Residual amplitude: the oscillation that a change of the speed leaves, in closed form.
 
 While the speed changes slowly over a period, a mode keeps its action: its amplitude goes with
-1/√(Mω_n(w)), and the Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. The ramp leaves
+1/√(Mω_n(w)). The Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. The ramp leaves
 
     Z = (1/√(Mω_n)|_T) ∫_0^T Γ(w) θ̈ exp(i(ψ_T - ψ)) / √(Mω_n) dt,      a = |Z|,
 

@@ -96,9 +96,9 @@ def chosen_motion(
 ) -> Motion:
     """Return the motion given, completed with the paper's values scaled by ω_0.
 
-    Speeds go with ω_0 and times with 1/ω_0, to two digits; the step is the next of 1, 2, 5 times a
-    power of ten below, and at most a thirtieth of the ramp, so that the duration is a whole number
-    of steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
+    Speeds go with ω_0 and times with 1/ω_0, to two digits. The step is the next of 1, 2, 5 times a
+    power of ten below, and at most a thirtieth of the ramp: the duration is a whole number of
+    steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
     five periods after the ramp.
     """
     omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)

@@ -68,8 +68,8 @@ class Backbone(ModePath):
         """Return the backbone up to an amplitude, with its internal resonances.
 
         The main path is the path of `orbits`, on up to 120 harmonics. If a harmonic meets another
-        mode and is felt, the orbits are followed by arclength from either side: through the folds
-        of the resonance and a way into its tongue, on which the other mode takes over.
+        mode and is felt, the orbits are followed by arclength from either side, through the folds
+        of the resonance and a way into its tongue. There the other mode takes over.
 
         Parameters
         ----------
