@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
-from analytic.exact.linear.campbell import Campbell
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
@@ -20,6 +19,9 @@ from .job import require_writable
 from .motion import chosen_speeds, configured
 from .options import SECTION, Force, SectionOptions, Whole
 from .output import Format, print_columns, print_written
+
+if TYPE_CHECKING:
+    from analytic.exact.linear.campbell import Campbell
 
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")

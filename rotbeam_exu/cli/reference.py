@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 import analytic
-from analytic.exact.driven.response import SpinUpResponse
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes
@@ -13,6 +14,9 @@ from .job import Job
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of
 from .options import RESULTS, Results, Whole
 from .output import print_line
+
+if TYPE_CHECKING:
+    from analytic.exact.driven.response import SpinUpResponse
 
 
 def reference(

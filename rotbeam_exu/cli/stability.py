@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import analytic
-from analytic.exact.plane.planarity import LEAST_GROWTH, PlanarStability
-from analytic.exact.plane.stability_limit import StabilityLimit
+from analytic.exact.plane.planarity import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes
@@ -16,6 +16,10 @@ from .job import Job
 from .motion import Config, Omega, configured, omega_of
 from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
 from .output import formatted, print_columns, print_text
+
+if TYPE_CHECKING:
+    from analytic.exact.plane.planarity import PlanarStability
+    from analytic.exact.plane.stability_limit import StabilityLimit
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
