@@ -1,4 +1,4 @@
-"""`rotbeam judge`: the verdict on a submission of files, from any code in any language."""
+"""`rotbeam judge`: the judgement of a submission of files, from any code in any language."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def ramp(
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
-    """Tell the residual vibration over the ramp time, and where least.
+    """Tell the residual vibration over the ramp time, and its minima.
 
     Printed are the quiet ramp times, and the points; written are all numbers and the figure.
 

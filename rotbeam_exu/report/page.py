@@ -40,7 +40,7 @@ def report_page(record: Record) -> str:
         name=escape(record.name),
         benchmark=VERSION,
         date=f"{record.date:%d %B %Y, %H:%M} UTC",
-        verdict=escape(found.outcome),
+        outcome=escape(found.outcome),
         mistakes=_mistakes(record),
         about=_about(record),
         outcomes=_outcomes(record),

@@ -116,7 +116,7 @@ def judged(
     Returns
     -------
     Judgement
-        Where the reference, or what measures it, fails, there is no verdict, and the note of the
+        If the reference or the estimator fails, the outcome is "no verdict", and the note of the
         finding says why; a code that fails has its own sentence there.
 
     Examples

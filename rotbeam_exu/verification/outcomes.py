@@ -41,7 +41,7 @@ class Finding:
     bound : float
         Relative error of the reference itself.
     note : str
-        Why there is no verdict, or where the code failed.
+        Why it cannot be decided, or where the code failed.
     tolerance : float
         Largest difference of the limit that passes.
     difference : float
