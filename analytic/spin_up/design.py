@@ -117,10 +117,9 @@ def design_ramp(
     Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Among the ramps
     within the limits that leave nothing by the closed form (`residual_amplitude`), it is the
     closest to Eq. 1. The amplitude that the exact transient leaves becomes the next target of the
-    closed form, with its sign changed, until each mode keeps less than 1e-6 of the length. During
-    the ramp the blade swings, in short ramps as far as without a design. The design depends on the
-    blade: in 2 s to 6 rad/s an error of 1 % in its frequency leaves 2.1e-2 of the length instead of
-    3e-6.
+    closed form, with its sign changed, until each mode keeps less than 1e-6 L. During the ramp the
+    blade swings, in short ramps as far as without a design. The design depends on the blade: in 2 s
+    to 6 rad/s an error of 1 % in its frequency leaves 2.1e-2 L instead of 3e-6 L.
 
     Parameters
     ----------

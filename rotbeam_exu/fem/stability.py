@@ -59,8 +59,7 @@ def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> x
     Returns
     -------
     Dataset
-        `divergence_speed` over `frame` and `substructures`; the attribute omega_0 is the beam's ω_0
-        [rad/s].
+        `divergence_speed` over `frame` and `substructures`; attribute omega_0: the beam's [rad/s].
     """
     frames: tuple[FloatingFrame, ...] = ("tangent", "pinned")
     values = [[divergence_speed(beam, n, f, cells=cells) for n in counts] for f in frames]

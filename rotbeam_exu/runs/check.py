@@ -95,8 +95,7 @@ def _reach(run: xr.Dataset) -> FloatArray:
 def balanced_energy(run: xr.Dataset) -> tuple[FloatArray, str]:
     """Return the energy [J] that stays constant in steady rotation, (samples,), and its name.
 
-    The Jacobi energy E - ω L_z, less the energy that loads, damping and changes of the speed
-    supplied.
+    The Jacobi energy E - ω L_z, less the energy supplied by loads, damping and the speed.
     """
     energy = run["jacobi_energy"].to_numpy()
     if "supplied_energy" not in run:

@@ -37,8 +37,7 @@ def checked_steps(
     Raises
     ------
     ValueError
-        If the run ends before its ramp, is no whole number of steps, or is refused by the functions
-        below.
+        If the run ends before its ramp, is no whole number of steps, or a check below fails.
     """
     if duration <= ramp_time:
         raise ValueError(

@@ -87,8 +87,7 @@ class SpaceBlade:
     rate : float
         w̄ = ω/√(EI3/mL³).
     direction : tuple
-        Direction of the gauge in the root frame: the gauge is the tip's place along it, relative to
-        the steady state.
+        Direction of the gauge, the tip's place from the steady state, in the root frame.
     coarser : SpaceBlade, optional
         The same on fewer functions, from whose steady state this one's is found.
     """
