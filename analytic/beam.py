@@ -79,7 +79,7 @@ class Beam(Variations):
         warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
 
     def _require_scales(self) -> None:
-        """Refuse numbers whose products leave what a floating point number can hold."""
+        """Refuse numbers whose products overflow or underflow."""
         try:
             scales = (self.mass, self.slenderness, self.frequency_scale, self.burst_speed)
             within = all(0.0 < scale < math.inf for scale in scales)
@@ -204,7 +204,7 @@ class Beam(Variations):
 
     @property
     def frequencies_at_rest(self) -> FloatArray:
-        """Frequencies of bending at rest [rad/s], as those of a `Blade`."""
+        """Frequencies of bending at rest [rad/s], as of a `Blade`."""
         return self.blade.frequencies_at_rest
 
     def __str__(self) -> str:
@@ -224,7 +224,7 @@ AnyBlade = Beam | Blade
 
 
 def require_blade(beam: object) -> None:
-    """Refuse what is neither a Beam nor a Blade."""
+    """Refuse a value that is neither a Beam nor a Blade."""
     if not isinstance(beam, AnyBlade):
         raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
 

@@ -1,8 +1,8 @@
 """Any straight blade: variable section, hub radius, setting angle, point masses; SI units.
 
-The blade is clamped at the hub radius R from the axis of rotation and bends in one plane, which
-makes the setting angle ψ with the plane of rotation: lag at ψ = 0, flap at ψ = π/2. Values hash,
-compare and can be written to files; with_* return new ones.
+The blade is clamped at the hub radius R from the axis of rotation and bends in one plane. That
+plane makes the setting angle ψ with the plane of rotation: lag at ψ = 0, flap at ψ = π/2. Values
+hash, compare and can be written to files; with_* return new ones.
 """
 
 from __future__ import annotations
@@ -281,7 +281,7 @@ class Blade(Variations):
 
     @cached_property
     def frequencies_at_rest(self) -> FloatArray:
-        """Frequencies of bending at rest [rad/s], 24 at least, of which half are resolved."""
+        """Frequencies of bending at rest [rad/s], at least 24; the first half are resolved."""
         across = shape_functions(self.unit, _FUNCTIONS)
         (at, dm), (x, dj) = self.unit.inertia(_POINTS), self.unit.turning(_POINTS)
         moved, turned = across.twice(at), across.once(x)

@@ -57,7 +57,7 @@ class BladeFunctions:
     mass, bending, centrifugal, turning : ndarray (n, n)
         M; the parts of K = bending + w̄² centrifugal; and the rotary inertia's part of M.
     euler : ndarray (n,)
-        ∫(δ + x) φ dm + ∫φ' dj: over c, what the Euler force -θ̈ does work on.
+        ∫(δ + x) φ dm + ∫φ' dj: over c; the Euler force -θ̈ does work on it.
     """
 
     blade: UnitBlade

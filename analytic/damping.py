@@ -47,8 +47,8 @@ class Damping(Described):
     def from_ratio(cls, blade: Any, mode: int = 1, ratio: float = 0.01) -> Damping:
         """Return the bending damping that gives one mode at rest a damping ratio.
 
-        η_b = 2ζ/ω_j; in rotation, where the centrifugal stiffness takes no part, `damping_ratios`
-        tells what is left of it.
+        η_b = 2ζ/ω_j; for rotation, where the centrifugal stiffness takes no part, see
+        `damping_ratios`.
 
         Parameters
         ----------

@@ -1,7 +1,7 @@
 """Values by name: what files hold of blades, motions, loads and elements, and the values again.
 
 A kind is a frozen dataclass that inherits from `Described`. From its definition on it is known by
-the name of its class, so that a new one is a class in one place. What is no such class is refused.
+the name of its class, so that a new one is a class in one place. Other classes are refused.
 """
 
 from __future__ import annotations

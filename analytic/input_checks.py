@@ -62,7 +62,7 @@ def shown(value: object) -> str:
 
 
 def positive(name: str, value: object, unit: str = "") -> float:
-    """Return `value` as a float, refusing what is not a finite number above zero."""
+    """Return `value` as a float; refuse all but finite numbers above zero."""
     number = finite_number(name, value, unit)
     if number <= 0.0:
         raise ValueError(f"{name} must be positive, got {number}{_unit(unit)}")
@@ -70,7 +70,7 @@ def positive(name: str, value: object, unit: str = "") -> float:
 
 
 def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> float:
-    """Return `value` as a float, refusing what is not a finite number of zero or more."""
+    """Return `value` as a float; refuse all but finite numbers of zero or more."""
     number = finite_number(name, value, unit)
     if number < 0.0:
         hint = f"; {remedy}" if remedy else ""
@@ -79,7 +79,7 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 
 
 def finite_number(name: str, value: object, unit: str = "") -> float:
-    """Return `value` as a float, refusing what is not a finite number."""
+    """Return `value` as a float; refuse all but finite numbers."""
     value = _magnitude(name, value, unit)
     # NumPy registers durations as numbers, and Python's float() takes none of them.
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
@@ -91,7 +91,7 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
 
 
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
-    """Return `value` as an int, refusing what is not a whole number from `least` to `most`."""
+    """Return `value` as an int; refuse all but whole numbers from `least` to `most`."""
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
@@ -103,7 +103,7 @@ def whole_number(name: str, value: object, least: int = 1, most: int | None = No
 
 
 def flag(name: str, value: object) -> bool:
-    """Return `value` as a bool, refusing what is neither True nor False, such as "no" or nan."""
+    """Return `value` as a bool; refuse all but True and False, such as "no" or nan."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False, got {shown(value)}")
     return bool(value)
@@ -145,7 +145,7 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
 
 
 def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
-    """Return numbers as an array of their own shape, refusing what is not finite.
+    """Return numbers as an array of their own shape; refuse numbers that are not finite.
 
     Quantities of a units library are converted to `unit`.
     """
@@ -175,7 +175,7 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
 
 
 def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
-    """Return a number or a sequence of numbers as a 1-d array, refusing what is not finite."""
+    """Return a number or a sequence as a 1-d array; refuse numbers that are not finite."""
     array = np.atleast_1d(finite_array(name, values, unit))
     if array.ndim != 1 or array.size == 0:
         raise ValueError(f"{name} must be a sequence of numbers, got shape {array.shape}")

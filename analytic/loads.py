@@ -29,12 +29,12 @@ class Load(Described, abstract=True):
     dimension : tuple of three int
         Powers of length, mass and time in the size.
     acts_on : {"mass", "length", "tip"} or None
-        What the force is per unit of; None of a load that moves the clamp and is no force.
+        Carrier of the force, which is per unit of it; None for a load that moves the clamp.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
     varied : {"frequency", "speed"} or None
-        Over which a response is followed: the load's frequency, or the rotation speed of a load
-        that goes around once a turn; None of a load that has no response.
+        Abscissa of a response: the load's frequency, or the rotation speed if the load goes around
+        once a turn; None for a load without a response.
     """
 
     unit: ClassVar[str]
@@ -66,15 +66,15 @@ class Load(Described, abstract=True):
         raise NotImplementedError
 
     def rate(self, phase: FloatArray) -> FloatArray:
-        """Return what is added to the speed of the clamp, (samples,)."""
+        """Return the change of the clamp's speed, (samples,)."""
         return 0.0 * phase
 
     def acceleration(self, phase: FloatArray, frequency: float) -> FloatArray:
-        """Return what is added to its acceleration at ν = `frequency`, (samples,)."""
+        """Return the change of its acceleration at ν = `frequency`, (samples,)."""
         return 0.0 * frequency * phase
 
     def require_in_time(self) -> None:
-        """Refuse a load that lacks what a motion in time needs of it."""
+        """Refuse a load without the values that a motion in time needs."""
 
     def moved(self, rotation: Rotation) -> Rotation:
         """Return the rotation of the clamp with the load's share."""
@@ -276,7 +276,7 @@ class Gravity(Load):
 
 
 def require_load(load: object) -> None:
-    """Refuse what is no load."""
+    """Refuse a value that is no load."""
     if not isinstance(load, Load):
         *others, last = kinds_of(Load)
         raise TypeError(f"a load must be a {', '.join(others)} or {last}, got {load!r}")

@@ -105,7 +105,7 @@ class SpeedChange(Motion, ABC, abstract=True):
     ramp_time : float
         Duration [s].
     shortest_wave : float
-        Shortest period of what the acceleration is made of [s].
+        Shortest period in the acceleration [s].
     """
 
     start: float
@@ -138,7 +138,7 @@ class SpeedChange(Motion, ABC, abstract=True):
 
 
 def require_ramp(motion: object) -> None:
-    """Refuse what is no change of the speed, a steady rotation for one."""
+    """Refuse all but changes of the speed, a steady rotation for one."""
     if not isinstance(motion, SpeedChange):
         raise TypeError(
             "spin_up must be a SpinUp, a FourierRamp, a SpeedTable or another SpeedChange, got "

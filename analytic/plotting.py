@@ -21,7 +21,7 @@ _DRAWN = 61  # amplitudes, besides the orbits' own
 _FINE = 10  # pieces of what is drawn between two points of a response
 UNSTABLE: Any = {"ls": (0, (2.5, 1.5)), "lw": 0.8}
 FOLD: Any = {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white"}
-"""How the unstable part of a response is drawn, and where it folds."""
+"""Line of the unstable part of a response, and marks of its folds."""
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -34,7 +34,7 @@ def axes_or_new(ax: Axes | None) -> Axes:
 
 
 def cycled(number: int) -> str:
-    """Return a color of the cycle in use now: a "C0" would be that of the time of drawing."""
+    """Return a color of the cycle in use now; "C0" would be looked up at the time of drawing."""
     from matplotlib.colors import to_hex  # noqa: PLC0415
 
     return to_hex(f"C{number}")
@@ -54,8 +54,8 @@ def backbone_drawn(
 ) -> tuple[FloatArray, FloatArray]:
     """Return frequencies and amplitudes of a smooth curve through the orbits of a backbone.
 
-    A cubic spline in a², of which the frequency is a function; the first point is that of a = 0,
-    where it has the `slope` dω/d(a²) if that is known.
+    It is a cubic spline of the frequency over a². The first point is at a = 0, where the spline has
+    the `slope` dω/d(a²) if it is known.
     """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415  (for pictures only)
 

@@ -26,7 +26,7 @@ def evaluated(profile: Profile, x: FloatArray) -> FloatArray:
 
 
 def slope_of(profile: Profile, x: FloatArray) -> FloatArray:
-    """Return the derivatives of a profile at `x`; at a station that of the stretch after it."""
+    """Return the derivatives of a profile at `x`; at a station, of the stretch after it."""
     at = stations(profile)
     if at:
         values = [pair[1] for pair in profile]  # type: ignore[index,union-attr]

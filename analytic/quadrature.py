@@ -1,9 +1,9 @@
 """Clamped polynomial bases on the unit interval, and integrals from the clamp on a cut one.
 
-Integrating P_k twice gives functions with φ(0) = φ'(0) = 0 whose second derivatives are
-orthogonal, so that the bending stiffness is diagonal; integrating once gives functions with
-ψ(0) = 0 whose slopes are orthogonal, so that the axial stiffness is. Both stay well conditioned
-at any degree in use. On a `Grid` of cells each cell is integrated by Gauss points of its own.
+Integrating P_k twice gives functions with φ(0) = φ'(0) = 0 and orthogonal second derivatives: the
+bending stiffness is diagonal. Integrating once gives functions with ψ(0) = 0 and orthogonal slopes:
+the axial stiffness is diagonal. Both stay well conditioned at any degree in use. On a `Grid` of
+cells each cell is integrated by Gauss points of its own.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ class Grid:
     def integrals(self, values: FloatArray, x: FloatArray) -> FloatArray:
         """Return the integrals from 0 to `x` (places,) of values (points, n): (places, n).
 
-        Exact for what is on each cell a polynomial of a degree below its count.
+        Exact for polynomials on each cell of a degree below its count.
         """
         cell, parts = self._inside(x)
         on_cells = np.add.reduceat(self.weights[:, None] * values, self._first)

@@ -107,11 +107,11 @@ class FourierRamp(SpeedChange):
 class SpeedTable(SpeedChange):
     """Speed given at instants, steady before the first and after the last.
 
-    Between two instants the speed stays between the two that are given there, as of a measured
-    table it should: it is the monotone cubic of Fritsch and Carlson ("PCHIP"), level at both ends,
-    whose acceleration is continuous, and linear between two instants. It differs from a smooth
-    motion by the third power of the spacing: a hundred intervals of Eq. 1 move the tip by less than
-    1e-6 L. Noise of the speeds is more noise of the acceleration: smooth measured speeds before.
+    Between two instants the speed stays between the two given speeds. It is the monotone cubic of
+    Fritsch and Carlson ("PCHIP"), level at both ends; its acceleration is continuous, and linear
+    between two instants. It differs from a smooth motion by the third power of the spacing: a
+    hundred intervals of Eq. 1 move the tip by less than 1e-6 L. Noise of the speeds is more noise
+    of the acceleration: smooth measured speeds before.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ from .profiles import Profile, checked_profile, evaluated, in_units, stations, t
 
 @dataclass(frozen=True, kw_only=True)
 class OutOfPlane(Described):
-    """Stiffness and inertia of a slice out of the plane, over those in it.
+    """Stiffness and inertia of a slice out of the plane, over stiffness and inertia in it.
 
     The ratios hold all along the blade.
 
@@ -29,11 +29,11 @@ class OutOfPlane(Described):
     bending_ratio : float
         r, the bending stiffness out of the plane over the EI in it.
     torsion_ratio : float, optional
-        g = GJ/EI; infinite of a section that does not twist. None where it is not known.
+        g = GJ/EI; infinite if the section does not twist, None if unknown.
     polar_inertia : float, optional
-        ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None of a homogeneous section,
-        which has m (1 + r) EI/EA. Its parts in the plane and across it, whose difference stiffens
-        the twist as the blade turns, are taken as 1 to r. Zero makes the twist follow without
+        ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None means a homogeneous
+        section, which has m (1 + r) EI/EA. Its parts in the plane and out of it have the ratio 1 to
+        r; their difference stiffens the twist in rotation. Zero makes the twist follow without
         inertia.
 
     Examples
@@ -70,11 +70,11 @@ class Section(Described):
     mass_per_length : Profile
         m [kg/m].
     rotary_inertia : Profile, optional
-        Inertia of the slices against rotation, ρI [kg m]; zero of slices that have none. None where
-        it is not told: the theory then has none, and an element that models it takes that of a
-        homogeneous section, m EI/EA.
+        Inertia of the slices against rotation, ρI [kg m]; zero for slices without one. None means
+        not given: the theory then has none, and an element that models it takes a homogeneous
+        section, m EI/EA.
     out_of_plane : OutOfPlane, optional
-        What they resist out of the plane of bending, None where it is not known.
+        Their stiffness out of the plane of bending; None if unknown.
 
     Examples
     --------

@@ -33,7 +33,7 @@ class Gyration:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionShape(Described, ABC, abstract=True):
-    """Shape of a section at the root; lengths [m] that are left out are those that fit the blade.
+    """Shape of a section at the root; lengths [m] that are left out follow from the blade.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class SectionShape(Described, ABC, abstract=True):
         """Return I/A and A of these lengths [m]."""
 
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        """Return I out of the plane and the torsion constant J over I; those of a round shape."""
+        """Return I out of the plane and the torsion constant J over I; here of a round shape."""
         return 1.0, 2.0
 
     def out_of_plane(self, own: Gyration) -> OutOfPlane:
@@ -152,7 +152,7 @@ class Rectangle(_TwoSided):
     Parameters
     ----------
     height, width : float, optional
-        In the plane of bending and across it [m]; without them those with the beam's A and I.
+        In the plane of bending and across it [m]; by default they give the beam's A and I.
     ratio : float, optional
         Height over width, in place of the width.
     poisson_ratio : float
@@ -179,12 +179,12 @@ class Rectangle(_TwoSided):
 
 @dataclass(frozen=True, kw_only=True)
 class Ellipse(_TwoSided):
-    """A full ellipse, of which J = π a³b³/(a² + b²) with the half axes a and b.
+    """A full ellipse with J = π a³b³/(a² + b²) and the half axes a and b.
 
     Parameters
     ----------
     height, width, ratio, poisson_ratio : float, optional
-        As those of a `Rectangle`.
+        As of a `Rectangle`.
 
     Examples
     --------
@@ -203,7 +203,7 @@ class Ellipse(_TwoSided):
 
 @dataclass(frozen=True, kw_only=True)
 class Circle(SectionShape):
-    """A full circle, of which J = 2I.
+    """A full circle, with J = 2I.
 
     Parameters
     ----------
@@ -232,12 +232,12 @@ class Circle(SectionShape):
 
 @dataclass(frozen=True, kw_only=True)
 class Tube(SectionShape):
-    """A round tube, of which J = 2I.
+    """A round tube, with J = 2I.
 
     Parameters
     ----------
     radius, wall : float, optional
-        Mean radius and thickness of the wall [m]; without them those with the beam's A and I.
+        Mean radius and thickness of the wall [m]; by default they give the beam's A and I.
     poisson_ratio : float
         ν, which tells the shear modulus.
 

@@ -19,11 +19,10 @@ def settled(
     tolerance: float,
     of: Callable[[FoundT], ArrayLike],
 ) -> tuple[FoundT, FoundT, float]:
-    """Return a result, the finer one that confirms it, and the largest change of their numbers.
+    """Return a result, the finer result that confirms it, and the largest change.
 
     They are the first two in a row whose numbers `of` a result agree to the tolerance, or the last
-    two of all sizes: the caller refuses what has not settled. Relative changes are those of
-    logarithms.
+    two of all sizes: then the caller refuses. Logarithms give relative changes.
     """
     found, change = solve(next(sizes)), math.inf
     for size in sizes:

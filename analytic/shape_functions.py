@@ -48,7 +48,7 @@ class ShapeFunctions:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Number of functions."""
         return self.a_panel * self.blade.panel_count
 
     @cached_property

@@ -71,7 +71,7 @@ class Theory:
         return "with rotary inertia" if self.rotary_inertia else "Bernoulli-Euler"
 
     def slenderness(self, beam: AnyBlade) -> float:
-        """Return μ = I/(AL²) of a blade, zero of one that does not stretch."""
+        """Return μ = I/(AL²) of a blade, zero for a blade that does not stretch."""
         return beam.slenderness if self.extension else 0.0
 
     def unit(self, beam: AnyBlade) -> UnitBlade:
@@ -101,7 +101,7 @@ BERNOULLI_EULER = Theory()
 
 
 def require_theory(theory: object) -> Theory:
-    """Return what is a Theory; refuse what is not."""
+    """Return a Theory; refuse other values."""
     if not isinstance(theory, Theory):
         raise TypeError(f"theory must be a Theory, got {shown(theory)}: as Theory(extension=False)")
     return theory

@@ -59,7 +59,7 @@ class UnitBlade:
 
     @property
     def profiles(self) -> tuple[Profile, ...]:
-        """All that varies along the blade."""
+        """Profiles along the blade."""
         return self.mass, self.bending, self.axial, self.rotary
 
     @cached_property
@@ -81,7 +81,7 @@ class UnitBlade:
 
     @property
     def panel_count(self) -> int:
-        """How many panels there are."""
+        """Number of panels."""
         return self.panels.size - 1
 
     @property
@@ -140,7 +140,7 @@ class UnitBlade:
 
 
 def _apart(inner: Iterable[float]) -> FloatArray:
-    """Return 0, 1 and what is in between, ascending; of neighbors that are the same, one."""
+    """Return 0, 1 and the values between them, ascending; equal neighbors become one."""
     ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
     return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
 

@@ -7,7 +7,7 @@ import warnings
 
 
 class RotbeamWarning(UserWarning):
-    """Input or a result that is legal but probably not what was meant.
+    """Input or a result that is legal but probably not intended.
 
     All warnings of both packages are of this class, and silenced by it.
 

@@ -13,7 +13,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from analytic import Beam, SpinUp
-from rotbeam_exu import SimulationError, figures, growth_rate, simulate
+from rotbeam_exu import SimulationError, figures, simulate
+from rotbeam_exu.fem.linearization import growth_rate
 
 plt.style.use(figures.STYLE)
 beam, spin_up = Beam.reference(), SpinUp(omega=4.0, ramp_time=3.0)

@@ -11,7 +11,8 @@ import matplotlib.pyplot as plt
 from matplotlib.animation import ArtistAnimation
 
 from analytic import Beam, Rectangle, SpinUp, Tube
-from rotbeam_exu import figures, ray_traced, simulate_3d
+from rotbeam_exu import figures, simulate_3d
+from rotbeam_exu.fem.picture import ray_traced
 
 plt.style.use([figures.STYLE, {"animation.html": "jshtml"}])
 beam, settings = Beam.reference(), {"kick": 1e-3, "duration": 3.4}

@@ -11,7 +11,8 @@ diverges.
 import matplotlib.pyplot as plt
 
 from analytic import Beam, SpinUp
-from rotbeam_exu import figures, simulate, steady_stretch
+from rotbeam_exu import figures, simulate
+from rotbeam_exu.fem.linearization import steady_stretch
 
 beam = Beam.from_stiffness(
     length=10.0, axial_stiffness=2.8e7, bending_stiffness=1.4e4, mass_per_length=1.2

@@ -13,8 +13,8 @@ ends, on which it is pinned. One tangent frame diverges at the first frequency a
 import matplotlib.pyplot as plt
 
 from analytic import Beam
-from rotbeam_exu import divergence_speed, figures
-from rotbeam_exu.fem.stability import divergence_speeds
+from rotbeam_exu import figures
+from rotbeam_exu.fem.stability import divergence_speed, divergence_speeds
 
 beam = Beam.reference()
 two = {frame: divergence_speed(beam, 2, frame) for frame in ("tangent", "pinned")}

@@ -18,10 +18,10 @@ from analytic import (
     AnyBlade,
     ForcedResponse,
     Orbits,
-    PlanarStability,
-    SpinUpResponse,
-    StabilityLimit,
 )
+from analytic.exact.driven.response import SpinUpResponse
+from analytic.exact.plane.planarity import PlanarStability
+from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.loads import Load, rippled
 
 from .lazily import xr

@@ -1,4 +1,4 @@
-"""What the paper chose: speeds, ramp times, models, and how each model is drawn everywhere."""
+"""Choices of the paper: speeds, ramp times, models, and the line of each model."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MODEL_NAMES = {
     "FrM": "FrC with all other bending modes",
     "exact": "geometrically exact beam",
 }
-"""What the models are, in words."""
+"""The models in words."""
 
 # Okabe and Ito's palette (2008), which the color blind can tell apart; black is for the exact beam.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = (

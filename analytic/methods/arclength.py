@@ -1,8 +1,8 @@
 """Pseudo-arclength continuation: N equations in N + 1 unknowns, followed around folds.
 
-Keller's method: from a point with the unit tangent t the next is sought in the plane across t at
-the distance h, where the equations with t as their last row stay regular at a fold. There the last
-entry of t, that of the parameter, changes its sign; the determinant of the same matrix changes its
+Keller's method: from a point with the unit tangent t the next point is sought in the plane normal
+to t at the distance h. The equations with t as their last row stay regular at a fold. There the
+last entry of t, the parameter's, changes its sign; the determinant of the same matrix changes its
 sign where another branch crosses (Keller 1977; Govaerts, 2000, Secs. 4 and 8).
 """
 

@@ -1,8 +1,8 @@
 """Collocation of any order for M(t, q) q̈ = ..., in position, velocity, acceleration.
 
-Radau IIA is stiffly accurate and L-stable: axial and high bending waves far faster than the step,
-which carry no energy worth mentioning, are damped away, while what the step resolves is integrated
-to the order 2s - 1. Gauss's points, of order 2s, damp nothing: they tell whether a motion grows.
+Radau IIA is stiffly accurate and L-stable. Axial and high bending waves far faster than the step,
+which carry almost no energy, are damped away; slower motion is integrated to the order 2s - 1.
+Gauss's points, of order 2s, damp nothing: they tell whether a motion grows.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Collocation:
         self.last_position = self.last_velocity @ self.velocity
 
     def values(self, at: FloatArray) -> FloatArray:
-        """Matrix (at, stages) from values at the nodes to those of their interpolant."""
+        """Matrix (at, stages) from values at the nodes to values of their interpolant."""
         waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
         return np.asarray(waves @ self._to_legendre, dtype=np.float64)
 

@@ -35,7 +35,7 @@ _FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the ampli
 
 
 class Care(NamedTuple):
-    """How well orbits are resolved, and how hard the next one is sought.
+    """Effort: how well orbits are resolved, and how hard the next one is sought.
 
     Attributes
     ----------
@@ -83,8 +83,8 @@ def meets_the_equations(orbit: Orbit[Any]) -> bool:
 class Path(Generic[S]):
     """The orbits that grow out of a linear mode, by their amplitude.
 
-    It is laid from its two smallest orbits upwards in steps that do not depend on what is asked
-    for, and so are the answers.
+    It grows from its two smallest orbits upwards in steps that do not depend on the amplitudes
+    asked for; nor do the answers.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Path(Generic[S]):
     care : Care
         With which they are.
     tangent : LastTangent
-        That of the smallest orbits, to begin with.
+        At first the tangent of the smallest orbits.
     nodes : list of Orbit
         Those found so far, ascending.
     """

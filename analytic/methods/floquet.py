@@ -2,8 +2,8 @@
 
 The equations of motion, linearized about the orbit, are integrated over one period by Gauss's
 method, which damps nothing. Modes too fast for its steps are left out by their shape, for they come
-out on the unit circle at a wrong place, where they may meet others that they never meet. Of an
-orbit all this depends on its `frequency`, `tangent` and `constants`, as `Orbit` has them.
+out on the unit circle at a wrong place, where they may meet others that they never meet. All this
+depends on the orbit's `frequency`, `tangent` and `constants` (see `Orbit`).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1
 
 
 class Multipliers(NamedTuple):
-    """Floquet multipliers, those of the lowest modes first.
+    """Floquet multipliers, the lowest modes first.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[Flo
 
 
 def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
-    """Return what a share of a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n).
+    """Return the map of a small change of (q, q̇) at φ = 0 over a share of a period, (2n, 2n).
 
     Over its size, where that is beyond 1e60, and with the size's logarithm.
     """

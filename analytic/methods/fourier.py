@@ -40,8 +40,8 @@ class Period:
         Between the phases.
     waves : ndarray (3, count, 2H + 1)
     onto : ndarray (2H + 1, count)
-        From samples to coefficients; exact for products of two waves. In half a period those of
-        sines hold for what reversal turns around, the others for what it does not.
+        From samples to coefficients; exact for products of two waves. In half a period sines belong
+        to coordinates that reversal turns around, cosines to the others.
     """
 
     def __init__(self, harmonics: int, half: bool, count: int) -> None:
@@ -54,7 +54,7 @@ class Period:
 
 @lru_cache(maxsize=128)
 def period(harmonics: int, half: bool, fine: bool = False) -> Period:
-    """Return the phases that so many harmonics take; fine ones see what they leave."""
+    """Return the phases that so many harmonics take, or finer ones for their residual."""
     count = 4 * harmonics + 8 if fine else 2 * harmonics + 2
     return Period(harmonics, half, count if half else 2 * count)
 

@@ -1,8 +1,8 @@
 """Harmonic balance: one periodic orbit of a system that time reversal maps onto itself.
 
-The residual of the orbit's Fourier series, projected onto its waves at midpoints of half a period,
-and the peak of the gauge, fixed to the amplitude a, are as many equations as the coefficients and
-the frequency Ω are unknowns. Newton's method solves them with the exact tangent. For a rotating
+The residual of the orbit's Fourier series is projected onto its waves at midpoints of half a
+period, and the peak of the gauge is the amplitude a. These are as many equations as unknowns: the
+coefficients and the frequency Ω. Newton's method solves them with the exact tangent. For a rotating
 beam the gauge is the tip's deflection, and the Coriolis force brings in even harmonics.
 """
 
@@ -38,7 +38,7 @@ def projected(orbit: Orbit[Any]) -> FloatArray:
 
 
 def jacobian(orbit: Orbit[Any]) -> FloatArray:
-    """Return the derivatives of the harmonics of the residual to those of q and to Ω.
+    """Return the derivatives of the residual's harmonics with respect to q's and to Ω.
 
     The last row is left to the amplitude, or to whatever picks one orbit of the branch.
     """
@@ -179,7 +179,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
     ----------
     orbit : Orbit
     tangent : LastTangent, optional
-        One that fits the orbit; its own is factored otherwise.
+        A tangent that fits the orbit; by default its own is factored.
     """
     unknowns = packed(orbit.coefficients, orbit.parts).size + 1
     if tangent is None or not tangent.fits(unknowns):

@@ -86,9 +86,9 @@ class Newton:
         linearized : callable
             Of z: the factors of the tangent, as `factored` returns them, and the residual.
         size : callable
-            Of z and a change: what is small where it has converged.
+            Of z and a change: small after convergence.
         factors : optional
-            Those of a tangent near by, tried first.
+            Factors of a tangent near by, tried first.
         """
         last, own, tangents, steps = np.inf, False, 0, list[FloatArray]()
         for count in range(1, self.steps + 1):
@@ -136,7 +136,7 @@ def solved(factors: Any, vector: FloatArray) -> FloatArray:
 
 
 def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:
-    """Return a step by a factored tangent, improved by what the `steps` since then tell of it.
+    """Return a step by a factored tangent, improved by the `steps` since then.
 
     Broyden's method, in the form that keeps steps instead of matrices (Kelley 1995, Sec. 7.3).
     """

@@ -59,7 +59,7 @@ class Orbit(Generic[S]):
 
     @cached_property
     def parts(self) -> Parts:
-        """Coefficients that symmetry does not make zero, as `parts_of` has them."""
+        """Coefficients that symmetry does not make zero (`parts_of`)."""
         free = self.system.odd is None and not self.system.driven
         pinned = self.system.pinned if free else None
         return parts_of(self.system.odd, self.system.size, self.harmonics, pinned)
@@ -106,7 +106,7 @@ class Orbit(Generic[S]):
         return q, self.frequency * slope, self.frequency**2 * bend
 
     def drive(self, phase: FloatArray) -> tuple[()] | tuple[FloatArray, float]:
-        """Return what a driven system is told beside the state."""
+        """Return the arguments of a driven system beside its state."""
         return (phase, self.frequency) if self.system.driven else ()
 
     def tangent(self, phase: FloatArray) -> Tangent:
@@ -227,7 +227,7 @@ class Orbit(Generic[S]):
         """Return the orbit with harmonic k scaled as its leading order is, as amplitude^k.
 
         The mean departs from the equilibrium by the square; any linear extrapolation would strain
-        what is stiff. High harmonics are held back, or their round-off would be blown up.
+        the stiff coordinates. High harmonics are held back, or their round-off would be blown up.
         """
         factor, k = amplitude / self.amplitude, np.arange(self.harmonics + 1.0)
         powers = factor ** np.minimum(np.append(k, k[1:]), 6.0)[:, None]

@@ -24,8 +24,8 @@ from .orbit import Orbit, S, at_peak, peak_gradient
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
 Marked = tuple[Orbit[Any], Mark]
-"""An orbit on a curve, and what is special about it: "asked" for, a "fold" of the frequency, a
-"peak" of the amplitude, a "branch point" where another curve crosses."""
+"""An orbit on a curve and its mark: "asked" for, a "fold" of the frequency, a "peak" of the
+amplitude, a "branch point" where another curve crosses."""
 
 _CARE = Care(harmonics=40, functions=64)
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
@@ -153,7 +153,7 @@ def response_curve(
     ------
     NoOrbitError
         If no response is found, the curve has no way on, or the amplitude exceeds `largest`; `last`
-        is the list of what was found.
+        is the list of orbits found.
     """
     first, last = float(frequencies[0]), float(frequencies[-1])
     rest = np.zeros((2 * harmonics + 1, system.size))
@@ -190,7 +190,7 @@ def _beginning(curve: OrbitCurve[S]) -> At[S]:
 
 
 def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Marked], bool]:
-    """Return what is special between two points, in order, and whether the curve's end is."""
+    """Return the special points between two points, in order, and whether the curve ends."""
     curve, found = at.curve, list[tuple[float, Mark, FloatArray]]()
 
     def note(mark: Mark, z: FloatArray) -> None:

@@ -33,7 +33,7 @@ class System(Protocol):
 
     @property
     def functions(self) -> int:
-        """How finely the system is resolved: what `refined` makes larger."""
+        """Number of functions that resolve the system; `refined` raises it."""
         ...
 
     @property
@@ -43,7 +43,7 @@ class System(Protocol):
 
     @property
     def odd(self) -> NDArray[bool_] | None:
-        """Which coordinates time reversal turns around, (n,); None of a system without reversal.
+        """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
         (q, t) → (Rq, -t), R diagonal with -1 for these and 1 for the others, maps motions onto
         motions. An orbit through a state that is its own image is then a series of sines in these

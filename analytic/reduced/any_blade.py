@@ -25,7 +25,7 @@ from ..unit_blade import UnitBlade
 from .oscillator import Oscillator
 
 _SETTLED = 1e-9
-"""Change of ω_n and λ from one basis to the next; those of smooth blades settle at once."""
+"""Change of ω_n and λ from one basis to the next; for smooth blades they settle at once."""
 
 
 class BladeOscillator(NamedTuple):

@@ -28,7 +28,7 @@ class AxialModel:
     Attributes
     ----------
     name : str
-        What a `Variant` calls it.
+        Its name in a `Variant`.
     order : int
         Highest power of v' kept in u' = -½v'² - ⅛v'⁴: 0, 2 or 4.
     elongation : Elongation or None

@@ -1,11 +1,11 @@
 """The one Lagrangian of Secs. 3 and 4, with two switches: the shape, and the axial model.
 
-On the unit beam (m = EI = L = 1, so that ω becomes w̄ and EA becomes 1/μ) the point x moves to
-(x + u, v), v = φ_v q, in a frame that turns at w̄. Eqs. 31, 37, 71, 76 and 77 give, to fourth order,
+On the unit beam (m = EI = L = 1) ω becomes w̄ and EA becomes 1/μ. The point x moves to (x + u, v),
+v = φ_v q, in a frame that turns at w̄. Eqs. 31, 37, 71, 76 and 77 give, to fourth order,
 
     T = ½M q̇² + 2 q² q̇² ∫φ_u² dx + ½w̄² ∫[v² + (x + u)²] dx,    V = V_b + V_l,
 
-so that every model is Eq. 41 and differs from the others only in u, as `axial` has it.
+so that every model is Eq. 41 and differs from the others only in u (module `axial`).
 The coefficients of Eq. 41 come from quadrature here and in symbols from `symbolic`.
 """
 
@@ -37,7 +37,7 @@ class EnergyCoefficients:
     bending, spin : float
         Linear stiffness from bending, and from rotation (centrifugal stiffening less softening).
     thinning, stretching : float
-        What the elongation Δl ~ μw̄² adds, Table 4: in bending ~ w̄², in V_l and T ~ w̄⁴.
+        Share of the elongation Δl ~ μw̄², Table 4: in bending ~ w̄², in V_l and T ~ w̄⁴.
     cubic_bending, cubic_spin : float
         Cubic stiffness.
     g2 : float

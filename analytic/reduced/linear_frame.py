@@ -5,9 +5,9 @@ Nothing in the stiffness K of a linear floating frame knows of the pull of the r
     M q̈ + (K - c²θ̇² M) q = -cΓ θ̈,      Γ = ∫(R + x) φ dm,
 
 is stable only up to the first natural frequency at rest: beyond, the inertia -θ̇² M wins. Bending
-brings a point nearer to the axis, by ½∫v'². That is of second order in the deflection, but the
-centrifugal force acts through it, N = θ̇² ∫(R + x) dm: with θ̇² G = ∫N φ_i'φ_j' dx added to K the
-same model has the blade's own frequencies.
+brings a point nearer to the axis, by ½∫v'². The foreshortening is of second order in the
+deflection, but the centrifugal force N = θ̇² ∫(R + x) dm acts through it. With θ̇² G = ∫N φ_i'φ_j'
+dx added to K the same model has the blade's own frequencies.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def linear_response(
 
     Linear theory of the inextensible, undamped blade, in its first five modes. Without the
     foreshortening it diverges above the first natural frequency at rest, ω0, at the rate
-    √(ω² - ω0²) in the plane of rotation; `spin_up_response` is what it should be.
+    √(ω² - ω0²) in the plane of rotation; `spin_up_response` has the true motion.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ class ReducedModel:
 
     @property
     def lambda_x(self) -> float:
-        """λ_x of Eq. 65 [-], the tip's third harmonic; of FrM with that of the other modes."""
+        """λ_x of Eq. 65 [-], the tip's third harmonic; FrM adds the other modes' share."""
         return self.perturbation.h3
 
     @property
@@ -104,7 +104,7 @@ class ReducedModel:
     def perturbation(self) -> Perturbation:
         """Frequency and tip as series in the first harmonic.
 
-        Those of Eq. 41 in one-mode models; of FrM with the other modes' share in h2 and h3.
+        The series of Eq. 41 in one-mode models; FrM adds the other modes' share in h2 and h3.
         """
         if not self.variant.coriolis:
             return Perturbation(lambda_omega=self.lambda_omega, h3=self.oscillator.lambda_x)
@@ -170,7 +170,7 @@ class ReducedModel:
         """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
 
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
-        errors are those of `frequency`, but `a` is the peak of x.
+        errors as in `frequency`, but `a` is the peak of x.
         """
         amplitude = self._within(a, self.oscillator.largest_amplitude, _NO_ORBIT)
         result = self.beam.frequency_scale * self.oscillator.exact_frequency(amplitude)
@@ -236,14 +236,14 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     ------
     ValueError
         If `omega` is negative or not finite, the variant unknown, or the model has no oscillation;
-        if a variant assumes away what the blade has, as all do damping.
+        if the variant leaves out something that the blade has, such as damping.
 
     Warns
     -----
     RotbeamWarning
-        Where the model is used beyond its range: ω above 2ω_n in a model without the other modes,
-        2ω_n near another mode in one with them, a beam so stocky or fast that FrM's want of
-        extension shows, ω above the burst speed, or so large that it may be meant in rpm.
+        If the model is used beyond its range: ω above 2ω_n without the other modes, 2ω_n near
+        another mode with them, or a beam so stocky or fast that FrM's missing extension shows. If ω
+        is above the burst speed, or so large that it may be meant in rpm.
 
     Examples
     --------

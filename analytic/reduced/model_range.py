@@ -1,4 +1,4 @@
-"""Where a reduced model is used beyond its range, with the numbers that say so."""
+"""Ranges of the reduced models, and warnings beyond them with the numbers that say so."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ _MEANT = {3: 0.2, 5: 0.4}
 def amplitudes_within(a: ArrayLike, largest: float, beyond: str, order: int) -> FloatArray:
     """Return amplitudes as floats; refuse negative ones, those above 1, and from `largest` on.
 
-    `beyond` says what is wrong with one that is too large, with a place for it. Above what a model
-    of that `order` is meant for, there is a warning to the caller of who called.
+    `beyond` is the sentence on an amplitude that is too large, with a place for it. Above the range
+    of a model of that `order` the caller's caller is warned.
     """
     amplitude = finite_array("amplitude", a)
     if amplitude.size == 0:

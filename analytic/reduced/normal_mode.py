@@ -9,7 +9,7 @@ and is solved order by order in the amplitude ε, the periodic motion being odd 
 
     θ = ε φ' sin φ + ε² θ₂ + ε³ θ₃ + ...,      Ω² = ω_n² + ε² (Ω²)₂ + ε⁴ (Ω²)₄ + ...
 
-Harmonic m of order k is (K - m²ω_n²M) θ = -(what the lower orders leave): one linear solve takes
+Harmonic m of order k is (K - m²ω_n²M) θ = -(residual of the lower orders): one linear solve takes
 all modes at once. In the first harmonic that has a solution for one (Ω²)_{k-1} only. Harmonics
 above the third never come back to (Ω²)₄. Nothing is fitted; λ comes out as FrM's, derived anew.
 """

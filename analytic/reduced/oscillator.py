@@ -68,9 +68,9 @@ class Oscillator:
     def exact_frequency(self, a: FloatArray) -> FloatArray:
         """Return 2π over the exact period at amplitude `a`, of any shape, in units of 1/τ.
 
-        With x = a sin ψ the period is ∫₀^2π √((1 + g2 x²)/(ω_n² + ½g1 (a² + x²))) dψ, an analytic
-        periodic integrand: the midpoint rule converges geometrically, at the rate set by the
-        integrand's nearest singularity in the complex plane.
+        With x = a sin ψ the period is ∫₀^2π √((1 + g2 x²)/(ω_n² + ½g1 (a² + x²))) dψ. The integrand
+        is analytic and periodic: the midpoint rule converges geometrically, at the rate set by its
+        nearest singularity in the complex plane.
         """
         square = a**2
         count = self._midpoints(float(np.max(square, initial=0.0)))
@@ -127,7 +127,7 @@ class Perturbation:
 
         ω_NL = ω_n (1 - λ a² - κ a⁴),      q/L = a cos ψ - h2 a² sin 2ψ - h3 a³ cos 3ψ.
 
-    Eqs. 63 and 65 are those of one mode: without κ and h2, and h3 = λ_x.
+    Eqs. 63 and 65 hold for one mode: without κ and h2, and h3 = λ_x.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """The first bending mode of the rotating, inextensible beam by Frobenius' method, Sec. 5.
 
-It solves v'''' - ½w̄² [(1-x²) v']' - (w̄² + w̄_n²) v = 0 on the unit beam, clamped at x = 0 and free
-at x = 1, by power series at the clamp, after Wright, Smith, Thresher and Wang (1982).
+It solves v'''' - ½w̄² [(1-x²) v']' - (w̄² + w̄_n²) v = 0 on the unit beam, clamped at x = 0 and
+free at x = 1. The power series at the clamp follow Wright, Smith, Thresher and Wang (1982).
 """
 
 from __future__ import annotations
@@ -61,8 +61,8 @@ def frequency_equation(w_bar: float, w_n: float, degree: int) -> float:
 def rotating_frequency(w_bar: float, degree: int) -> float:
     """Return w̄_n [-], the root of Eq. 86 with polynomials of the given `degree`.
 
-    The root is bracketed: Southwell's theorem bounds w̄_n² from below by β⁴ (the rotating string's
-    first in-plane frequency is zero), and the static deflection under a uniform load has the
+    The root is bracketed. Southwell's theorem bounds w̄_n² from below by β⁴, for the rotating
+    string's first in-plane frequency is zero. The static deflection under a uniform load has the
     Rayleigh quotient 162/13 + (9/52) w̄² above it.
     """
     return float(
@@ -78,7 +78,7 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
 def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
     """Return the first rotating mode, Eq. 87, at the degree at which the series has converged.
 
-    Or at another `degree`, to see what the paper's does.
+    Another `degree` shows the effect of the paper's.
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.

@@ -20,13 +20,13 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     """Return the speed [rad/s] at which the model turns from hardening to softening.
 
     FrM, and with it the exact inextensible beam, does so at Ω = ω/ω0 = 1.02190; the exact
-    extensible one a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None where λ_ω
-    does not rise through zero up to Ω = 4: such a model softens, or hardens, at every speed of
-    interest.
+    extensible one a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None if λ_ω does
+    not rise through zero up to Ω = 4: such a model softens, or hardens, at every speed of interest.
 
     Examples
     --------
-    >>> from analytic import Beam, softening_speed
+    >>> from analytic import Beam
+    >>> from analytic.reduced.speeds import softening_speed
     >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
     2.9730 rad/s
     """
@@ -51,7 +51,8 @@ def divergence_speed(beam: Beam) -> float:
 
     Examples
     --------
-    >>> from analytic import Beam, divergence_speed
+    >>> from analytic import Beam
+    >>> from analytic.reduced.speeds import divergence_speed
     >>> print(f"{divergence_speed(Beam.reference()):.4f} rad/s")
     2.9092 rad/s
     """

@@ -1,11 +1,11 @@
 """The coefficients of Eq. 41 in symbols, expanded by sympy from the energies themselves.
 
 Nothing is expanded by hand here. The ordering of Secs. 3 and 4, q ~ ε and μ ~ ε² (so that Δl ~ q²),
-is put into the Lagrangian of Eqs. 31, 32, 34 and 72, and what is kept is order ε⁴.
+is put into the Lagrangian of Eqs. 31, 32, 34 and 72; terms up to order ε⁴ are kept.
 
-Multiple time scales on Eq. 41, Eqs. 46-65, are carried out as well. With ψ = ω_n T0 + φ(T1) and
-z = exp(jψ), every function on the way is a Laurent polynomial in z, and the derivatives with
-respect to the two times are D0 = jω_n z ∂/∂z and D1 = a' ∂/∂a + jφ' z ∂/∂z.
+Multiple time scales on Eq. 41, Eqs. 46-65, are carried out as well. With ψ = ω_n T0 + φ(T1) and z =
+exp(jψ), every function on the way is a Laurent polynomial in z. The derivatives with respect to the
+two times are D0 = jω_n z ∂/∂z and D1 = a' ∂/∂a + jφ' z ∂/∂z.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .axial import Axial, AxialModel, axial_model
 from .shapes import PolynomialShape
 
 OMEGA = sp.Symbol("Omega", nonnegative=True)
-"""Ω = ω/ω0, where ω0 is that of the shape itself."""
+"""Ω = ω/ω0, with the frequency ω0 of the shape itself."""
 MU = sp.Symbol("mu", positive=True)
 X = sp.Symbol("x", real=True)
 

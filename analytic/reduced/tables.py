@@ -1,4 +1,4 @@
-"""Tables 1-5 as printed, beside what the package derives."""
+"""Tables 1-5 as printed, compared with the values that the package derives."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def closed_form(
     """Return Eqs. 42-44, 64, 65 or Table 4: (quantity, monomial in Ω and μ) to coefficient.
 
     For a shape that does not depend on Ω, with w̄ = `beta`²Ω. λ_ω and λ_x share the denominator
-    ω_n²; what is returned of them are the numerators.
+    ω_n²; their numerators are returned.
     """
     c, s = coefficients, beta**4
     omega_n_squared = {
@@ -179,9 +179,9 @@ def _table_5() -> PaperTable:
 def table_5_by_the_print(omega: float, beta: float = PRINTED_BETA) -> tuple[float, float, float]:
     """Return ω_n [rad/s], λ_ω and λ_x of FrE with the print's degree 36 and a rounded `beta`.
 
-    With ω_n² divided by (β/1.8751)⁴, as a frequency in units of a rounded ω0 would be, 8 of the 12
-    entries of Table 5 agree within the rounding, with the full β and either degree 2. That the
-    paper rounded β there is likely, not proven: Eq. 43's 7.1034 needs the full one.
+    Divide ω_n² by (β/1.8751)⁴, as if the frequency were in units of a rounded ω0: 8 of the 12
+    entries of Table 5 then agree within the rounding; with the full β and either degree, 2. That
+    the paper rounded β there is likely, not proven: Eq. 43's 7.1034 needs the full one.
     """
     beam = Beam.reference()
     w_bar = omega / beam.frequency_scale

@@ -12,8 +12,7 @@
 
 Only FrM and FrM5 have the right λ_ω to leading order, for the inextensible beam: -v'⁴/8 and the
 other modes both enter at that order. So does the extension: the extensible beam's λ_ω is higher by
-3.9 μ at rest and 5.4 μ at w̄ = 12, 1e-5 for the paper's beam, and its ω_n is lower by about μw̄² of
-it.
+3.9 μ at rest and 5.4 μ at w̄ = 12, 1e-5 for the paper's beam. Its ω_n is lower by about μw̄² ω_n.
 """
 
 from __future__ import annotations

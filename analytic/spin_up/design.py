@@ -73,7 +73,7 @@ class _Task:
         return residuals(self.beam, self.ramp(y), self.modes, np.array([self.duration]))[:, 0]
 
     def equations(self, y: FloatArray, target: ComplexArray) -> FloatArray:
-        """Return what the modes lack of the target by the closed form, (2 modes,)."""
+        """Return the modes' distances from the target by the closed form, (2 modes,)."""
         z = self.closed_form(y) - target
         return np.concatenate((z.real, z.imag))
 
@@ -114,12 +114,12 @@ def design_ramp(
 ) -> FourierRamp:
     """Return a smooth change of the speed that leaves the first modes at rest.
 
-    Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Of those that
-    leave nothing by the closed form, `residual_amplitude`, it is, within the limits, the closest to
-    Eq. 1; what the exact transient then leaves is made the next target of the closed form, with its
-    sign changed, until each mode is left with less than 1e-6 of the length. On the way the blade
-    swings, in short ramps as far as without a design, and the design knows the blade: in 2 s to 6
-    rad/s an error of 1 % in its frequency leaves 2.1e-2 of the length instead of 3e-6.
+    Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Among the ramps
+    within the limits that leave nothing by the closed form (`residual_amplitude`), it is the
+    closest to Eq. 1. The amplitude that the exact transient leaves becomes the next target of the
+    closed form, with its sign changed, until each mode keeps less than 1e-6 L. During the ramp the
+    blade swings, in short ramps as far as without a design. The design depends on the blade: in 2 s
+    to 6 rad/s an error of 1 % in its frequency leaves 2.1e-2 L instead of 3e-6 L.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ def design_ramp(
 
 
 def _corrected(task: _Task) -> FourierRamp:
-    """Return the ramp of which the exact transient leaves nothing."""
+    """Return the ramp after which the exact transient leaves nothing."""
     target, y, last = np.zeros(task.count, dtype=np.complex128), task.eq_1, math.inf
     for _ in range(_CORRECTIONS):
         found = _solved(task, y, target)
@@ -227,7 +227,7 @@ def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray |
 def _closest(
     rows: FloatArray, sides: FloatArray, slopes: FloatArray, least: FloatArray
 ) -> FloatArray | None:
-    """Return y that makes |rows y - sides| least within slopes y ≥ least, None where none is.
+    """Return y that makes |rows y - sides| least within slopes y ≥ least, None if there is none.
 
     The least-distance problem of Lawson and Hanson (1974), chapter 23.
     """
@@ -243,7 +243,7 @@ def _closest(
 
 
 def _too_short(task: _Task) -> str:
-    """Return the sentence on a ramp that cannot stay within its limits, with one that can."""
+    """Return the sentence on a ramp that cannot stay within its limits, with limits that work."""
     limits = f"0 to {task.highest:g} rad/s"
     if math.isfinite(task.steepest):
         limits = f"{limits} and {task.steepest:g} rad/s²"

@@ -121,8 +121,8 @@ def _refined(
 ) -> tuple[float, float]:
     """Return the ramp time near `T` at which the exact transient leaves the least, and what.
 
-    What the closed form lacks changes slowly with the ramp time: a straight line through its last
-    two values is added to the form.
+    The error of the closed form changes slowly with the ramp time: a straight line through its last
+    two values corrects it.
     """
 
     def form(at: float) -> complex:

@@ -1,7 +1,7 @@
 """Residual amplitude: the oscillation that a change of the speed leaves, in closed form.
 
 While the speed changes slowly over a period, a mode keeps its action: its amplitude goes with
-1/√(Mω_n(w)), and the Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. What is left is
+1/√(Mω_n(w)). The Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. The ramp leaves
 
     Z = (1/√(Mω_n)|_T) ∫_0^T Γ(w) θ̈ exp(i(ψ_T - ψ)) / √(Mω_n) dt,      a = |Z|,
 
@@ -79,8 +79,8 @@ def residual_amplitude(
     mode : int
         Bending mode, from 1.
     corrected : bool
-        Take the linear action for that of the nonlinear orbit (FrM, Eq. 41), first mode only: 1 to
-        3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
+        Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41), first mode only:
+        1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
     exact : bool
         Take half peak to peak of the tip in the first period after the exact transient, all modes
         and large deflections included, of the motion's own ramp time.

@@ -37,43 +37,58 @@ GROUPS = (
     _group(
         "Linear vibration",
         "Small vibration about steady rotation.",
-        analytic="linear_modes LinearModes TorsionModes campbell Campbell Crossing damping_ratios "
-        "unstretched_frequencies steady_state",
+        analytic="linear_modes campbell damping_ratios steady_state",
+        analytic__exact__linear__modes="LinearModes",
+        analytic__exact__linear__out_of_plane_modes="TorsionModes",
+        analytic__exact__linear__campbell="Campbell",
+        analytic__exact__linear__tracking="Crossing",
+        analytic__exact__linear__unstretched="unstretched_frequencies",
     ),
     _group(
         "Backbone",
         "Frequency against amplitude, exactly: orbit by orbit, as a series, beyond folds.",
-        analytic="periodic_orbits Orbits BeamState AmplitudeNotReachedError backbone Backbone "
-        "backbone_curve BackboneCurve BackboneBranch Resonance",
+        analytic="periodic_orbits Orbits AmplitudeNotReachedError backbone Backbone backbone_curve",
+        analytic__exact__beam__state="BeamState",
+        analytic__exact__free__curve="BackboneCurve",
+        analytic__exact__free__branches="BackboneBranch",
+        analytic__exact__free__branch="SpecialPoint",
+        analytic__exact__free__internal_resonance="Resonance",
     ),
     _group(
         "Forced response",
         "Damped and driven, through the folds.",
-        analytic="forced_response ForcedResponse SpecialPoint ResponseNotReachedError",
+        analytic="forced_response ForcedResponse ResponseNotReachedError",
     ),
     _group(
         "Spin-up",
         "The transient, exactly and linear, what a ramp leaves, and ramps that leave nothing.",
-        analytic="spin_up_response SpinUpResponse residual_amplitude "
-        "quiet_ramp_times QuietRamps design_ramp linear_response LinearResponse",
+        analytic="spin_up_response residual_amplitude quiet_ramp_times design_ramp linear_response",
+        analytic__exact__driven__response="SpinUpResponse",
+        analytic__spin_up__quiet="QuietRamps",
+        analytic__reduced__linear_frame="LinearResponse",
     ),
     _group(
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
-        analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue",
+        analytic="planar_stability stability_limit",
+        analytic__exact__plane__planarity="PlanarStability",
+        analytic__exact__plane__stability_limit="StabilityLimit Tongue",
     ),
     _group(
         "Reduced models",
         "The models of the paper, and those that repair them.",
-        analytic="reduced_model ReducedModel VARIANTS Variant softening_speed "
-        "divergence_speed paper_table",
+        analytic="reduced_model ReducedModel VARIANTS Variant paper_table",
+        analytic__reduced__speeds="softening_speed divergence_speed",
     ),
     _group(
         "Exudyn",
         "The beam by finite elements: in the plane, in space, in a model of yours.",
-        rotbeam_exu="simulate steady_oscillation SteadyOscillation natural_frequencies "
-        "steady_stretch growth_rate divergence_speed simulate_3d flap_frequencies "
-        "growth_rate_of GrowthRate ray_traced SimulationError",
+        rotbeam_exu="simulate steady_oscillation natural_frequencies simulate_3d SimulationError",
+        rotbeam_exu__runs__oscillation="SteadyOscillation",
+        rotbeam_exu__runs__growth="growth_rate_of GrowthRate",
+        rotbeam_exu__fem__linearization="steady_stretch growth_rate flap_frequencies",
+        rotbeam_exu__fem__stability="divergence_speed",
+        rotbeam_exu__fem__picture="ray_traced",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
         rotbeam_exu__fem__elements="Cable Exact Ancf3 Linear Substructures Formulation",
     ),

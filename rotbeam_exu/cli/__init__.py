@@ -1,6 +1,6 @@
 """The command line `rotbeam`. Only this package prints.
 
-What a command computes with is imported when it runs, so that --help and theory are quick.
+A command imports its libraries when it runs, so that --help and theory are quick.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .output import ready_streams
 def _refuse_none(
     _: cyclopts.App, __: tuple[str, ...], arguments: cyclopts.ArgumentCollection
 ) -> None:
-    """Refuse None and null, which a script writes for what it lacks: they would be the default."""
+    """Refuse None and null, which a script writes for a missing value; they mean the default."""
     for argument in arguments:
         if NoneType in get_args(argument.hint) and not {str, Path} & set(get_args(argument.hint)):
             for token in argument.tokens:
@@ -59,10 +59,10 @@ _COMMANDS = (
 
 
 def documented(command: str) -> tuple[str, tuple[str, ...]]:
-    """Return what a command's docstring says ahead of its parameters, and its examples.
+    """Return a command's docstring ahead of its parameters, and its examples.
 
-    The examples are the lines of the numpydoc section that begin with "$": command lines,
-    each of which `tests/cli/test_examples.py` runs.
+    The examples are the lines of the numpydoc section that begin with "$": command lines, which
+    `tests/cli/test_examples.py` runs.
     """
     source = Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8")
     # Not by a parser: all commands' are read at each call of any, and --help is to be quick.
@@ -85,7 +85,7 @@ for _order, _command in enumerate(_COMMANDS):
     )  # fmt: skip
 
 _SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
-"""Options that are none, and what one of their units is in rad/s."""
+"""Options that do not exist, and their units in rad/s."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -131,7 +131,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _missing(error: cyclopts.MissingArgumentError) -> str:
-    """Say what has to be given, and where it is explained."""
+    """Name the options that have to be given, and where they are explained."""
     assert error.argument is not None
     command = " ".join(["rotbeam", *(error.command_chain or ())])
     name = error.argument.name

@@ -44,7 +44,7 @@ def animate(
 
     Inertial and rotating view, and q over time.
 
-    The response is that of the exact beam, to scale; a beam faster than the paper's is shown as
+    The response is the exact beam's, to scale; a beam faster than the paper's is shown as
     many times slower.
 
     Parameters
@@ -56,8 +56,8 @@ def animate(
     slow_motion
         Seconds of the film per second of the motion.
     beside
-        Show what a model that is linear in one floating frame makes of it beside the exact beam:
-        above the first natural frequency at rest it flies apart.
+        Show a model that is linear in one floating frame beside the exact beam: above the first
+        natural frequency at rest it flies apart.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force

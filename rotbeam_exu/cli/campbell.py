@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from cyclopts import Parameter
@@ -19,6 +19,9 @@ from .job import require_writable
 from .motion import chosen_speeds, configured
 from .options import SECTION, Force, SectionOptions, Whole
 from .output import Format, print_columns, print_written
+
+if TYPE_CHECKING:
+    from analytic.exact.linear.campbell import Campbell
 
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
@@ -97,7 +100,7 @@ def campbell(
 
 
 def _families(beam: AnyBlade) -> list[Plane]:
-    """Return the families of modes of which the beam's section tells."""
+    """Return the families of modes that the beam's section determines."""
     known = beam.section.out_of_plane
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
@@ -105,7 +108,7 @@ def _families(beam: AnyBlade) -> list[Plane]:
     return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
 
 
-def _print(diagram: analytic.Campbell, form: Format) -> None:
+def _print(diagram: Campbell, form: Format) -> None:
     """Print frequencies over speed, and the crossings; ten digits in CSV.
 
     A table has as many as are known: of torsion four, for the section may be kept from warping.

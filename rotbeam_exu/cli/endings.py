@@ -31,8 +31,8 @@ _LONGEST = 60
 def stopped_as_by_ctrl_c() -> Iterator[list[int]]:
     """Take SIGTERM and SIGHUP as Ctrl-C, which removes temporaries; give the list of those met.
 
-    The first one counts: a terminal that is closed may send several. What is ignored, as by nohup,
-    stays ignored.
+    The first one counts: a terminal that is closed may send several. A signal that is ignored, as
+    by nohup, stays ignored.
     """
     met: list[int] = []
 
@@ -64,7 +64,7 @@ def output_is_lost() -> bool:
 
 
 def sentence_on(error: OSError) -> str:
-    """Return which file it is, what is the matter, and what to do."""
+    """Return the sentence on a file: its name, the fault, and the remedy."""
     if output_is_lost():
         return f"cannot write to standard output: {error.strerror}; send it elsewhere"
     if error.errno in _FULL:
@@ -88,7 +88,7 @@ def _varies() -> re.Pattern[str]:
 
 
 class Messages:
-    """What one command says on standard error.
+    """Messages of one command on standard error.
 
     Warnings that differ only in their numbers, or in the model they are about, are one: the first
     is printed at once, and how many followed at the end.

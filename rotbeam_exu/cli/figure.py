@@ -20,7 +20,7 @@ def _styles() -> Iterable[str]:
 
 
 StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
-"""Name of a style; what is none is refused by `figures.style`."""
+"""Name of a style; `figures.style` refuses unknown ones."""
 
 
 def figure(

@@ -38,14 +38,14 @@ def saved(data: xr.Dataset, path: Path, table: xr.Dataset | None = None) -> list
 
 @dataclass(frozen=True, kw_only=True)
 class Job(Generic[R, T]):
-    """A result to compute, and what is done with it.
+    """A result to compute, save, print and draw.
 
     Parameters
     ----------
     path
         The files to write, without their endings.
     inputs
-        Inputs by name, or the result: files that hold those of another result are not replaced.
+        Inputs by name, or the result: files with other inputs are not replaced.
     force
         Replace them.
     compute
@@ -143,7 +143,7 @@ def refuse_to_replace(
 def require_writable(target: Path, force: bool, ours: bytes = b"") -> None:
     """Refuse, unless forced, a file that is there and does not hold `ours` at its beginning.
 
-    Such a file does not tell what it was made of. Its folder is made, if it can be written.
+    Such a file does not tell its inputs. Its folder is made, if it can be written.
     """
     writable_folder(target.parent)
     known = ours and target.is_file() and ours in target.read_bytes()[:4096]
@@ -156,7 +156,7 @@ def require_writable(target: Path, force: bool, ours: bytes = b"") -> None:
 
 @contextmanager
 def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
-    """Let Ctrl-C say what it leaves behind: `kept` is asked then, and empty for nothing."""
+    """Let Ctrl-C name the files it leaves behind: `kept` is asked then, and empty for none."""
     try:
         yield
     except KeyboardInterrupt as interrupt:

@@ -1,4 +1,4 @@
-"""`rotbeam judge`: the verdict on a submission of files, from any code in any language."""
+"""`rotbeam judge`: the judgement of a submission of files, from any code in any language."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def judge(
     report: Path | None = None,
     json: Path | None = None,
 ) -> None:
-    """Judge the files that any code handed in, by what it tends to.
+    """Judge the files that any code handed in, by its limits.
 
     Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
     malformed, and all their faults are told.

@@ -43,7 +43,7 @@ RampTime = Annotated[
 """Ramp time."""
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
-"""The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""
+"""The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""
 
 _STEPS_PER_RAMP = 30
 """Steps that a chosen step leaves at least in a ramp; `simulate` refuses fewer than 20."""
@@ -94,12 +94,12 @@ def chosen_motion(
     duration: float | None = None,
     step: float | None = None,
 ) -> Motion:
-    """Return the motion given, and for what is not given the paper's, scaled by ω_0.
+    """Return the motion given, completed with the paper's values scaled by ω_0.
 
-    Speeds go with ω_0 and times with 1/ω_0, to two digits; the step is the next of 1, 2, 5 times a
-    power of ten below, and at most a thirtieth of the ramp, so that the duration is a whole number
-    of steps. Of duration and step, one that is given is kept and the other fitted to it; a
-    duration that is chosen leaves five periods after the ramp.
+    Speeds go with ω_0 and times with 1/ω_0, to two digits. The step is the next of 1, 2, 5 times a
+    power of ten below, and at most a thirtieth of the ramp: the duration is a whole number of
+    steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
+    five periods after the ramp.
     """
     omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
     ramp_time = chosen_times(beam, _RAMP_TIME)[0] if ramp_time is None else ramp_time
@@ -130,7 +130,7 @@ def configured(config: Path | None) -> RunFile:
 
 
 def omega_of(file: RunFile, omega: float | None) -> float:
-    """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
+    """Return the speed [rad/s] given, or from the file's [motion]; refuse to guess one."""
     known = file.motion.get("omega") if omega is None else omega
     if known is None:
         raise ValueError(
@@ -140,7 +140,7 @@ def omega_of(file: RunFile, omega: float | None) -> float:
 
 
 def motion_of(file: RunFile, **options: float | None) -> Motion:
-    """Return `chosen_motion` of the options given, then of what the file's [motion] holds."""
+    """Return `chosen_motion` of the options given, then of the file's [motion]."""
     given = {name: value for name, value in options.items() if value is not None}
     return chosen_motion(file.beam, **{**file.motion, **given})
 
@@ -164,13 +164,13 @@ def grid_motion(
 
 
 def slower_than_paper(beam: AnyBlade) -> float:
-    """How many times slower the beam is than the paper's."""
+    """Ratio of the paper's natural frequency to the beam's."""
     slower = Beam.reference().omega_0 / positive("the beam's ω_0", beam.omega_0, "rad/s")
     return positive("the paper's ω_0 over the beam's", slower)
 
 
 def _whole_steps(duration: float, step: float) -> int:
-    """How many steps cover a duration; what is whole but for round-off is not rounded up."""
+    """Return the number of steps that cover a duration, rounded up but for round-off."""
     return max(1, math.ceil(duration / step * (1.0 - 1e-12)))
 
 

@@ -85,16 +85,16 @@ def element_names() -> tuple[str, ...]:
 
 
 Element = Annotated[str, Parameter(converter=spelled_as(element_names))]
-"""Name of a formulation; what is none is refused by `formulation`."""
+"""Name of a formulation; `formulation` refuses unknown ones."""
 
 VariantName = Annotated[str, Parameter(converter=spelled_as(lambda: analytic.VARIANTS))]
-"""Name of a variant; what is none is refused by `reduced_model`."""
+"""Name of a variant; `reduced_model` refuses unknown ones."""
 
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Discretization:
-    """How a run is computed, as far as it is given.
+    """Discretization and integration of a run, as far as given.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class Discretization:
     frame: Annotated[Frame | None, Parameter(converter=choice)] = None
 
     def over(self, numerics: Mapping[str, Any]) -> Self:
-        """Return what is given here, over what is given in a file, over the paper's.
+        """Return the values given here, over those in a file, over the paper's.
 
         Step and duration may be left to `chosen_motion`.
         """
@@ -161,7 +161,7 @@ class Discretization:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Results:
-    """Where results go.
+    """Options on the folder of the results.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ class Results:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Workers:
-    """Who does the work.
+    """Options on the workers.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ class SectionOptions:
     ----------
     ratio
         Height in the plane over width, of a rectangle or an ellipse whose material and size follow
-        the beam's EA, EI and mass; without it, the one that has the beam's A and I.
+        the beam's EA, EI and mass; by default from the beam's A and I.
     poisson_ratio
         Poisson's ratio, for the torsional stiffness.
     """
@@ -237,7 +237,7 @@ class SectionOptions:
         return self.section if self.ratio is None else f"{self.section}-{self.ratio:g}"
 
     def of(self, beam: AnyBlade) -> AnyBlade:
-        """Return the beam with the section asked for; with what it has, where none is."""
+        """Return the beam with the section asked for, by default its own."""
         kinds = _shapes()
         kind = kinds.get(self.section)
         if kind is None and self.section != _OF_FILE:

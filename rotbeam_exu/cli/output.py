@@ -40,7 +40,7 @@ _TITLE = 22
 """Width of the titles ahead of single lines."""
 
 _DIGITS = 7
-"""Of a float in a table."""
+"""Digits of a float in a table."""
 
 _LINES = 50
 """Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
@@ -78,7 +78,7 @@ def harmless(text: str) -> str:
 
 
 def ready_streams() -> None:
-    """Let standard output and error be there, and spell what they cannot encode, omega for ω.
+    """Let standard output and error exist, and spell letters they cannot encode, omega for ω.
 
     On Windows a pipe and a file take the letters of one region only, as cp1252, which has no ω; in
     place of "omega_NL" and "lambda" a reader would find "?_NL" and "?".
@@ -94,7 +94,7 @@ def ready_streams() -> None:
 
 
 def _spell(error: UnicodeError) -> tuple[str, int]:
-    """Replace letters by what they are called, or by '?': the handler of an encoding error."""
+    """Replace letters by their names, or by '?': the handler of an encoding error."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
@@ -177,7 +177,7 @@ def _parts(least: Sequence[int], room: int) -> list[list[int]]:
 
 
 def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
-    """Return what the columns want, less what the widest texts can give for the table to fit.
+    """Return the columns' widths, with the widest texts narrowed for the table to fit.
 
     Rich does not know how long words are where it shrinks columns, and breaks numbers.
     """
@@ -217,7 +217,7 @@ def print_line(title: str, text: str) -> None:
 
 
 def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
-    """Print what was written, one path a line."""
+    """Print the files written, one path a line."""
     for path in paths:
         new_console(stderr=stderr).print(f"written {path}")
 
@@ -259,7 +259,7 @@ def _encodable(text: str, console: Console) -> str:
 
 @contextmanager
 def counter(title: str) -> Iterator[Callable[[int, int], None]]:
-    """Give what is called with the pieces done and their number.
+    """Give a function to call with the pieces done and their number.
 
     Without a terminal its lines go to standard error: results stay alone on standard output.
     """

@@ -1,4 +1,4 @@
-"""`rotbeam ramp`: what a spin-up leaves over its ramp time, and the ramp times that leave least."""
+"""`rotbeam ramp`: residual vibration over the ramp time, and the ramp times that leave least."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def ramp(
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
-    """Tell what a spin-up leaves over its ramp time, and where least.
+    """Tell the residual vibration over the ramp time, and its minima.
 
     Printed are the quiet ramp times, and the points; written are all numbers and the figure.
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 import analytic
@@ -12,6 +14,9 @@ from .job import Job
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of
 from .options import RESULTS, Results, Whole
 from .output import print_line
+
+if TYPE_CHECKING:
+    from analytic.exact.driven.response import SpinUpResponse
 
 
 def reference(
@@ -67,7 +72,7 @@ def reference(
     ).run()
 
 
-def _print(response: analytic.SpinUpResponse) -> None:
+def _print(response: SpinUpResponse) -> None:
     spin_up = response.spin_up
     farthest = int(np.abs(response.q).argmax())
     print_line("spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")

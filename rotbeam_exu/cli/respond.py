@@ -37,11 +37,11 @@ _KINDS = {
     for kind in sorted(kinds_of(Load).values(), key=_has_default)
     if kind.varied
 }
-"""Loads that have a response, by their options; those that need no size come last."""
+"""Loads that have a response, by their options; loads that need no size come last."""
 
 
 class _OneLoad:
-    """Options of which one is given: the load's size, or none but that of the kind's default."""
+    """Options, one of which is given: the load's size; if none, a load with a default size."""
 
     def one(self) -> Load:
         """Return the load."""
@@ -89,7 +89,7 @@ Loads: Any = Parameter(name="*")(
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Dampings:
-    """What takes energy from the blade, in place of the damping in its file.
+    """Damping of the blade, in place of the damping in its file.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ def run(
 
 
 def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
-    """Measure what is safe on file; a window that is too short loses nothing."""
+    """Measure a run that is on file; a window that is too short loses nothing."""
     from ..runs.oscillation import steady_oscillation
 
     try:
@@ -100,7 +100,7 @@ def _computed(case: Case) -> xr.Dataset:
 
 
 def _inputs(case: Case, element: str) -> list[tuple[str, str]]:
-    """Return the lines that say what is run."""
+    """Return the lines on the inputs of the run."""
     beam = case.beam
     return [
         (
@@ -125,7 +125,7 @@ def _inputs(case: Case, element: str) -> list[tuple[str, str]]:
 def _results(
     data: xr.Dataset, steady: SteadyOscillation, found: Assessment
 ) -> list[tuple[str, str]]:
-    """Return the lines of what was measured, beside the exact beam, and what the checks found."""
+    """Return the lines on measurements, compared with the exact beam, and on the checks."""
     worst = max(
         float(abs(data["direction_residual"]).max()),
         float(data["clamp_residual"].max()) / data.attrs["beam_length"],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,10 @@ from .job import Job
 from .motion import Config, Omega, configured, omega_of
 from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
 from .output import formatted, print_columns, print_text
+
+if TYPE_CHECKING:
+    from analytic.exact.plane.planarity import PlanarStability
+    from analytic.exact.plane.stability_limit import StabilityLimit
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
@@ -61,7 +66,7 @@ def stability(
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     inputs["growth"] = growth
 
-    def computed() -> tuple[analytic.PlanarStability, analytic.StabilityLimit]:
+    def computed() -> tuple[PlanarStability, StabilityLimit]:
         found = analytic.planar_stability(blade, omega, amplitudes, mode)
         return found, analytic.stability_limit(
             blade, omega, mode, growth=growth, largest=amplitudes[-1]
@@ -79,7 +84,7 @@ def stability(
     ).run()
 
 
-def _print(found: analytic.PlanarStability, limit: analytic.StabilityLimit) -> None:
+def _print(found: PlanarStability, limit: StabilityLimit) -> None:
     print_text(f"{limit}.")
     rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
     print_columns(

@@ -95,7 +95,7 @@ def sweep(
 
 
 def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float], list[float]]:
-    """Return what is given, or the one value of the file's [motion], or the paper's, scaled."""
+    """Return the values given, or the one of the file's [motion], or the paper's, scaled."""
     if omega is None:
         known = file.motion.get("omega")
         omega = chosen_speeds(file.beam, *paper.SPEEDS) if known is None else [known]

@@ -1,4 +1,4 @@
-"""`rotbeam table N`: the paper's tables beside what the package derives."""
+"""`rotbeam table N`: the paper's tables compared with the values that the package derives."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def table(
 ) -> None:
     """Print a table of the paper, as printed and as derived.
 
-    Differences and errata are marked; what the marks mean is below the table.
+    Differences and errata are marked; the marks are explained below the table.
 
     Parameters
     ----------

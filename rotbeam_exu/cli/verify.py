@@ -1,4 +1,4 @@
-"""`rotbeam verify`: the verdict table of the formulations and codes at hand."""
+"""`rotbeam verify`: the table of judgements on formulations and codes at hand."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes at hand, by what they tend to.
+    """Judge elements, and other codes at hand, by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
@@ -227,7 +227,7 @@ def _order(one: Judgement, name: str) -> str:
 
 
 def _sentences(found: Judgement) -> list[str]:
-    """Return why there is no verdict, or one against the code; each sentence once."""
+    """Return why a code fails or cannot be judged; each sentence once."""
     said = [
         f"{finding.outcome}: {finding.note}"
         for finding in found.by_quantity.values()

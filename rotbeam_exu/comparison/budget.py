@@ -40,11 +40,11 @@ def model_budget(
     """Frequency error of CI, CE, FrI, FrE, FrC and FrM, source by source.
 
     Each model is changed into the exact one step by step. A source is the difference of the
-    frequencies before and after its step; the sources add up to the whole error. They are the
+    frequencies before and after its step; the sources add up to the whole error. The first are the
     linear frequency (both relative to the model's own ω_n), the perturbation (Eq. 63 less Eq. 41
-    solved exactly from the peak a), the shape (cantilever's mode for the rotating one), the
-    elongation (sine for the static solution), the foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), the
-    Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
+    solved exactly from the peak a) and the shape (cantilever's mode for the rotating one). Then
+    come the elongation (sine for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
+    v'⁴/8), the Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
 
     Returns
     -------

@@ -259,7 +259,7 @@ def _spin_ups(
     duration: float,
     spun: Sequence[tuple[FloatArray, float]],
 ) -> xr.Dataset:
-    """Return spin-ups on their grid, and what the closed form leaves, corrected by the backbone."""
+    """Return spin-ups on their grid, and the closed form, corrected by the backbone."""
     shape, grid = (len(omegas), len(ramp_times)), ("fe_omega", "exact_ramp_time")
     q, left = (np.array(values) for values in zip(*spun, strict=True))
     curve = np.linspace(min(ramp_times), max(ramp_times), _CURVE)

@@ -157,7 +157,7 @@ def growth_rate(
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import growth_rate
+    >>> from rotbeam_exu.fem.linearization import growth_rate
     >>> for element in ("linear", "cable"):
     ...     print(f"{element}: {growth_rate(Beam.reference(), omega=6.0, element=element):.4f} 1/s")
     linear: 5.2471 1/s
@@ -177,7 +177,7 @@ def steady_stretch(
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import steady_stretch
+    >>> from rotbeam_exu.fem.linearization import steady_stretch
     >>> print(f"{steady_stretch(Beam.reference(), omega=6.0):.2e} m")
     2.47e-04 m
     """
@@ -217,7 +217,7 @@ def flap_frequencies(
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import flap_frequencies
+    >>> from rotbeam_exu.fem.linearization import flap_frequencies
     >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
     >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
     [ 7.0656 23.7847 57.0132]

@@ -49,7 +49,7 @@ class Mesh:
 
     @cached_property
     def positions(self) -> FloatArray:
-        """Where the nodes are along the undeformed blade, from the axis."""
+        """Places of the nodes along the undeformed blade, from the axis."""
         count = self.elements * (self.nodes_of_element - 1) + 1
         return self.blade.hub_radius + np.linspace(0.0, self.blade.length, count)
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from analytic import AnyBlade, BeamState, SpinUp, SteadyRotation
+from analytic import AnyBlade, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
+from analytic.exact.beam.state import BeamState
 from analytic.input_checks import finite_number
 from analytic.lazily import integrate
 

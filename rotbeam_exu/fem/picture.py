@@ -65,7 +65,8 @@ def ray_traced(
     Examples
     --------
     >>> from analytic import Beam, SpinUp, Tube
-    >>> from rotbeam_exu import ray_traced, simulate_3d
+    >>> from rotbeam_exu import simulate_3d
+    >>> from rotbeam_exu.fem.picture import ray_traced
     >>> tube = Beam.reference().with_shape(Tube())
     >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
     >>> run = simulate_3d(tube, motion, elements=4, duration=1.5, step=5e-3)

@@ -73,9 +73,9 @@ def add_rotating_beam(
 ) -> RotatingBeam:
     """Put a beam whose clamped end follows `rotation` into an Exudyn system.
 
-    The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on
-    its hub, straight and at rest; y is the direction in which it bends, out of the plane of
-    rotation by the setting angle. `simulate` builds its model by this.
+    The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on its
+    hub, straight and at rest. It bends in the direction y, out of the plane of rotation by the
+    setting angle. `simulate` builds its model by this.
 
     Parameters
     ----------

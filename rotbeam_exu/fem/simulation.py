@@ -9,10 +9,10 @@ from functools import partial
 
 import numpy as np
 
-from analytic import AnyBlade, BeamState, SteadyRotation
+from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
-from analytic.exact.beam.state import stretched_state
+from analytic.exact.beam.state import BeamState, stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
 from analytic.motion import SpeedChange
@@ -67,17 +67,17 @@ def simulate(
         Step size of the integrator [s]; `duration` holds a whole number of them.
     frame : {"inertial", "rotating"}
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
-        constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule, whose
-        step error at 2, 6 and 8 rad/s is 3.5, 14 and 19 times smaller for the paper's beam; only
-        there may the blade have a setting angle.
+        constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule; only
+        there may the blade have a setting angle. The step error of the paper's beam at 2, 6 and 8
+        rad/s is then 3.5, 14 and 19 times smaller.
     loads : sequence of SpeedRipple, TipForce, DistributedForce and Gravity
-        What acts on the blade, from t = 0 on; harmonic loads with their frequency. Everything
-        that is relative to the clamp is so with the ripples of its speed.
+        Loads on the blade from t = 0 on; harmonic loads with their frequency. The frame of the
+        clamp includes the ripples of its speed.
     initial_state : callable, optional
         Gives the state at material points x [m] at t = 0, as
-        ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does; otherwise the beam
-        is straight and at rest in the frame of the clamp, and stretched where a change of the
-        speed begins in rotation.
+        ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does. By default the beam
+        is straight and at rest in the frame of the clamp, and stretched if a change of the speed
+        begins in rotation.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -89,9 +89,9 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. The attributes hold every input, versions, settings, wall
-        time and the verdict; where the section out of the plane is known and planar orbits as
-        large as the motion after the ramp leave the plane, `out_of_plane` says so.
+        jacobi_energy changes. The attributes hold every input, versions, settings, wall time and
+        the verdict. `out_of_plane` is there if the section out of the plane is known and planar
+        orbits as large as the motion after the ramp leave the plane.
 
     Raises
     ------

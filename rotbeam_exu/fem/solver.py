@@ -111,7 +111,7 @@ def solve(
 ) -> BaseException | None:
     """Run the solver, and return its error where it gave up.
 
-    Ctrl-C, and whatever `progress` raises, come out as what they are.
+    Ctrl-C, and whatever `progress` raises, come out unchanged.
     """
     shown, end = 0.0, settings.timeIntegration.endTime
     interruption: BaseException | None = None

@@ -41,7 +41,7 @@ def divergence_speed(
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import divergence_speed
+    >>> from rotbeam_exu.fem.stability import divergence_speed
     >>> for substructures in (1, 2, 4):
     ...     print(f"{substructures}: {divergence_speed(Beam.reference(), substructures):.4f} rad/s")
     1: 2.9106 rad/s
@@ -59,8 +59,7 @@ def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> x
     Returns
     -------
     Dataset
-        `divergence_speed` over `frame` and `substructures`; the attribute omega_0 is that of the
-        beam [rad/s].
+        `divergence_speed` over `frame` and `substructures`; attribute omega_0: the beam's [rad/s].
     """
     frames: tuple[FloatingFrame, ...] = ("tangent", "pinned")
     values = [[divergence_speed(beam, n, f, cells=cells) for n in counts] for f in frames]

@@ -1,7 +1,7 @@
-"""The units in which Exudyn solves: those of the beam, so that no tolerance knows SI.
+"""The units in which Exudyn solves: the beam's own, so that no tolerance knows SI.
 
 Length L and mass m of the beam are one, and time is counted in steps of a power of two near
-√(mL³/EI), the time of Eq. 40: any beam, from a reed to a blade, is then the same numbers, and
+√(mL³/EI), the time of Eq. 40. Any beam, from a reed to a blade, then gives the same numbers, and
 sums of steps are exact.
 """
 
@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
-from analytic import AnyBlade, BeamState
+from analytic import AnyBlade
+from analytic.exact.beam.state import BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
 

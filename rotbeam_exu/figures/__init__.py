@@ -1,7 +1,7 @@
 """The figures: each takes data and `ax=`, by default of a new figure, returns Axes, shows nothing.
 
 The only place that knows matplotlib. The data comes from the function of the same name in
-`rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` an `analytic.Campbell`,
+`rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` a `Campbell`,
 `forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
 `divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
 """
@@ -51,13 +51,13 @@ PAPER_FIGURES: dict[int, PaperFigure] = {
 
 
 def caption(number: int, data: xr.Dataset) -> str:
-    """Return a figure's caption: what it shows, of which beam, what the paper says, what is true.
+    """Return a figure's caption: the content, the beam, the paper's claim, and the truth.
 
     Parameters
     ----------
     number : int
         3, 4, 5, or 8 to 15.
     data : Dataset
-        What is drawn, as made by the function `figure_...` of `rotbeam_exu.comparison`.
+        The data, as made by the function `figure_...` of `rotbeam_exu.comparison`.
     """
     return PAPER_FIGURES[number].caption(data)

@@ -13,8 +13,9 @@ from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 
-from analytic import LinearResponse, SpinUpResponse
 from analytic.arrays import FloatArray
+from analytic.exact.driven.response import SpinUpResponse
+from analytic.reduced.linear_frame import LinearResponse
 
 from ..paper import BLUE, ORANGE, RED
 from .style import STYLE, new_figure
@@ -24,11 +25,11 @@ _TRAIL = 0.6  # seconds of the tip's path that stay visible
 _FINER = 8  # points of that path from one picture to the next
 _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
 _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}
-"""How the line that turns with the clamp is drawn."""
+"""Style of the line that turns with the clamp."""
 
 _Response = SpinUpResponse | LinearResponse
 _Moving = Callable[[int], None]
-"""What moves, drawn anew at time number n."""
+"""A moving part, drawn anew at time number n."""
 
 
 class _Gif(PillowWriter):
@@ -47,8 +48,8 @@ def animate(
 ) -> FuncAnimation:
     """Return the animation of a spin-up, one picture per time of the response.
 
-    Seen from outside and turning with the clamp, or from outside, twice, beside what a linear
-    model makes of it.
+    The views are from outside and turning with the clamp; or both from outside, the second of a
+    linear model.
 
     Parameters
     ----------
@@ -268,7 +269,7 @@ def _view(ax: Axes, title: str, length: float, left: float = _REACH) -> None:
 
 
 def _scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
-    """Draw a bar of a quarter of the beam's length below a view, and what the dashes are beside."""
+    """Draw a bar of a quarter of the beam's length below a view, and name the dashes beside it."""
     bar, low, left = 0.25 * length, -0.98 * _REACH * length, start * length
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
     ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")

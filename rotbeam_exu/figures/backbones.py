@@ -91,7 +91,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 
 
 def _spelled_legend(ax: Axes) -> None:
-    """Say below the figure what the lines are: in words where there is room for them."""
+    """Name the lines below the figure, in words if there is room for them."""
     handles, names = ax.get_legend_handles_labels()
     figure: Any = ax.get_figure(root=True)
     if figure.get_figwidth() > 6.0:

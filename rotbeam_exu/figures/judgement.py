@@ -1,4 +1,4 @@
-"""What was judged of a case: its history over the reference, errors over mesh and step, cost."""
+"""A judged case: its history over the reference, errors over mesh and step, cost."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def growth_out_of_plane(
     *,
     spin_ups: Mapping[float, Sequence[float]] | None = None,
 ) -> Axes:
-    """Draw the map of growth rates over speed and amplitude; what is white stays in the plane.
+    """Draw the map of growth rates over speed and amplitude; white stays in the plane.
 
     Parameters
     ----------

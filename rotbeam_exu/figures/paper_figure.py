@@ -1,4 +1,4 @@
-"""A figure of the paper: its data, its drawing, what it shows, and what the paper claims of it."""
+"""A figure of the paper: its data, its drawing, its content, and the paper's claim on it."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class PaperFigure:
     draw : callable
         Draws it; returns Axes, or some.
     shows : callable
-        Says from the data what is drawn: models, speeds and mesh.
+        Gives, from the data, the sentence on models, speeds and mesh drawn.
     claim : str
-        Claim of the paper, and what is true.
+        Claim of the paper, and the truth.
     sweeps : bool
-        Whether the data are those of a sweep, which takes `jobs`, `cache` and `progress`.
+        Whether the data come from a sweep, which takes `jobs`, `cache` and `progress`.
     """
 
     number: int
@@ -41,7 +41,7 @@ class PaperFigure:
     sweeps: bool = False
 
     def caption(self, data: xr.Dataset) -> str:
-        """Return what it shows, of which beam, what the paper says of it, and what is true."""
+        """Return the caption: the content, the beam, the paper's claim, and the truth."""
         plane = str(data.attrs.get("out_of_plane", ""))
         return " ".join(" ".join([self.shows(data), _beam(data), self.claim, plane]).split())
 

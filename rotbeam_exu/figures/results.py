@@ -11,7 +11,7 @@ import xarray as xr
 from cycler import cycler
 from matplotlib.axes import Axes
 
-from analytic import Campbell
+from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
 
 from ..paper import BLUE, ORANGE, RED

@@ -156,7 +156,7 @@ FIGURE_4 = PaperFigure(
 def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the orbits of models, exact beam and finite elements over one period of the latter.
 
-    A dot marks where each orbit ends; the inset shows those that end near the start.
+    A dot marks the end of each orbit; the inset shows the orbits that end near the start.
     """
     amplitude = float(data.attrs["amplitude"])
     fastest = float(data["q_dot_bar"].sel(model="finite element").max())

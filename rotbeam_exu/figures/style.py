@@ -1,4 +1,4 @@
-"""What makes the figures one family: sizes for a journal's column, and colors that all can tell."""
+"""Style of the figures: sizes for a journal's column, and colors that all readers can tell."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ STYLE: Any = {
 
 @dataclass(frozen=True, kw_only=True)
 class Style:
-    """What a journal asks of a figure.
+    """Style of a figure, as a journal asks for it.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Style:
     grey : bool
         Black and greys only; lines are told apart by dashes and marks.
     formats : tuple of str
-        Endings of what is saved, such as "svg".
+        Endings of the saved files, such as "svg".
     """
 
     column: float = 88.9

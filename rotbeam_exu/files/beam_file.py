@@ -41,9 +41,9 @@ class RunFile:
     beam : Beam or Blade
         The paper's beam, where the file has none.
     motion : dict
-        Of `omega` [rad/s] and `ramp_time` [s] those that the file holds.
+        `omega` [rad/s] and `ramp_time` [s], if the file holds them.
     numerics : dict
-        Of `element`, `elements`, `step` [s], `duration` [s] and `frame` those that it holds.
+        `element`, `elements`, `step` [s], `duration` [s] and `frame`, if it holds them.
     """
 
     beam: AnyBlade
@@ -135,7 +135,7 @@ def _text(name: str, value: object) -> str:
 
 
 def _read_toml(source: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file, refusing what is none."""
+    """Return the tables of a TOML file; refuse other files."""
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
     try:
@@ -224,7 +224,7 @@ def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:
 def _require_keys(
     table: Any, title: str, source: Path, wanted: tuple[str, ...], optional: tuple[str, ...] = ()
 ) -> None:
-    """Refuse what is no table, keys that are unknown, with a near one, and such as are missing."""
+    """Refuse values that are no table, unknown keys, naming a near one, and missing keys."""
     if not isinstance(table, dict):
         raise ValueError(f"{source}: write {title} as a table")
     known = (*wanted, *optional)

@@ -1,4 +1,4 @@
-"""A Dataset as the bytes of a netCDF file, sealed: what is damaged never reaches HDF5."""
+"""A Dataset as the bytes of a netCDF file, sealed: damaged bytes never reach HDF5."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def same(one: Any, other: Any) -> bool:
 
 
 def _attributes(data: xr.Dataset) -> Iterator[tuple[str, Any]]:
-    """Every attribute with its name in words, those of the variables after the Dataset's own."""
+    """Every attribute with its name in words, the variables' after the Dataset's own."""
     for name, value in data.attrs.items():
         yield f"the attribute {name!r}", value
     for variable, array in data.variables.items():

@@ -182,9 +182,9 @@ def differing_inputs(
     Returns
     -------
     dict
-        By name, the value in `run` and the one in the file, None where there is none, of every
-        input that differs; `variables`, if the file has some that the result lacks; `file`, if it
-        cannot be read. Empty if there is no file, or if it may be replaced without loss.
+        By name of each input that differs, its values in `run` and in the file, None if missing.
+        `variables`, if the file has some that the result lacks; `file`, if it cannot be read. Empty
+        if there is no file, or if it may be replaced without loss.
     """
     target = Path(path)
     kept = target.with_suffix(".nc") if target.suffix == ".csv" else target

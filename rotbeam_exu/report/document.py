@@ -60,7 +60,7 @@ class Record:
 
 
 def document(record: Record) -> dict[str, Any]:
-    """Return what was judged, found, and by what; numbers that are not known are None."""
+    """Return the submission, the findings and the versions; unknown numbers are None."""
     found = record.judgement
     made: dict[str, Any] = _plain(
         {

@@ -18,10 +18,10 @@ from ..verification.submission import Run
 from .document import Record, document
 
 TITLE = "rotbeam judgement"
-"""Begins the title of each page, by which one is known."""
+"""Beginning of each page's title, by which a page is known."""
 
 _PIXELS = 1.75
-"""Of a point of a figure, whose letters are then as large as the text's."""
+"""Pixels to a point of a figure: its letters are then as large as the text's."""
 
 _MARKS = {
     Outcome.REFERENCE: ("right", "✓"), Outcome.NOT_SUBMITTED: ("open", "–"),
@@ -40,7 +40,7 @@ def report_page(record: Record) -> str:
         name=escape(record.name),
         benchmark=VERSION,
         date=f"{record.date:%d %B %Y, %H:%M} UTC",
-        verdict=escape(found.outcome),
+        outcome=escape(found.outcome),
         mistakes=_mistakes(record),
         about=_about(record),
         outcomes=_outcomes(record),

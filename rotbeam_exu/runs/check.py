@@ -1,4 +1,4 @@
-"""A solver that reports success is not believed: what a run must satisfy to be returned."""
+"""Checks that a run must pass to be returned: a solver that reports success is not believed."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class SimulationError(RuntimeError):
     Attributes
     ----------
     run : Dataset or None
-        What was computed, where the solver finished: to look at, not to use.
+        The computed run if the solver finished: to look at, not to use.
     """
 
     run: xr.Dataset | None = None
@@ -93,10 +93,9 @@ def _reach(run: xr.Dataset) -> FloatArray:
 
 
 def balanced_energy(run: xr.Dataset) -> tuple[FloatArray, str]:
-    """Return what of the energy [J] stays constant in steady rotation, (samples,), and its name.
+    """Return the energy [J] that stays constant in steady rotation, (samples,), and its name.
 
-    The Jacobi energy E - ω L_z, less what loads, damping and changes of the speed supplied of it,
-    where the run has any.
+    The Jacobi energy E - ω L_z, less the energy supplied by loads, damping and the speed.
     """
     energy = run["jacobi_energy"].to_numpy()
     if "supplied_energy" not in run:
@@ -116,9 +115,9 @@ def check_run(run: xr.Dataset) -> str:
     Raises
     ------
     SimulationError
-        If the run did not reach its end, holds a number that is not finite, leaves the reach of
-        the beam, strains it beyond the linear law, violates the clamp, or does not conserve the
-        Jacobi energy E - ω L_z once the rotation is steady, but for the energy supplied.
+        If the run did not reach its end, holds a number that is not finite, leaves the reach of the
+        beam, strains it beyond the linear law, or violates the clamp. If it does not conserve the
+        Jacobi energy E - ω L_z in steady rotation, but for the energy supplied.
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs
@@ -172,9 +171,9 @@ def check_run(run: xr.Dataset) -> str:
 def energy_drift(run: xr.Dataset) -> tuple[float, float]:
     """Return drift and ripple of the steady `balanced_energy` over the largest elastic one.
 
-    The drift is the change of its trend, a straight line, over the steady phase: what the
-    integrator gains or loses for good. The ripple is the largest deviation from that line: the
-    truncation error that comes and goes with the oscillation, of second order in the step.
+    The drift is the change of its trend, a straight line, over the steady phase: the integrator's
+    lasting gain or loss. The ripple is the largest deviation from that line: the truncation error
+    that comes and goes with the oscillation, of second order in the step.
     """
     time = run["time"].to_numpy()
     steady = time >= run.attrs["ramp_time"]

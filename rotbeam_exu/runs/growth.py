@@ -61,7 +61,7 @@ def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     --------
     >>> import numpy as np
     >>> import xarray as xr
-    >>> from rotbeam_exu import growth_rate_of
+    >>> from rotbeam_exu.runs.growth import growth_rate_of
     >>> time = np.linspace(0.0, 40.0, 4001)
     >>> w = 1e-6 * np.exp(0.5 * time)  # stands for a run of simulate_3d
     >>> tip = {"q": np.sin(3.0 * time), "w": w, "w_dot": 0.5 * w}

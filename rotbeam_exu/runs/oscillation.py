@@ -80,9 +80,9 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """Measure the oscillation of q from the end of the ramp to the end of the run.
 
     A Fourier series and, for the other modes, free tones are fitted to q, frequencies included, by
-    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). The errors bound what the
-    remainder of the fit could have done, were its phases the least lucky. Time may be in any
-    unit, evenly sampled or not.
+    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). The errors bound the
+    effect of the fit's remainder at its most harmful phases. Time may be in any unit, evenly
+    sampled or not.
 
     Parameters
     ----------
@@ -96,9 +96,9 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     TypeError
         If `run` is not a Dataset.
     NoOscillationError
-        A ValueError, if something is missing, not finite or out of order; if the tip does not
-        oscillate; if the window holds fewer than two cycles, or fewer than 20 samples a cycle; if
-        the frequency is not within half and twice ω_n. The sentence says what would do.
+        A ValueError, if something is missing, not finite or out of order, or if the tip does not
+        oscillate. Also if the window holds fewer than two cycles or 20 samples a cycle, or if the
+        frequency is not within half and twice ω_n. The sentence says what would do.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
 
 
 def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
-    """Return time from the end of the ramp, q/L, and the ramp time, of what is fit to measure."""
+    """Return the steady part: time from the end of the ramp, q/L, and the ramp time."""
     _check_form(run)
     length = positive("the attribute beam_length", run.attrs["beam_length"])
     ramp_time = not_negative("the attribute ramp_time", run.attrs["ramp_time"])
@@ -173,7 +173,7 @@ def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
 
 
 def _check_form(run: xr.Dataset) -> None:
-    """Refuse what is not a Dataset with q over time, in one sentence that names what is missing."""
+    """Refuse all but a Dataset with q over time, in one sentence that names the missing part."""
     if not isinstance(run, xr.Dataset):
         raise TypeError(
             f"steady_oscillation takes a Dataset, got {type(run).__name__}: "

@@ -1,4 +1,4 @@
-"""Limits of what a mesh and a step resolve, told before a run instead of after it."""
+"""Resolution limits of a mesh and a step, told before a run instead of after it."""
 
 from __future__ import annotations
 
@@ -40,8 +40,7 @@ def checked_steps(
     Raises
     ------
     ValueError
-        If the run ends before its ramp, is no whole number of steps, or is one that the functions
-        below refuse.
+        If the run ends before its ramp, is no whole number of steps, or a check below fails.
     """
     if duration <= ramp_time:
         raise ValueError(

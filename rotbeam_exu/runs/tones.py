@@ -1,7 +1,7 @@
 """A sampled signal as a Fourier series and free tones, and how far its remainder could mislead.
 
-x(t) ≈ c₀ + Σ_k [c_k cos(kωt) + s_k sin(kωt)] + Σ_j [c_j cos(ν_j t) + s_j sin(ν_j t)]: the series is
-the periodic oscillation of fundamental ω, the tones are what other modes add, wherever they are.
+x(t) ≈ c₀ + Σ_k [c_k cos(kωt) + s_k sin(kωt)] + Σ_j [c_j cos(ν_j t) + s_j sin(ν_j t)]. The series is
+the periodic oscillation of fundamental ω; the tones belong to other modes, at any frequency.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ HARMONICS = 9
 """Harmonics of the series; the tenth is the highest that 20 samples a period could tell."""
 
 _TONES = 8
-"""Free tones at most: a second bending mode and its sidebands ν ± mω, of which seven count."""
+"""Free tones at most: a second bending mode and its sidebands ν ± mω, seven of which count."""
 
 _LOBE = 2
 """Half the width of the main lobe of Hann's window [turns over the window]."""
@@ -133,9 +133,9 @@ class Fit:
         """Attach an error to a number that changes with the parameters by `gradient`.
 
         The number moves with the samples by g·δx, g the influence function of the fit. The
-        remainder r is orthogonal to g, but what it is part of need not be: |g·δx| is bounded by
-        Σ |ĝ| |r̂| over the discrete frequencies, r with the least lucky phases. Near its own
-        frequencies the fit has eaten what was there, so r̂ is the largest of its neighbours.
+        remainder r is orthogonal to g, but the whole error need not be: |g·δx| is bounded by Σ |ĝ|
+        |r̂| over the discrete frequencies, r with the least lucky phases. Near its own frequencies
+        the fit has absorbed the error, so r̂ is the largest of its neighbors.
         """
         tangent = self._tangent()
         root = np.sqrt(self.weights)[:, None]

@@ -89,7 +89,7 @@ class Cache:
 def maker(element: str | Formulation) -> dict[str, str] | None:
     """Return what besides its inputs makes the result of a case: the element's class and the code.
 
-    None if the files do not tell what the class does; see `code_of`.
+    None if the files do not determine the class; see `code_of`.
     """
     cls = type(formulation(element))
     code = code_of(cls)
@@ -97,16 +97,16 @@ def maker(element: str | Formulation) -> dict[str, str] | None:
 
 
 def code_of(cls: type) -> str | None:
-    """Return a digest of both packages' files, and of those of a class and its bases.
+    """Return a digest of the files of both packages, of a class and of its bases.
 
-    The files of a class are those of its package; or its module, and what that imports from the
-    same folder. Any change of a file counts, that of a docstring too.
+    The files of a class are its package's; or its module, and the module's imports from the same
+    folder. Any change of a file counts, that of a docstring too.
 
     Returns
     -------
     str or None
-        None if the files do not tell what the class does: it is not on file, as in an interactive
-        session; made inside of a function, whose values it may use; or patched.
+        None if the files do not determine the class: it is not on file, as in an interactive
+        session, it is made inside a function, whose values it may use, or it is patched.
     """
     names = {base: base.__module__.partition(".")[0] for base in cls.__mro__}
     bases = [base for base, name in names.items() if name not in sys.stdlib_module_names]
@@ -132,7 +132,7 @@ def _told_by_its_files(cls: type) -> bool:
 
 
 def _files(name: str) -> dict[str, bytes]:
-    """Return the files of a package; or a module, and what it imports from its folder."""
+    """Return the files of a package; or a module, and its imports from its folder."""
     module = sys.modules[name]
     if hasattr(module, "__path__"):
         folders = [Path(folder) for folder in module.__path__]

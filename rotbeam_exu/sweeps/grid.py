@@ -63,8 +63,8 @@ def sweep(
         Number of processes of the default executor, by default the cores; 1 runs in this process.
     cache : path, optional
         Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
-        What is found there was made by the same code: of this project, of the element, of whatever
-        else they import that is no installed library.
+        Results found there were made by the same code: this project's, the element's, and all else
+        they import but installed libraries.
     progress : callable, optional
         Called with the cases done and their number.
     on_error : {"raise", "record"}

@@ -31,7 +31,7 @@ MEASURED = {
     "residual": ("1", "second bending mode, rms over L"),
     "omega_n": ("rad/s", "natural frequency ω_n of the mesh"),
 }
-"""What is measured of a case: unit and long name."""
+"""Quantities measured of a case: unit and long name."""
 
 
 def solve(case: Case) -> xr.Dataset:
@@ -82,7 +82,7 @@ def collect(
     results: dict[tuple[float, float], xr.Dataset],
     history: bool,
 ) -> xr.Dataset:
-    """Return the table of a sweep, as `sweep` describes it, with what is known so far."""
+    """Return the table of a sweep, as `sweep` describes it, with all results so far."""
     omegas = list(dict.fromkeys(omega for omega, _ in cases))
     ramp_times = list(dict.fromkeys(ramp_time for _, ramp_time in cases))
     shape = (len(omegas), len(ramp_times))

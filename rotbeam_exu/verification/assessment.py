@@ -1,4 +1,4 @@
-"""What a run's frequencies are worth: against the exact beam, mesh and step apart."""
+"""Assessment of a run's frequencies against the exact beam, mesh and step apart."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _NOISE = 1e-7
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
-    """Frequencies of a run beside those of the exact, extensible beam of its element's theory.
+    """Frequencies of a run, compared with the exact, extensible beam of its element's theory.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Assessment:
     amplitude, frequency : float
         Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
     exact_frequency : float or None
-        That of the exact beam's periodic orbit at the run's own amplitude [rad/s].
+        Frequency of the exact beam's periodic orbit at the run's own amplitude [rad/s].
     why_not : str
         Why the exact orbit cannot be had, where it cannot.
     """
@@ -69,12 +69,12 @@ class Assessment:
 
     @property
     def refined_error(self) -> float:
-        """That of a mesh twice as fine."""
+        """Frequency of a mesh twice as fine."""
         return self.refined_omega_n / self.exact_omega_n - 1.0
 
     @property
     def elsewhere(self) -> bool:
-        """Whether a finer mesh would not help: what is simulated tends to another frequency."""
+        """Whether a finer mesh would not help: its limit is another frequency."""
         return abs(self.refined_error) > max(_STAYS * abs(self.mesh_error), _NOISE)
 
     @property
@@ -158,9 +158,9 @@ def assess(case: Case, steady: SteadyOscillation) -> Assessment:
     Parameters
     ----------
     case : Case
-        What was run.
+        The run's inputs.
     steady : SteadyOscillation
-        What was measured of it.
+        Its oscillation.
 
     Notes
     -----

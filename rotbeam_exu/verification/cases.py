@@ -1,4 +1,4 @@
-"""The tasks of the benchmark, each a blade, how it is driven, and what is asked."""
+"""The cases of the benchmark: each a blade, its motion and loads, and the quantity asked for."""
 
 from __future__ import annotations
 
@@ -50,10 +50,7 @@ class Case:
     name : str
         As files and folders are named: "L", "S1", "S1+h".
     level : Level
-    title : str
-        What it is, in a few words.
-    asked : Asked
-    blade : Beam or Blade
+    title : str Title in a few words. asked : Asked blade : Beam or Blade
         Damping included.
     motion : SpinUp or SteadyRotation, optional
         How the clamp turns, of a history.
@@ -117,7 +114,7 @@ class Case:
 
 
 def stated(value: Any) -> dict[str, Any]:
-    """Return the fields of a value by name, but those that are nothing, as they are by default.
+    """Return the fields of a value by name, without fields that are empty by default.
 
     A blade that learns to have more then states the same as before.
     """

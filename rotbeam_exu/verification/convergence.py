@@ -78,18 +78,16 @@ def convergence(
 ) -> Convergence:
     """Extrapolate the values of several runs to size zero.
 
-    By the observed order where it can be measured, with a bar of twice what the declared order
-    would change; else by the declared one, or the first, with a bar of twice the correction. Where
-    the last change is no larger than the noise, the finest run is the limit. Where changes
-    alternate or grow, it is the limit with a bar of three changes.
+    By the observed order if it can be measured, with a bar of twice the change by the declared
+    order; else by the declared order, or the first, with a bar of twice the correction. Where the
+    last change is no larger than the noise, the finest run is the limit. Where changes alternate or
+    grow, it is the limit with a bar of three changes.
 
     Parameters
     ----------
     sizes : sequence (runs,)
         Mesh sizes or steps, in any unit and order; no two the same.
-    values : sequence (runs,)
-        What was found.
-    noise : float or sequence (runs,)
+    values : sequence (runs,) The results. noise : float or sequence (runs,)
         Largest error of the measurement itself, in the unit of the values.
     declared : float, optional
         Order that the author expects.

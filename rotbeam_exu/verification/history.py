@@ -27,19 +27,19 @@ HISTORY_FLOOR = 1e-6
 and what Newton's tolerances may leave."""
 
 LEAST_SHIFT = 5e-4
-"""Least |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in what a history of ten cycles
-tells of its frequency."""
+"""Least |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in the frequency's uncertainty
+over ten cycles."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Histories:
-    """The runs of one case that a code handed in, beside the reference.
+    """The submitted runs of one case, compared with the reference.
 
     Attributes
     ----------
     case : Case
     runs : tuple of Run
-        Those that did not fail.
+        Runs that did not fail.
     reference : Reference
     declaration : Declaration
     """
@@ -112,7 +112,7 @@ class Histories:
     def shift(self, tolerance: float, linear: Convergence | None) -> Finding | None:
         """Return the finding of ω_NL/ω_n - 1, the run's own amplitude taken.
 
-        `linear` is what the code's ω_n/ω_n,exact - 1 tends to; without it ω_n is the reference's.
+        `linear` is the limit of the code's ω_n/ω_n,exact - 1; without it ω_n is the reference's.
         None of a shift that is less than LEAST_SHIFT.
         """
         if isinstance(self.true_oscillation, str):
@@ -143,7 +143,7 @@ class Histories:
         bound: float,
         scale: float,
     ) -> Finding:
-        """Return the finding of what the runs showed, over `scale`."""
+        """Return the finding from the runs' numbers, over `scale`."""
         finest = self.oscillations[self.rows.finest]
         if isinstance(finest, str):
             return Finding(outcome=Outcome.NO_LIMIT, note=finest)

@@ -1,4 +1,4 @@
-"""The judgement of what a code handed in, by stated thresholds: per case and quantity."""
+"""The judgement of a submission by stated thresholds, per case and quantity."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ THRESHOLDS = {
 }
 """Largest relative difference of the limit from the reference that passes.
 
-Of ω_n, what is off by more moves ω_NL by a tenth of the least nonlinear shift that the paper shows,
-2e-3 at 2 rad/s; theories of small strain and thin beams differ by less, shear by 8e-5 here. Of
-q(t), over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seconds, 45 rad. Of
-ω_NL/ω_n - 1 and of backbones: the best third-order model is off by 6 % at a = 0.4.
+ω_n: a larger error moves ω_NL by a tenth of the least nonlinear shift in the paper, 2e-3 at 2
+rad/s. Theories of small strain and thin beams differ by less, shear by 8e-5 here. The history q(t),
+over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seconds, 45 rad. The nonlinear
+shift and backbones: the best third-order model is off by 6 % at a = 0.4.
 """
 
 FLOOR = 1e-7
@@ -48,9 +48,9 @@ class Judgement:
     orders : dict
         By name of the case, and in it of "mesh" and "step": of q(t).
     histories : dict
-        By name of the case, what was judged: runs, differences from the reference, scale.
+        By name of the case, the judged runs, their differences from the reference, and the scale.
     sources : dict
-        By name of the case, which reference was used.
+        By name of the case, the reference that was used.
     """
 
     declaration: Declaration
@@ -105,18 +105,18 @@ def judged(
     *,
     cases: dict[str, Case] | None = None,
 ) -> Judgement:
-    """Judge what a code handed in by where it converges to.
+    """Judge a submission by the limits to which it converges.
 
     Parameters
     ----------
     submission : Submission
     cases : dict, optional
-        By name; those of the benchmark by default. What was not submitted of them is left out.
+        By name; those of the benchmark by default. Cases that were not submitted are left out.
 
     Returns
     -------
     Judgement
-        Where the reference, or what measures it, fails, there is no verdict, and the note of the
+        If the reference or the estimator fails, the outcome is "no verdict", and the note of the
         finding says why; a code that fails has its own sentence there.
 
     Examples
@@ -178,7 +178,7 @@ def judged(
 
 
 def _histories(submission: Submission, truth: Reference) -> Histories | Finding:
-    """Return the runs of a case; what the code refuses on its finest mesh, it cannot do."""
+    """Return the runs of a case; a code cannot do a case that it refuses on its finest mesh."""
     runs = [run for run in submission.runs if run.case == truth.case.name]
     finest = max(runs, key=lambda run: (run.elements, -run.step))
     if finest.failure:
@@ -194,7 +194,7 @@ def _histories(submission: Submission, truth: Reference) -> Histories | Finding:
 def _of_histories(
     seen: Histories, linear: Mapping[float, Convergence]
 ) -> tuple[dict[str, Finding], dict[str, Order]]:
-    """Return what is found of the runs of a case, by quantity, and their orders."""
+    """Return the findings on the runs of a case, by quantity, and their orders."""
     history, orders = seen.deflection(THRESHOLDS["history"])
     findings = {"history": history}
     if seen.case.oscillates:

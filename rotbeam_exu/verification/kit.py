@@ -67,7 +67,7 @@ COLUMNS = {
 """Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
 
 MESHES = (8, 16, 32, 64, 128)
-"""Numbers of elements at whose nodes an orbit is written; those of order two need the last ones."""
+"""Numbers of elements at whose nodes an orbit is written; codes of order two need the last ones."""
 
 _SOURCES = {SOURCE.name, DIGEST.name}  # of the PDF, which is what an author wants
 
@@ -135,7 +135,7 @@ def kit_files() -> dict[str, bytes]:
 
 
 def row_of(case: Case) -> dict[str, Any]:
-    """Return the data of a case by the names in cases.csv; what it does not have is None.
+    """Return the data of a case by the names in cases.csv; None stands for missing data.
 
     Raises
     ------
@@ -253,7 +253,7 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
 
 
 def problem_numbers() -> str:
-    """Return what the problem's source takes from here, as JSON: cases, thresholds, S1."""
+    """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
     case = CASES["S1"]
     times = np.linspace(0.0, case.duration, 601)
     document = {
@@ -268,7 +268,7 @@ def problem_numbers() -> str:
 
 
 def _besides(case: Case) -> list[str]:
-    """Return what the problem says of a case beside its beam and motion, in Typst's markup."""
+    """Return the problem's text on a case beside its beam and motion, in Typst's markup."""
     row = row_of(case)
     listed = {"$omega$: {} rad/s": case.speeds, "$a$: {}": case.amplitudes}
     said = [text.format(", ".join(f"{x:g}" for x in of)) for text, of in listed.items() if of]

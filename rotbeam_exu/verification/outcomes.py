@@ -23,7 +23,7 @@ class Outcome(StrEnum):
 
     @property
     def passed(self) -> bool | None:
-        """True where the code is right; None where it cannot be said, which is not its fault."""
+        """True if the code is right; None if it cannot be decided, which is not its fault."""
         if self in (Outcome.NOT_SUBMITTED, Outcome.NO_VERDICT):
             return None
         return self is Outcome.REFERENCE
@@ -41,7 +41,7 @@ class Finding:
     bound : float
         Relative error of the reference itself.
     note : str
-        Why there is no verdict, or where the code failed.
+        Why it cannot be decided, or where the code failed.
     tolerance : float
         Largest difference of the limit that passes.
     difference : float
@@ -75,9 +75,9 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Order:
-    """The order of q(t) that the author's own meshes or steps show, beside the declared one.
+    """The order of q(t) over the author's own meshes or steps, compared with the declared one.
 
-    It is told and decides nothing: where a code converges to is what its limit says.
+    It decides nothing: a code is judged by its limit.
 
     Attributes
     ----------
@@ -106,12 +106,11 @@ class Order:
 def found_of(runs: Convergence, *, tolerance: float, bound: float, where: str) -> Finding:
     """Return the finding of relative differences to a reference that is known within `bound`.
 
-    With the doubt d, the bar of the limit and the bound of the reference, a code converges to the
-    reference where d is within the tolerance and the limit within tolerance + d: it cannot be told
-    apart from one that is right. So refining, which lessens d, never takes that away from a code
-    whose true limit is within the tolerance. It converges to another limit where that is farther
-    off; where changes grow and exceed the tolerance it does not converge. In between meshes are
-    too coarse for a verdict.
+    The uncertainty d is the bar of the limit plus the bound of the reference. A code converges to
+    the reference if d is within the tolerance and the limit within tolerance + d: it cannot be told
+    apart from a right code. Refining lessens d, so it never fails a code whose true limit is within
+    the tolerance. The code converges to another limit if that is farther off; it does not converge
+    if changes grow and exceed the tolerance. In between its meshes are too coarse to judge.
     """
     doubt, difference, note = runs.bar + bound, abs(runs.limit), ""
     if math.isnan(difference):

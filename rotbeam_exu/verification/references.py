@@ -91,7 +91,7 @@ class Reference:
         ----------
         amplitude : float
         speed : float, optional
-            [rad/s]; that of the case's steady rotation by default.
+            [rad/s]; by default the speed of the case's steady rotation.
 
         Raises
         ------
@@ -103,7 +103,7 @@ class Reference:
         return float(self.frequencies_at([amplitude], speed)[0])
 
     def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
-        """Return what `frequency_at` does, of several amplitudes: what is computed, in one go."""
+        """Return `frequency_at` of several amplitudes, computed in one go."""
         speed = self.case.rotation.omega if speed is None else speed
         data, blade, known = _shipped_of(self.theory), self.case.blade, self._known
         at = [(speed, float(a)) for a in amplitudes]
@@ -151,7 +151,7 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
 
 
 def _shipped_of(theory: Theory) -> Shipped | None:
-    """Return the shipped data of a theory; there are none where they are being made anew."""
+    """Return the shipped data of a theory; None while they are being made anew."""
     return shipped() if theory == BERNOULLI_EULER and FILE.exists() else None
 
 

@@ -1,4 +1,4 @@
-"""Runs of a case in the order of their meshes and of their steps, and what they tend to."""
+"""Runs of a case in the order of their meshes and of their steps, and their limits."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def limit_of_histories(
     Returns
     -------
     runs : Convergence
-        In the mesh, of the largest size of the history; its limit is that of the last one.
+        In the mesh, of the largest size of the history; its limit is the last history's.
     steps : Convergence or None
         In the step alone, lengths of way as of `convergence_of_functions`.
     limit : ndarray (samples,)
@@ -133,7 +133,7 @@ def _nearest_step(rows: Refinement, declaration: Declaration) -> tuple[int, floa
 
 
 def _both(mesh: Convergence, step: Convergence | None, **found: Any) -> Convergence:
-    """Return the convergence in the mesh with what it and the step's amount to together."""
+    """Return the convergence in the mesh with both its uncertainty and the step's."""
     if step is None:
         return replace(mesh, **found)
     settles = mesh.settles and step.settles

@@ -98,9 +98,9 @@ def history(case: Case) -> Sampled:
 def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     """Compute ω_n, the curvature at `amplitudes`, and the relative error of ω_NL.
 
-    The error is that of the spline halfway between its points, and the change by half as many
-    functions again. Beyond the amplitude where that of the spline exceeds _WORST, or orbits are
-    not reached, the curvature is NaN.
+    The error is the spline's, halfway between its points, and the change by half as many functions
+    again. Beyond the amplitude where the spline's error exceeds _WORST, or orbits are not reached,
+    the curvature is NaN.
     """
     at = shipped.amplitudes()
     halfway = 0.5 * (at[2:] + at[1:-1])

@@ -1,4 +1,4 @@
-"""The reference data that come with the package: the file, what it holds, and for which blades."""
+"""The reference data that come with the package: the file, its content, and its blades."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class Shipped:
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
-        """ω_n and the curvature over a², by what a backbone was made of."""
+        """ω_n and the curvature over a², by the inputs of a backbone."""
         a, found = self.data["amplitude"].to_numpy(), {}
         for of, name in self._names("backbone").items():
             here = self.data.sel(backbone=name)
@@ -140,7 +140,7 @@ class Shipped:
 
 @lru_cache(maxsize=1)
 def shipped() -> Shipped:
-    """Return the shipped data; RuntimeError if they are not those of this code."""
+    """Return the shipped data; RuntimeError if they do not belong to this code."""
     try:
         raw = FILE.read_bytes()
     except OSError as error:
@@ -160,7 +160,7 @@ def shipped() -> Shipped:
 def amplitudes() -> FloatArray:
     """Return the peak |q|/L of shipped backbones: 0, and closer where resonances bend them.
 
-    Each ends where a resonance bends it too sharply; those of case B are among them.
+    Each ends where a resonance bends it too sharply; the amplitudes of case B are among them.
     """
     parts = (0.0, 0.4, 0.02), (0.4, 0.5, 0.005), (0.5, 0.6, 0.0025), (0.6, 0.885, 0.005)
     return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])

@@ -87,7 +87,7 @@ class Run:
     wall, cpu : float
         Time spent [s]; NaN if not told.
     remark : str
-        What the code itself says against the run.
+        The code's own objection to the run.
     """
 
     case: str
@@ -106,7 +106,7 @@ class Run:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Submission:
-    """All that is judged of a code; what is empty was not submitted."""
+    """A submission: the data by which a code is judged. Empty fields were not submitted."""
 
     declaration: Declaration
     frequencies: tuple[Frequency, ...] = ()

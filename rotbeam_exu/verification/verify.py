@@ -1,4 +1,4 @@
-"""`verify`: a code that can be called runs the cases, and is judged by what it hands in.
+"""`verify`: a code that can be called runs the cases, and its results are judged.
 
 Anyone can have a code of their own judged: write a function with the signature of `Code`, wrap it
 in an `Entry`, and read the judgement::
@@ -144,7 +144,7 @@ def verify(
 
 
 def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
-    """Run a code over the cases that it does, and return what it would submit.
+    """Run a code over the cases that it does, and return its submission.
 
     Frequencies on its own meshes; histories on these meshes at twice its step, and on its mesh at
     one, two and four of its steps. What fails is on record with its sentence.
@@ -167,7 +167,7 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
 
 
 def faster_than_paper(beam: AnyBlade) -> float:
-    """Return the ratio of the beam's natural frequency at rest to that of the paper's beam."""
+    """Return the beam's natural frequency at rest over the paper's beam's."""
     return beam.omega_0 / Beam.reference().omega_0
 
 
@@ -185,7 +185,7 @@ def _frequency(entry: Entry, case: Case, speed: float, elements: int) -> Frequen
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:
-    """Return the runs of a case; none of one that the code does not do."""
+    """Return the runs of a case, none if the code does not do it."""
     resolutions = {(elements, 2.0 * entry.step) for elements in entry.own_meshes}
     resolutions |= {(entry.elements, factor * entry.step) for factor in (1.0, 2.0, 4.0)}
     try:
@@ -221,8 +221,8 @@ def cost_at_error(
     """Return the wall time [s] at which a code reaches an error, and the ladder it is read from.
 
     LADDER's runs of twice the ramp time are timed one after the other, on one core if the caller
-    sees to it; the error is the largest of q(t) over max|q|; time over error is interpolated
-    between runs, logarithmically. NaN where the ladder does not reach the error; where even its
+    sees to it. The error is the largest of q(t) over max|q|; between runs the time over the error
+    is interpolated logarithmically. NaN where the ladder does not reach the error; where even its
     first run is better, the time of that, an upper bound.
 
     Returns

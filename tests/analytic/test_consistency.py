@@ -11,7 +11,6 @@ from analytic import (
     linear_modes,
     periodic_orbits,
     reduced_model,
-    softening_speed,
 )
 from analytic.beam import BETA_1
 from analytic.blade_functions import blade_functions
@@ -20,6 +19,7 @@ from analytic.reduced.any_blade import blade_oscillator, coupling_vector
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.speeds import softening_speed
 from analytic.unit_blade import UNIFORM
 
 STATIC = Variant(name="static", shape="rotating", axial="static")

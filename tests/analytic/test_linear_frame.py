@@ -9,11 +9,11 @@ from analytic import (
     SpinUp,
     SteadyRotation,
     Theory,
-    divergence_speed,
     linear_modes,
     linear_response,
     spin_up_response,
 )
+from analytic.reduced.speeds import divergence_speed
 
 
 def squared_frequency(response, step):

@@ -15,8 +15,8 @@ from analytic import (
     periodic_orbits,
     reduced_model,
     spin_up_response,
-    unstretched_frequencies,
 )
+from analytic.exact.linear.unstretched import unstretched_frequencies
 
 UNIT = Blade(
     length=1.0,

@@ -39,8 +39,8 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
     stability_limit,
-    unstretched_frequencies,
-)  # fmt: skip
+)
+from analytic.exact.linear.unstretched import unstretched_frequencies  # fmt: skip
 from analytic.exact.plane.planarity import planar_note
 
 BEAM = Beam.reference()

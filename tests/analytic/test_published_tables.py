@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from analytic import Blade, Section, Theory, linear_modes, unstretched_frequencies
+from analytic import Blade, Section, Theory, linear_modes
+from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.quadrature import gauss_points, transverse_basis
 
 UNIT = Blade(

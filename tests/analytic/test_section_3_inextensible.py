@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, Variant, divergence_speed, reduced_model
+from analytic import Beam, Variant, reduced_model
 from analytic.beam import BETA_1
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.speeds import divergence_speed
 from analytic.reduced.tables import closed_form, half_unit
 
 INEXTENSIBLE = energy_coefficients(CantileverMode(), "inextensible")

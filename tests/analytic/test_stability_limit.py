@@ -11,7 +11,6 @@ from analytic import (
     AmplitudeNotReachedError,
     Blade,
     Damping,
-    PlanarStability,
     Rectangle,
     Section,
     SpinUp,
@@ -22,7 +21,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.plane.planarity import growth_rates, planar_note
+from analytic.exact.plane.planarity import PlanarStability, growth_rates, planar_note
 from analytic.methods.continuation import Care
 
 ROOT = Path(__file__).parents[2]

@@ -23,10 +23,10 @@ from analytic import (
     reduced_model,
     residual_amplitude,
     spin_up_response,
-    unstretched_frequencies,
 )
 from analytic.exact.beam.steady import steady_rotation
 from analytic.exact.linear.modes import resolved_model, solve_modes
+from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 

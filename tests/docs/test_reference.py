@@ -1,18 +1,23 @@
 """The reference has a page for each public name, with an example, and for no other."""
 
+import ast
 import inspect
 import pkgutil
+import re
+from pathlib import Path
 
 import pytest
 
 import analytic
 import rotbeam_exu
 
+ROOT = Path(__file__).parents[2]
 PLAIN = {
     "records that the example of what makes them shows": (
-        "analytic.Crossing analytic.LinearResponse analytic.Resonance analytic.SpecialPoint "
-        "analytic.StabilityLimit analytic.Tongue rotbeam_exu.GrowthRate "
-        "rotbeam_exu.fem.RotatingBeam"
+        "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
+        "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
+        "analytic.exact.plane.stability_limit.StabilityLimit rotbeam_exu.runs.growth.GrowthRate "
+        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam"
     ),
     "errors, which their message explains": (
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
@@ -25,10 +30,18 @@ PLAIN = {
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.sweeps.grid",
-    "rotbeam_exu.files.beam_file", "rotbeam_exu.verification.verify",
+    "analytic.exact.beam.state", "analytic.exact.driven.response", "analytic.exact.free.branch",
+    "analytic.exact.free.branches", "analytic.exact.free.curve",
+    "analytic.exact.free.internal_resonance", "analytic.exact.linear.campbell",
+    "analytic.exact.linear.modes", "analytic.exact.linear.out_of_plane_modes",
+    "analytic.exact.linear.tracking", "analytic.exact.linear.unstretched",
+    "analytic.exact.plane.planarity", "analytic.exact.plane.stability_limit",
+    "analytic.reduced.linear_frame", "analytic.reduced.speeds", "analytic.spin_up.quiet",
+    "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
+    "rotbeam_exu.fem.picture", "rotbeam_exu.fem.stability", "rotbeam_exu.files.beam_file",
+    "rotbeam_exu.runs.growth", "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
-    "rotbeam_exu.verification.submission_files",
+    "rotbeam_exu.verification.submission_files", "rotbeam_exu.verification.verify",
 }  # fmt: skip
 """Modules from which users import as well."""
 
@@ -71,3 +84,14 @@ def test_what_can_draw_itself_does_so_in_its_example(groups):
     for name in drawn:
         example = inspect.getdoc(pkgutil.resolve_name(name)).partition("Examples\n")[2]
         assert ".plot()" in example
+
+
+def test_a_docstring_begins_with_its_noun_or_its_verb():
+    first = re.compile(r"\s*(What|That|Of|Those)\b")
+    for path in (p for room in ("analytic", "rotbeam_exu") for p in (ROOT / room).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+                for line in node.body:  # of a module's constants and a class's fields too
+                    text = getattr(getattr(line, "value", None), "value", None)
+                    if isinstance(line, ast.Expr) and isinstance(text, str):
+                        assert not first.match(text), f"{path}:{line.lineno} {text}"

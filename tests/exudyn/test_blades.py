@@ -14,12 +14,12 @@ from rotbeam_exu import (
     save,
     simulate,
     steady_oscillation,
-    steady_stretch,
     sweep,
 )
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.fem.linearization import steady_stretch
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.runs.attributes import beam_of

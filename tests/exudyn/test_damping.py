@@ -5,7 +5,6 @@ import pytest
 from scipy.optimize import least_squares
 
 from analytic import (
-    BeamState,
     Damping,
     SpinUp,
     SteadyRotation,
@@ -14,8 +13,10 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from rotbeam_exu import SimulationError, load, natural_frequencies, save, simulate, steady_stretch
+from analytic.exact.beam.state import BeamState
+from rotbeam_exu import SimulationError, load, natural_frequencies, save, simulate
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact
+from rotbeam_exu.fem.linearization import steady_stretch
 from rotbeam_exu.fem.loading import Loading
 from rotbeam_exu.fem.solver import exudyn_system, mass_matrix
 from rotbeam_exu.runs.attributes import beam_of

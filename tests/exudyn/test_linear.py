@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from analytic import SpinUp, linear_response
-from rotbeam_exu import SimulationError, growth_rate, natural_frequencies, simulate
+from rotbeam_exu import SimulationError, natural_frequencies, simulate
 from rotbeam_exu import steady_oscillation as steady
 from rotbeam_exu.fem.elements import Linear, formulation
+from rotbeam_exu.fem.linearization import growth_rate
 from rotbeam_exu.fem.solver import mass_matrix
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from rotbeam_exu import natural_frequencies, steady_stretch
+from rotbeam_exu import natural_frequencies
+from rotbeam_exu.fem.linearization import steady_stretch
 
 
 def test_cantilever_at_rest(beam):

@@ -7,10 +7,10 @@ import pytest
 
 from analytic import SpinUp, SteadyRotation, linear_modes, periodic_orbits, spin_up_response
 from analytic.quadrature import gauss_points
-from rotbeam_exu import natural_frequencies, simulate, steady_stretch, sweep
+from rotbeam_exu import natural_frequencies, simulate, sweep
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import FORMULATIONS, formulation
-from rotbeam_exu.fem.linearization import growth_rate
+from rotbeam_exu.fem.linearization import growth_rate, steady_stretch
 from rotbeam_exu.fem.solver import mass_matrix
 from rotbeam_exu.runs.check import _reach
 

@@ -3,7 +3,8 @@
 import pytest
 
 from analytic import Beam, SpinUp
-from rotbeam_exu import simulate, steady_stretch
+from rotbeam_exu import simulate
+from rotbeam_exu.fem.linearization import steady_stretch
 
 
 @pytest.fixture(scope="module")

@@ -15,11 +15,12 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from rotbeam_exu import ray_traced, simulate
+from rotbeam_exu import simulate
 from rotbeam_exu.fem.elements import SpaceExact
 from rotbeam_exu.fem.elements.reissner_in_space import FrameNodes, directors
 from rotbeam_exu.fem.linearization import flap_frequencies
 from rotbeam_exu.fem.out_of_plane import SpaceState, simulate_3d
+from rotbeam_exu.fem.picture import ray_traced
 from rotbeam_exu.runs.check import energy_drift
 from rotbeam_exu.runs.growth import growth_rate_of
 

@@ -8,13 +8,12 @@ from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import (
     SimulationError,
-    divergence_speed,
     figures,
-    growth_rate,
     simulate,
 )
 from rotbeam_exu.fem.elements import Substructures, formulation
-from rotbeam_exu.fem.stability import divergence_speeds
+from rotbeam_exu.fem.linearization import growth_rate
+from rotbeam_exu.fem.stability import divergence_speed, divergence_speeds
 
 
 @pytest.mark.parametrize("frame", ["tangent", "pinned"])

@@ -60,15 +60,15 @@ class Continuum(Kinematics):
     bending, axial : int
         Number of functions for θ and for e; with shear, as many for γ as for e.
     blade : UnitBlade
-        What is not the uniform beam: section, point masses, hub radius, setting angle.
+        Section, point masses, hub radius and setting angle, relative to the uniform beam.
     shear : float or None
         σ = k_s GA/(EA); None to leave shear out.
 
     Attributes
     ----------
     outboard : dict
-        What a load may act on beyond each Gauss point, times its weight (points,): "mass",
-        "length", and the "tip".
+        Mass, length and tip beyond each Gauss point, times its weight (points,), by the names
+        "mass", "length" and "tip": a load acts on one of them.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Which functions the exact blade is resolved by: made once, refined, the same on every panel."""
+"""Discretization of the exact blade: functions made once, refined, the same on every panel."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Kinematics:
         Number of functions for θ, for e and for γ, as many on each of the blade's panels, and of
         all. Those for γ are those for e, or none.
     shear_ratio : float or None
-        σ, shear over axial stiffness; None where sections stay normal to the axis.
+        σ, shear over axial stiffness; None if sections stay normal to the axis.
     blade : UnitBlade
     points, weights : ndarray (points,)
         The Gauss points at which fields are evaluated, and their weights; 2 bending on one cell.
@@ -64,7 +64,7 @@ class Kinematics:
 
     @property
     def odd(self) -> NDArray[np.bool_]:
-        """Which coordinates change their sign in the mirror image of a shape, (n,): of θ and γ."""
+        """Coordinates that change their sign in the mirror image of a shape, (n,): of θ and γ."""
         return np.repeat([True, False, True], [self.bending, self.axial, self.shear])
 
     @property
@@ -73,7 +73,7 @@ class Kinematics:
         return self.grid.integral(self.points)
 
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the coordinates of θ and those of the strains, along the last axis."""
+        """Split the last axis into the coordinates of θ and the coordinates of the strains."""
         return q[..., : self.bending], q[..., self.bending :]
 
     def padded(self, q: FloatArray, other: Kinematics) -> FloatArray:
@@ -152,7 +152,7 @@ class Kinematics:
         return self.integrated(self.slope(q), x)
 
     def deflection(self, tip: ComplexArray) -> FloatArray:
-        """Return what of the tip's place is across the clamp's line."""
+        """Return the tip's deflection, normal to the clamp's line."""
         return tip.imag
 
     def tip(self, q: FloatArray) -> ComplexArray:

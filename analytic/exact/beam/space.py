@@ -33,7 +33,7 @@ from .continuum import Continuum
 from .steady import BeamOrbit, SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
-"""What the twist does: moves with its inertia, follows without, or is none."""
+"""Kinds of twist: it moves with its inertia, follows without inertia, or does not exist."""
 
 
 def require_out_of_plane(
@@ -86,9 +86,9 @@ class Space:
     Attributes
     ----------
     twist : str
-        What the twist does.
+        Kind of twist.
     size, functions : int
-        Number of coordinates, and of those that are w's, which come first.
+        Number of coordinates, and of those of w, which come first.
     """
 
     def __init__(self, blade: AnyBlade, functions: int) -> None:
@@ -238,7 +238,7 @@ class OutOfPlaneMotion:
 
     @property
     def signs(self) -> FloatArray:
-        """How time reversal changes the coordinates: the twist turns with the curvature."""
+        """Signs of the coordinates under time reversal: the twist turns with the curvature."""
         return np.where(np.arange(self.space.size) < self.space.functions, 1.0, -1.0)
 
     def constants(self) -> None:

@@ -30,7 +30,7 @@ class BeamCoordinates:
 
     @property
     def size(self) -> int:
-        """Number of coordinates, those of θ and those of the strains."""
+        """Number of coordinates, of θ and of the strains together."""
         return self.model.size
 
     @property
@@ -77,7 +77,7 @@ class SteadyBeam(BeamCoordinates):
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
-        """Which coordinates are those of θ and γ, (n,)."""
+        """True for the coordinates of θ and γ, (n,)."""
         return self.model.odd
 
     @cached_property

@@ -39,9 +39,9 @@ def forced_response(
     """Return the periodic response of the damped blade to a load, over the load's frequency.
 
     Harmonic balance with a full Fourier series, followed by arclength through folds, so that
-    unstable responses between are found as well. Harmonics and functions grow until what they
-    leave out changes the amplitude by about 1e-6. Curves that are not connected to the response at
-    the first frequency (isolas) are not found.
+    unstable responses between are found as well. Harmonics and functions grow until the rest
+    changes the amplitude by about 1e-6. Curves that are not connected to the response at the first
+    frequency (isolas) are not found.
 
     Gravity goes around once a turn, for the plane of rotation stands vertical: its frequency is ω,
     which varies along the curve.
@@ -67,7 +67,7 @@ def forced_response(
     ValueError, TypeError
         If an input is refused; if the blade is undamped and the frequencies hold a resonance.
     ResponseNotReachedError
-        If the curve cannot be followed to its end; its `.response` holds what was found.
+        If the curve cannot be followed to its end; its `.response` holds the part that was found.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def _ascending(name: str, values: Any) -> FloatArray:
 def _require_no_resonance(
     beam: AnyBlade, omega: float | None, theory: Theory, asked: FloatArray
 ) -> None:
-    """Refuse frequencies that hold a mode's, or speeds of which one meets a multiple of them."""
+    """Refuse frequencies that include a mode's, or speeds at which a mode meets a multiple."""
     no_end, remedy = (
         "without damping the response has no end at resonance, and",
         ("take beam.with_damping(Damping(...))"),

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class ResponseNotReachedError(RuntimeError):
-    """A response curve ended too early; `response` holds what was found, None if nothing was."""
+    """A response curve ended too early; `response` holds the part that was found, or None."""
 
     def __init__(self, message: str, response: ForcedResponse | None = None) -> None:
         super().__init__(message)
@@ -78,7 +78,7 @@ class ForcedResponse(Branch):
 
     @property
     def phase(self) -> FloatArray:
-        """By how much the first harmonic of q lags behind cos νt [rad], (points,), in ±π.
+        """Phase lag of the first harmonic of q behind cos νt [rad], (points,), in ±π.
 
         The load goes with cos νt; the weight across the blade with -cos θ.
         """
@@ -86,7 +86,7 @@ class ForcedResponse(Branch):
 
     @property
     def peaks(self) -> tuple[SpecialPoint, ...]:
-        """Where the amplitude is greatest or least, in order along the curve."""
+        """Points of greatest or least amplitude, in order along the curve."""
         return self._marked("peak")
 
     def at(self, frequency: float) -> NDArray[np.intp]:

@@ -1,7 +1,7 @@
 """Loads on the exact blade: nondimensional, and as the driven system they make of it.
 
-A load is a complex force, in the frame of the clamp, times what it acts on: all that has mass
-(gravity), the length, or the tip. A ripple of the speed is no force but changes w and ẇ.
+A load is a complex force in the frame of the clamp, per mass (gravity), per length, or at the tip.
+A ripple of the speed is no force but changes w and ẇ.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class DrivenBeam(BeamCoordinates):
     Attributes
     ----------
     rate : float or None
-        w̄; None where it is ν.
+        w̄; None if it is ν.
     load : Load
         Without dimensions.
     """

@@ -67,7 +67,7 @@ def integrated(
     points: FloatArray,
     q: FloatArray,
 ) -> Motion | None:
-    """Return the motion on the grid of steps, None where Newton's method fails.
+    """Return the motion on the grid of steps, None if Newton's method fails.
 
     A step on which it does is halved first, as often as it takes. Before the first the blade does
     not swing, in the state `q` (n,).

@@ -29,7 +29,7 @@ _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 class Backbone(ModePath):
     """Free orbits of the exact beam that grow out of one mode at one speed; made by `backbone`.
 
-    It computes when it is asked, and keeps the path of orbits that it has laid.
+    It computes when it is asked, and keeps its path of orbits.
 
     Attributes
     ----------
@@ -73,10 +73,9 @@ class Backbone(ModePath):
     def branch(self, up_to: float = 0.9) -> BackboneBranch:
         """Return the backbone up to an amplitude, with its internal resonances.
 
-        The main path is that of `orbits`, on up to 120 harmonics. Where a harmonic that is felt
-        meets another mode, the orbits are followed by arclength from either side, through the
-        folds that the resonance makes and a way into its tongue, on which the other mode takes
-        over.
+        The main path is the path of `orbits`, on up to 120 harmonics. If a harmonic meets another
+        mode and is felt, the orbits are followed by arclength from either side, through the folds
+        of the resonance and a way into its tongue. There the other mode takes over.
 
         Parameters
         ----------
@@ -213,10 +212,10 @@ def periodic_orbits(
 
     Geometrically exact, undamped beam in steady rotation; harmonic balance in time on Legendre
     polynomials in space, continued in amplitude. The number of harmonics grows until the Jacobi
-    integral is constant to 2e-11, that of functions until half as many again change the frequency
-    by at most 1e-9. Near an internal resonance several orbits may have one amplitude: there the
-    branch is laid again on more functions, until it leads to the same orbit. `frequency_error`
-    tells what is left.
+    integral is constant to 2e-11, the number of functions until half as many again change the
+    frequency by at most 1e-9. Near an internal resonance several orbits may have one amplitude:
+    there the branch is computed again on more functions, until it leads to the same orbit.
+    `frequency_error` is the remaining uncertainty.
 
     Parameters
     ----------
@@ -284,7 +283,7 @@ def backbone_curve(
     ValueError
         If an argument is refused.
     AmplitudeNotReachedError
-        If no orbit grows out of the mode, or no range of a tenth of what is asked for is held.
+        If no orbit grows out of the mode, or the series holds up to less than a tenth of `up_to`.
 
     Warns
     -----

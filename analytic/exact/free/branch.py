@@ -1,4 +1,4 @@
-"""A branch of periodic orbits of the exact blade, with what is special about some."""
+"""A branch of periodic orbits of the exact blade, with its special points."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..beam.state import BeamState, orbit_state
 
 
 class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `orbits` are the Orbits of those that were, or None."""
+    """An amplitude was not reached; `orbits` are the Orbits below it, or None."""
 
     def __init__(self, message: str, orbits: Any = None) -> None:
         super().__init__(message)
@@ -114,9 +114,9 @@ class OrbitSet:
     def stable(self) -> NDArray[np.bool_]:
         """Whether small disturbances in the plane do not grow, (orbits,).
 
-        No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
-        says: those that the integration over a period resolves. Of motion out of the plane
-        `planar_stability` tells.
+        No Floquet multiplier lies outside the unit circle, for the first `stable_modes` modes,
+        which the integration over a period resolves. Of motion out of the plane `planar_stability`
+        tells.
         """
         return np.array([found.stable(self._tolerance) for found in self._stability])
 
@@ -148,10 +148,10 @@ class Branch(OrbitSet):
 
     @property
     def folds(self) -> tuple[SpecialPoint, ...]:
-        """Where the curve turns around, in order along it."""
+        """Folds, where the curve turns around, in order along it."""
         return self._marked("fold")
 
     @property
     def branch_points(self) -> tuple[SpecialPoint, ...]:
-        """Where another curve crosses, in order along the curve."""
+        """Crossings with other curves, in order along the curve."""
         return self._marked("branch point")

@@ -161,7 +161,7 @@ def _tongue(
 
 
 def _share(orbit: BeamOrbit, k: int) -> float:
-    """Return the size of harmonic k over that of the first."""
+    """Return the size of harmonic k over the size of the first."""
     sizes = orbit.sizes
     return float(sizes[k - 1] / sizes[0])
 

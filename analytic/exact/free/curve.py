@@ -53,8 +53,8 @@ class BackboneCurve:
     holds_up_to : float
         Largest peak |q|/L.
     error : float
-        Of ω_NL/ω_n, and of the first harmonic over the peak: what the tail of the series leaves, or
-        orbits that it was not made from show, whichever is the most.
+        Uncertainty of ω_NL/ω_n, and of the first harmonic over the peak: the tail of the series or
+        the error at other orbits, whichever is larger.
     series, first : Chebyshev
         Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
 
@@ -267,7 +267,7 @@ def _of_orbits(of: ModePath, amplitudes: FloatArray) -> FloatArray:
 
 
 def _rate(series: Chebyshev) -> float:
-    """Return by what the coefficients fall, from the last three."""
+    """Return the factor by which the coefficients fall, from the last three."""
     earlier, last = abs(float(series.coef[-3])), abs(float(series.coef[-1]))
     return min(0.9, math.sqrt(last / earlier)) if earlier > 0.0 else 0.0
 

@@ -1,4 +1,4 @@
-"""Where a harmonic of an orbit meets another mode: internal resonance.
+"""Internal resonance: a harmonic of an orbit meets another mode.
 
 Small motion about an orbit of frequency Ω has frequencies of its own, ν_j, which its Floquet
 multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: the multiplier is 1.
@@ -125,7 +125,7 @@ def resonances_along(
 
 
 def frequency_at(orbits: Sequence[BeamOrbit], amplitude: float) -> float:
-    """Return the frequency at an amplitude between those of ascending orbits, by straight lines."""
+    """Return the frequency at an amplitude, by straight lines between ascending orbits."""
     return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
@@ -149,7 +149,7 @@ def pinned(
 ) -> tuple[list[BeamOrbit], float]:
     """Return more orbits next to a resonance, as near as they are found, and its amplitude.
 
-    What the harmonic is without the resonance shifts the pole that two far ones tell.
+    The harmonic's share without the resonance shifts the pole that two far orbits give.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ class Orbits(OrbitSet):
     lambda_omega : float
         λ_ω of ω_NL = ω_n (1 - λ_ω a²) as a → 0.
     lambda_omega_error : float
-        What the extrapolation to a = 0 changed: an upper estimate of its error.
+        Change by the extrapolation to a = 0: an upper estimate of its error.
     harmonics : ndarray (orbits, H)
         Sine coefficients 1 to H of q/L.
     frequency_error : ndarray (orbits,)
@@ -203,8 +203,8 @@ def _found(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BeamOrbit],
 def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamOrbit]:
     """Return the orbits; of those near a resonance, where several have one amplitude, confirmed.
 
-    The branch is laid again on more functions, which may lead into another orbit, until that
-    changes no frequency. What it changed last is the error.
+    The branch is computed again on more functions, which may lead into another orbit, until that
+    changes no frequency. The last change is the error.
     """
     for _ in range(_RELAID):
         suspects = [a for a, o in found.items() if outstanding(o, of.modes, of.mode)]

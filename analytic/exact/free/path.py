@@ -30,7 +30,7 @@ _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ModePath:
-    """Free orbits out of one mode, laid as far as they were asked for; base of `Backbone`."""
+    """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
 
     beam: AnyBlade
     omega: float
@@ -56,7 +56,7 @@ class ModePath:
 
     @property
     def path(self) -> Path[SteadyBeam]:
-        """Orbits by their amplitude, laid as far as they were asked for."""
+        """Orbits by their amplitude, computed as far as they are needed."""
         return self._begun[1]
 
     def _rotation(self) -> Any:

@@ -154,7 +154,7 @@ def campbell(
     *,
     planes: Sequence[Plane] = ("lag",),
 ) -> Campbell:
-    """Return the Campbell diagram of the first `count` modes, by default of those in the plane.
+    """Return the Campbell diagram of the first `count` modes, by default of modes in the plane.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How fast the modes of a damped blade in rotation decay."""
+"""Damping ratios: how fast the modes of a damped blade in rotation decay."""
 
 from __future__ import annotations
 

@@ -123,11 +123,11 @@ def linear_modes(
     count : int
         Number of modes.
     plane : str
-        "lag", the blade's own plane of bending; "flap", the plane normal to the rotation's, and
-        "torsion", both of a blade that bends in the plane of rotation and has a known section out
-        of it. To this order they are independent of each other. Of a blade with a twist, precone,
-        prebend, sweep, offset, or a setting angle and a known section out of the plane, they are
-        not: then the modes are all of them, as `SpaceModes`.
+        "lag" is the blade's own plane of bending, "flap" the plane normal to the plane of rotation.
+        "flap" and "torsion" need a blade that bends in the plane of rotation and has a known
+        section out of it. To this order they are independent of each other. Of a blade with a
+        twist, precone, prebend, sweep, offset, or a setting angle and a known section out of the
+        plane, they are not: then the modes are all of them, as `SpaceModes`.
     theory : Theory
         Extension, shear and rotary inertia; the latter two in the plane of bending only.
     functions : int
@@ -137,11 +137,10 @@ def linear_modes(
     Raises
     ------
     ValueError
-        If what the section is out of the plane is asked for and unknown; if `omega` is negative,
-        not finite, or tears the beam; if `count` is beyond what the
-        functions resolve; if 256 functions do not settle the frequencies, as beyond about
-        w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp becomes too thin, and within 1 % of
-        the burst.
+        If the section out of the plane is needed and unknown; if `omega` is negative, not finite,
+        or tears the beam; if the functions do not resolve `count` modes. If 256 functions do not
+        settle the frequencies: beyond about w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
+        becomes too thin, and within 1 % of the burst.
 
     Examples
     --------

@@ -23,7 +23,7 @@ _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still f
 
 @dataclass(frozen=True, kw_only=True)
 class Crossing:
-    """Where a mode's frequency is a multiple of the speed: `mode` meets the line kω.
+    """A crossing of a Campbell diagram: the frequency of `mode` is k times the speed.
 
     Attributes
     ----------

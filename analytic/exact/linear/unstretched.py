@@ -6,9 +6,9 @@ unstretched blade and c = cos ψ,
     m(s̈ - 2cw̄ v̇ - w̄² s) = (EA s')'/μ,      m(v̈ + 2cw̄ ṡ - c²w̄² v) = (N v')' - (EI v'')''.
 
 The Coriolis force couples both, which takes the frequencies most of the way from the inextensible
-blade's to the true ones. The rest is the stretch e of the steady state: linearized about it, as in
-`linear_modes`, the tension acts from where the mass has moved to, and the tangent turns by
-v'/(1+e) rather than v', so that N/(1+e) and the curvature (v'/(1+e))' stand for N and v''.
+blade's to the true ones. The rest is the stretch e of the steady state. Linearized about it, as in
+`linear_modes`, the tension acts from the stretched position of the mass. The tangent turns by
+v'/(1+e) rather than v': N/(1+e) and the curvature (v'/(1+e))' replace N and v''.
 """
 
 from __future__ import annotations
@@ -59,7 +59,8 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
 
     Examples
     --------
-    >>> from analytic import Beam, linear_modes, unstretched_frequencies
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.exact.linear.unstretched import unstretched_frequencies
     >>> beam = Beam.reference()
     >>> print(unstretched_frequencies(beam, omega=6.0).round(5))
     [ 3.73048 23.01044 56.64848]

@@ -75,9 +75,9 @@ def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> Float
 def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
     """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
 
-    It leaves where an orbit of that amplitude, or a smaller one of the few that are looked at,
-    grows out of it by 0.01 per radian; `stability_limit` tells from where on, which takes several
-    times as long. "" too of a blade of which nothing is known out of its plane, or that is damped.
+    It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
+    0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
+    blade, or one without a known section out of the plane, gives "" too.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class PlanarStability:
     frequency : ndarray (orbits,)
         Their frequency [rad/s].
     multipliers : ndarray (orbits, 8)
-        Floquet multipliers over a period of the orbit, those with the motion in the lowest modes.
+        Floquet multipliers over a period of the orbit, with the motion in the lowest modes.
     growth_rate : ndarray (orbits,)
         Of the fastest growth [1/s], zero where nothing grows, infinite where the twist has no
         inertia and buckles.
@@ -215,7 +215,7 @@ def planar_stability(
         If the section out of the plane is unknown, or its torsion where that decides; if the blade
         turns so fast that its flap modes are not resolved.
     AmplitudeNotReachedError
-        If an orbit does not exist, as `periodic_orbits` has it.
+        If an orbit does not exist, as in `periodic_orbits`.
 
     Examples
     --------

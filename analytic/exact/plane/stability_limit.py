@@ -124,11 +124,11 @@ def stability_limit(
 ) -> StabilityLimit:
     """Return the amplitude from which on the planar orbits of a blade leave their plane.
 
-    From there up to `largest` all of them grow by at least `growth` per radian of the orbit: a
-    least unstable amplitude is no property of the blade, for without damping sum resonances of ever
-    higher modes lie everywhere, ever narrower and slower. Those that were met below the limit are
-    `tongues`. Amplitudes from 0.01 on are looked at in steps of 2 %, of 5 % where it grows ten
-    times as fast, of 0.25 % from 0.85 of the limit on; what is narrower may be passed over.
+    From there up to `largest` all of them grow by at least `growth` per radian of the orbit. A
+    least unstable amplitude is no property of the blade: without damping, sum resonances of ever
+    higher modes lie everywhere, ever narrower and slower. `tongues` are the resonances found below
+    the limit. Amplitudes from 0.01 on are tried in steps of 2 %, or 5 % if the orbit grows ten
+    times as fast, and of 0.25 % from 0.85 of the limit on. Narrower tongues may be missed.
 
     Parameters
     ----------

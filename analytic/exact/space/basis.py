@@ -1,7 +1,7 @@
-"""Strains of the blade in space: functions orthonormal in its stiffness, and what its slices weigh.
+"""Strains of the blade in space: functions orthonormal in its stiffness, and its slices' masses.
 
-As in the plane the strains are those under moments and forces that are polynomials, or mass times
-polynomials, in a frame without twist: so twist, kinks and steps of the section make none in them.
+As in the plane, the strains follow from moments and forces that are polynomials, or mass times
+polynomials, in a frame without twist. Twist, kinks and steps of the section cause none in them.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class StrainFunctions:
 
     @cached_property
     def odd(self) -> np.ndarray | None:
-        """Which coordinates time reversal turns around, (n,); None where there is no reversal."""
+        """True for coordinates that time reversal turns around, (n,); None without a reversal."""
         bending, torsion, axial, shear = self.counts
         lag = np.tile([True, False], bending // 2)
         across = np.repeat([True, False], shear // 2)
@@ -236,7 +236,7 @@ class StrainFunctions:
 
     @cached_property
     def masses(self) -> Masses:
-        """What the slices and the point masses weigh."""
+        """Masses and inertias of the slices and the point masses."""
         blade, x, weights = self.blade, self.grid.points, self.grid.weights
         positions, lumped, inertias, centers = (
             (np.array(kind) for kind in zip(*blade.bodies, strict=True))

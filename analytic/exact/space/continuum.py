@@ -251,7 +251,7 @@ class SpaceContinuum:
         return 1.0
 
     def deflection(self, tip: FloatArray) -> FloatArray:
-        """Return what of the tip's place is across the clamp's line."""
+        """Return the tip's deflection, normal to the clamp's line."""
         return tip[..., 1:]
 
     def push(self, force: ComplexArray, acts_on: str) -> FloatArray:

@@ -87,7 +87,7 @@ class SpaceBlade:
     rate : float
         w̄ = ω/√(EI3/mL³).
     direction : tuple
-        Of the gauge, in the root frame: the tip's place along it, less that of the steady state.
+        Direction of the gauge, the tip's place from the steady state, in the root frame.
     coarser : SpaceBlade, optional
         The same on fewer functions, from whose steady state this one's is found.
     """
@@ -109,7 +109,7 @@ class SpaceBlade:
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
-        """Which coordinates time reversal turns around, (n,); None where there is no reversal.
+        """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
         Nor where the gauge is not among them: of blades with precone the lag is, flap is not.
         """
@@ -158,7 +158,7 @@ class SpaceBlade:
         return False
 
     def gauge(self, q: FloatArray) -> FloatArray:
-        """Return the tip's place along the direction, less that of the steady state, (samples,)."""
+        """Return the tip's place along the direction, relative to the steady state, (samples,)."""
         return np.asarray((self.model.tip(q) - self.tip) @ np.array(self.direction))
 
     def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:

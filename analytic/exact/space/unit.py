@@ -1,4 +1,4 @@
-"""A blade in space without dimensions: what the plane does not read of it."""
+"""A blade in space without dimensions: its line and its section out of the plane."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ...unit_blade import UnitBlade
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceUnit(UnitBlade):
-    """A blade without dimensions, and what it is out of its plane.
+    """A blade without dimensions, with its line and its section out of the plane.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class SpaceUnit(UnitBlade):
 
     @property
     def profiles(self) -> tuple[Profile, ...]:
-        """All that varies along the blade."""
+        """Profiles along the blade."""
         line = self.line
         return (*super().profiles, line.twist, line.prebend, line.sweep)
 

@@ -77,7 +77,7 @@ class Linear(_LinearFrames):
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import growth_rate
+    >>> from rotbeam_exu.fem.linearization import growth_rate
     >>> from rotbeam_exu.fem.elements import Linear
     >>> print(f"{growth_rate(Beam.reference(), 6.0, element=Linear()):.4f} 1/s")
     5.2471 1/s
@@ -109,7 +109,7 @@ class Substructures(_LinearFrames):
     Examples
     --------
     >>> from analytic import Beam
-    >>> from rotbeam_exu import growth_rate
+    >>> from rotbeam_exu.fem.linearization import growth_rate
     >>> from rotbeam_exu.fem.elements import Substructures
     >>> for n in (1, 2, 4):
     ...     rate = growth_rate(Beam.reference(), 6.0, element=Substructures(), elements=n)

@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from analytic import BeamState
 from analytic.arrays import FloatArray
+from analytic.exact.beam.state import BeamState
 
 from .formulation import Formulation
 

@@ -1,6 +1,6 @@
 """The usual mistakes: before a large error is held against a code, what explains it is looked for.
 
-A mistake explains an error if what the reference would look like with it leaves a fifth at most. A
+A mistake explains an error if the reference with this mistake leaves at most a fifth of it. A
 new one is a line or a function in the lists of `histories` or `tables`.
 """
 

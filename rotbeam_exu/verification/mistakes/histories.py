@@ -1,4 +1,4 @@
-"""Mistakes in a history: what the reference would look like with each of them."""
+"""Mistakes in a history: the reference with each of them."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def _inertial(seen: _Seen) -> _Suspects:
 
 
 SUSPECTS = _factors, _offset, _inertial
-"""Mistakes of any history; those of spin-ups are tried where none of these explains it."""
+"""Mistakes of any history; mistakes of spin-ups are tried if none of these explains it."""
 
 
 def _unit_of_speed(seen: _Seen) -> _Suspects:

@@ -25,7 +25,7 @@ class Mistake:
     said : str
         What seems to have happened, and what to do.
     before, after : float
-        Error with it, and what is left without it, both over the same scale.
+        Errors with it and without it, both over the same scale.
     """
 
     case: str

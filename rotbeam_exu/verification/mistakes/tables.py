@@ -41,7 +41,7 @@ _SPEED_UNITS = {
 def mistake_in_frequencies(
     case: Case, rows: Sequence[Frequency], reference: Reference
 ) -> Mistake | None:
-    """Return the mistake that explains what the finest mesh's linear frequencies are off by."""
+    """Return the mistake that explains the error of the finest mesh's linear frequencies."""
     finest = [one for one in _finest(rows) if not one.failure]
     if not finest:
         return None
@@ -61,7 +61,7 @@ def mistake_in_frequencies(
 def mistake_in_backbone(
     case: Case, rows: Sequence[BackbonePoint], reference: Reference
 ) -> Mistake | None:
-    """Return the mistake that explains what the finest mesh's backbones are off by."""
+    """Return the mistake that explains the error of the finest mesh's backbones."""
     points = _finest(rows)
     true = np.array([reference.frequency_at(one.amplitude, one.speed) for one in points])
     linear = np.array([reference.first_frequency(one.speed) for one in points])

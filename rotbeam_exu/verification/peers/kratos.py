@@ -42,8 +42,8 @@ class Kratos:
     ----------
     tolerance : float
         Newton's tolerance, of the residual over the first one of the step and of its root mean
-        square over EI/L². At 1e-6, as Exudyn's here, what it leaves hides the order of small steps;
-        round-off of the axial force EA leaves about 1e-8 N.
+        square over EI/L². At 1e-6, as Exudyn's here, the remaining error hides the order of small
+        steps; round-off of the axial force EA leaves about 1e-8 N.
     iterations : int
         Newton iterations after which Kratos takes the step as it is and goes on.
     """

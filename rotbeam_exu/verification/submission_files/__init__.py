@@ -173,7 +173,7 @@ def _columns(case: Case) -> tuple[Column, ...]:
 
 
 def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
-    """Return the rows of a case's table by field, those with a failure without a frequency."""
+    """Return the rows of a case's table by field; rows with a failure have no frequency."""
     sheet = sheet_of(folder, file, _columns(case), faults)
     found: dict[tuple[float, ...], dict[str, Any]] = {}
     most = []

@@ -25,7 +25,7 @@ _FLAGS = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONB
 
 
 def below(folder: Path, file: str) -> Path | None:
-    """Return the place below the folder to which links lead; None where they lead out."""
+    """Return the place below the folder to which links lead; None if they lead out."""
     root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
     return real.relative_to(root) if real.is_relative_to(root) else None
 

@@ -1,4 +1,4 @@
-"""entry.toml: what the author says of a code, as `Declaration`, and back."""
+"""entry.toml: the author's declaration of a code, as `Declaration`, and back."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ORDERS = ("order", "order_in_step")
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
 
 Kind = Callable[[str, Any], Any]
-"""From a key and its value to what is declared; ValueError with the sentences on a faulty one."""
+"""From a key and its value to the declared value; ValueError with the sentences on a fault."""
 
 
 def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
@@ -94,7 +94,7 @@ def _read(document: dict[str, Any], stated: dict[str, Any]) -> Iterator[tuple[st
 
 
 def _items(document: dict[str, Any]) -> Iterator[tuple[str, Any, dict[str, Kind]]]:
-    """Yield all keys, those of [shear] too, with their values and the kinds they may be of."""
+    """Yield all keys, also of [shear], with their values and the kinds they may be of."""
     for key, value in document.items():
         keys = sorted(value) if key == "shear" and isinstance(value, dict) else []
         if keys in (["k_s", "nu"], ["share"]):

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 _VARIES = re.compile(
     r"'(?:\\.|[^'\\])*'|\"(?:\\.|[^\"\\])*\"|[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?"
 )
-"""In sentences of one kind: what a file says, in quotes, and numbers."""
+"""Parts that vary between sentences of one kind: quotations from a file, and numbers."""
 
 _MOST_FILES = 10
-"""In which a fault of one kind is told for each; those in others are counted."""
+"""Files in which a fault of one kind is told for each; faults in others are counted."""
 
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
@@ -36,7 +36,7 @@ class Fault:
 class Faults:
     """Faults as they are found: the first of a kind in a file, and how many more there are.
 
-    Of a kind are sentences that differ in numbers and in what they quote.
+    Sentences of one kind differ in numbers and quotations only.
     """
 
     def __init__(self) -> None:
@@ -102,7 +102,7 @@ def shown(text: str) -> str:
 
 
 def near(name: str, known: Iterable[str], told: Callable[[str], str] = repr) -> str:
-    """Return the end of a sentence on an unknown name: the known one that is most alike, or all."""
+    """Return the end of a sentence on an unknown name: the most similar known name, or all."""
     alike = {one.lower(): one for one in known}
     close = difflib.get_close_matches(name.lower(), alike, n=1)
     return (

@@ -47,7 +47,7 @@ _NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0
 """Name of a history's file: elements, and step [s]."""
 
 _ROUNDED = 1e-2
-"""Relative distance of a step from what the name of its file says."""
+"""Relative distance of a step from the step in the name of its file."""
 
 _positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
 _cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
@@ -82,7 +82,7 @@ def file_of(run: Run) -> str:
 
 
 def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
-    """Return the runs that runs.csv lists, those that failed without a history."""
+    """Return the runs that runs.csv lists; failed runs have no history."""
     there = [
         f"{name}/{printable(path.name)}"
         for name, case in CASES.items()

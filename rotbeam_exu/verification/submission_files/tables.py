@@ -33,7 +33,7 @@ _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
 _HEADER = re.compile(r"(?P<name>[^\[\]()]*?)\s*(?:[\[(](?P<unit>.*)[\])])?")
 _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _SAME = 1e-6
-"""Relative distance within which a speed or an amplitude is one that is asked for."""
+"""Relative distance within which a speed or an amplitude is taken for a requested one."""
 
 Kind = Callable[[str, str], Any]
 """From a column's name and a cell to its value; ValueError with the sentence on a faulty cell."""
@@ -70,7 +70,7 @@ def whole(name: str, cell: str) -> int:
 
 
 def bounded(holds: Callable[[float], bool], said: str) -> Kind:
-    """Return the kind of numbers for which something holds; {} in what is said is the cell."""
+    """Return the kind of numbers for which something holds; {} in its sentence is the cell."""
 
     def read(name: str, cell: str) -> float:
         value = number(name, cell)
@@ -99,8 +99,8 @@ def asked(values: Sequence[float]) -> Kind:
 class Column:
     """A column of a table, whose header may state its unit.
 
-    Each table has those that are needed; cells of the others may be empty. Each row has those that
-    are measured, but for rows that tell a failure.
+    Each table has the needed columns; cells of the others may be empty. Each row has the measured
+    columns, but for rows that tell a failure.
     """
 
     name: str
@@ -111,7 +111,7 @@ class Column:
 
     @property
     def field(self) -> str:
-        """Attribute of what is read: the name without its unit."""
+        """Attribute that is read: the name without its unit."""
         return self.name.removesuffix("_s")
 
 
@@ -119,7 +119,7 @@ FAILURE = Column("failure", text, needed=False)
 
 
 class Sheet(NamedTuple):
-    """Rows of a table as written, with their line numbers; columns as the header has them."""
+    """Rows of a table as written, with their line numbers; columns as in the header."""
 
     file: str
     columns: list[Column]
@@ -150,7 +150,7 @@ def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults)
 def _wrong_with(
     numbered: list[tuple[int, str]], columns: Sequence[Column]
 ) -> list[tuple[str, int | None]]:
-    """Return what is wrong with a table as a whole, and in which line."""
+    """Return the fault of a table as a whole, and its line."""
     wanted = ",".join(column.name for column in columns if column.needed)
     if not numbered:
         return [(f"is empty: begin with the header {wanted}", None)]
@@ -171,7 +171,7 @@ def _cell_of_header(cell: str) -> tuple[str, str]:
 
 
 def _wrong_header(title: str, columns: Sequence[Column], wanted: str) -> list[str]:
-    """Return what is wrong with a header row."""
+    """Return the fault of a header row."""
     if "," not in title and "," in wanted:
         other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in title.strip()]
         split = f"is split{other[0]}" if other else f"is {shown(title.strip())}"
@@ -256,7 +256,7 @@ def written(columns: Iterable[Column], things: Sequence[object]) -> str:
 
 
 def _cell(cell: object) -> str:
-    """Return a cell, empty of what is not known; a sentence has one line."""
+    """Return a cell, empty for an unknown value; a sentence has one line."""
     if cell is None or (isinstance(cell, float) and math.isnan(cell)):
         return ""
     if isinstance(cell, str):
