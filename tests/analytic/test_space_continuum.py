@@ -105,6 +105,21 @@ def test_about_the_steady_state_stiffness_is_symmetric_and_coriolis_skew(theory)
     assert np.abs(C + C.T).max() < 1e-8
 
 
+def test_the_gauge_is_how_far_the_tip_has_moved_along_its_direction():
+    """Zero in the steady state; its gradient and its rate by differences."""
+    along = np.array([0.6, 0.0, 0.8])
+    steady = SpaceBlade(space(ALL, slenderness=1e-4, bending=8), 2.0, tuple(along))
+    model, still = steady.model, steady.equilibrium[None]
+    assert steady.gauge(still) == pytest.approx(0.0, abs=1e-14)
+    q, q_dot, _ = states(model, 0.1)
+    moved = model.axis(q, np.ones(1))[:, 0] - model.axis(still, np.ones(1))[:, 0]
+    assert steady.gauge(q) == pytest.approx(moved @ along, abs=1e-12)
+    h = 1e-6
+    rate = (steady.gauge(q + h * q_dot) - steady.gauge(q - h * q_dot)) / (2.0 * h)
+    assert steady.gauge_rate(q, q_dot) == pytest.approx(rate, abs=1e-8)
+    assert np.sum(steady.gauge_gradient(q) * q_dot, axis=1) == pytest.approx(rate, abs=1e-8)
+
+
 @pytest.mark.parametrize("theory", THEORIES)
 def test_forces_are_the_slope_of_the_potential(theory):
     """V - T0 of any shape, held by a force that the residual of a shape at rest is."""
