@@ -146,3 +146,9 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
         warnings.simplefilter("error")
         warn_of_resonances(along([0.1, 0.2]), modes, 1, 3.0)  # 5.54 and 5.66: 0.3 of a turn
         warn_of_resonances([], modes, 1, 3.0)
+
+
+def test_the_nearest_resonance_is_that_of_the_last_orbit():
+    """At a = 0.65 ratios are 7.19 and 16.455, from 5.51 and 17.295."""
+    said = nearest_resonance(along(np.arange(0.05, 0.66, 0.05)), MODES, 1)
+    assert "harmonic 7 is 2.6 % from mode 2" in said
