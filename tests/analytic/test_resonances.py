@@ -25,12 +25,12 @@ MODES = np.array([1.0, 5.5, 17.3, 33.6, 56.2, 80.1])
 FACTOR = np.array([4.0, -2.0, 0.1, 0.0])
 
 
-def orbit_at(a, *, harmonics=7, pole=0.36, background=0.0, rate=1.0):
+def orbit_at(a, *, harmonics=7, pole=0.36, background=0.0, rate=1.0, setting=1.0):
     """An orbit of Ω = 2 - a² whose sixth harmonic goes through infinity at `pole`."""
     sines = 0.1 ** np.arange(harmonics) * a
     if harmonics > 5:
         sines[5] = a * (1e-3 / (pole - a) + background)
-    model = SimpleNamespace(blade=SimpleNamespace(setting=1.0))
+    model = SimpleNamespace(blade=SimpleNamespace(setting=setting))
     return SimpleNamespace(
         amplitude=a, frequency=2.0 - a**2, harmonics=harmonics, gauge_sines=sines,
         sines=sines[:, None], system=SimpleNamespace(rate=rate, model=model),
@@ -56,7 +56,7 @@ def along(amplitudes, **options):
 
 def test_ratios_are_followed_through_whole_and_half_numbers():
     amplitudes = np.arange(0.05, 0.8, 0.05)
-    modes, ratios = frequency_ratios(along(amplitudes), MODES, 1)
+    modes, ratios = frequency_ratios(along(amplitudes), 3.0 * MODES, 1)
     assert modes == [2, 3, 4, 5]
     assert ratios == pytest.approx(MODES[1:5] + FACTOR * amplitudes[:, None] ** 2, abs=1e-12)
     # Of the second mode the first is among the others.
@@ -78,6 +78,8 @@ def test_resonances_are_where_ratios_are_whole_or_the_harmonic_has_its_pole():
     # Without Coriolis forces an orbit has no even harmonics.
     still = resonances_along(along(amplitudes, rate=0.0), MODES, 1, 3.0)
     assert [(one.harmonic, one.mode) for one in still] == [(17, 3), (7, 2)]
+    flapping = resonances_along(along(amplitudes, setting=1e-17), MODES, 1, 3.0)
+    assert [(one.harmonic, one.mode) for one in flapping] == [(17, 3), (7, 2)]
 
 
 def test_frequencies_between_orbits_are_on_straight_lines():
@@ -95,14 +97,14 @@ def test_a_resonance_is_pinned_down_between_two_orbits(background):
         return orbit_at(a, background=background)
 
     asked = []
-    orbits = [at(a) for a in (0.2, 0.3, 0.4, 0.5)]
+    orbits = [at(a) for a in (0.2, 0.3, 0.4, 0.5, 0.55)]
     near, place = pinned(at, orbits, Resonance(6, 2, 0.35, 1.0))
     assert place == pytest.approx(0.36, abs=1e-6)
-    assert [one.amplitude for one in near] == asked[4:]
-    closest = sorted([0.3, 0.4, *asked[4:]], key=lambda a: abs(a - 0.36))
+    assert [one.amplitude for one in near] == asked[5:]
+    closest = sorted([0.3, 0.4, *asked[5:]], key=lambda a: abs(a - 0.36))
     below, above = (min(c for c in closest if c > 0.36), max(c for c in closest if c < 0.36))
     assert abs(above - below) < 5e-3
-    assert all(0.3 < a < 0.4 for a in asked[4:])
+    assert all(0.3 < a < 0.4 for a in asked[5:])
     # What is beyond the orbits, or has no pole between them, stays where it is.
     assert pinned(at, orbits, Resonance(6, 2, 0.1, 1.0)) == ([], 0.1)
     assert pinned(at, orbits, Resonance(6, 2, 0.6, 1.0)) == ([], 0.6)
@@ -120,6 +122,9 @@ def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mod
     assert outstanding(orbit, MODES, 1) == []  # the sixth is large, and 2.93 not near six
     assert outstanding(orbit, MODES * 2.0, 1) == [6]  # 11/1.8775 = 5.86
     assert outstanding(orbit, MODES * 1.8, 1) == []  # 5.27 is 12 % away
+    third = orbit_at(0.1)
+    third.sines[2] = 0.02
+    assert outstanding(third, MODES * 1.07, 1) == [3]  # 5.9/1.99 = 2.96
     small = orbit_at(0.1, pole=9.0)  # 1e-4 of the first: drowned
     assert outstanding(small, MODES * 2.1, 1) == []
 
@@ -149,6 +154,6 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
 
 
 def test_the_nearest_resonance_is_that_of_the_last_orbit():
-    """At a = 0.65 ratios are 7.19 and 16.455, from 5.51 and 17.295."""
-    said = nearest_resonance(along(np.arange(0.05, 0.66, 0.05)), MODES, 1)
+    """At a = 0.65 ratios are 7.19 and 16.455, from 6.31 and 16.895 before."""
+    said = nearest_resonance(along([0.05, 0.25, 0.45, 0.65]), MODES, 1)
     assert "harmonic 7 is 2.6 % from mode 2" in said
