@@ -81,6 +81,14 @@ def test_the_search_ends_where_orbits_do():
         _limit(Orbits(ramp, end=0.001), 0.01, 0.6)
 
 
+def test_a_limit_that_only_the_finer_resolution_sees_is_found():
+    """At the largest orbit, 0.6, the first resolution has 0.0097 per radian, twice that 0.0103."""
+    found = _limit(
+        Orbits(lambda a, finer: 0.1 * (a * min(1.0, 0.98 + 0.01 * finer) - 0.497)), 0.01, 0.6
+    )
+    assert found.amplitude == pytest.approx(0.597, rel=1.1e-4)
+
+
 def test_tongues_are_apart_and_the_strongest_names_each():
     def growth(a, finer):
         for low, high in ((0.03, 0.04), (0.1, 0.15)):

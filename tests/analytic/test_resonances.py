@@ -125,6 +125,8 @@ def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mod
     third = orbit_at(0.1)
     third.sines[2] = 0.02
     assert outstanding(third, MODES * 1.07, 1) == [3]  # 5.9/1.99 = 2.96
+    orbit.sines[4] = 2.0 * orbit.sines[5]
+    assert outstanding(orbit, MODES * 2.0, 1) == []  # less than the one before
     small = orbit_at(0.1, pole=9.0)  # 1e-4 of the first: drowned
     assert outstanding(small, MODES * 2.1, 1) == []
 
