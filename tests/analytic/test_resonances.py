@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from analytic.exact.free import internal_resonance
+from analytic.exact.free import branches, internal_resonance
 from analytic.exact.free.internal_resonance import (
     Resonance,
     frequency_at,
@@ -30,7 +30,7 @@ def orbit_at(a, *, harmonics=7, pole=0.36, background=0.0, rate=1.0, setting=1.0
     sines = 0.1 ** np.arange(harmonics) * a
     if harmonics > 5:
         sines[5] = a * (1e-3 / (pole - a) + background)
-    model = SimpleNamespace(blade=SimpleNamespace(setting=setting))
+    model = SimpleNamespace(setting=setting)
     return SimpleNamespace(
         amplitude=a, frequency=2.0 - a**2, harmonics=harmonics, gauge_sines=sines,
         sines=sines[:, None], system=SimpleNamespace(rate=rate, model=model),
@@ -159,3 +159,21 @@ def test_the_nearest_resonance_is_that_of_the_last_orbit():
     """At a = 0.65 ratios are 7.19 and 16.455, from 6.31 and 16.895 before."""
     said = nearest_resonance(along([0.05, 0.25, 0.45, 0.65]), MODES, 1)
     assert "harmonic 7 is 2.6 % from mode 2" in said
+
+
+def test_a_tongue_is_not_entered_where_another_felt_resonance_is_nearer(monkeypatch):
+    """Two orbits give the direction, but not across another pole."""
+    asked = []
+    monkeypatch.setattr(branches, "_followed", lambda *sides: asked.append(sides[:2]) or "piece")
+    main, own = along([0.3, 0.34, 0.38, 0.42]), Resonance(6, 2, 0.36, 1.0)
+    for other, below, beyond in (
+        (Resonance(2, 3, 0.32, 1.0), None, "piece"),
+        (Resonance(2, 3, 0.40, 1.0), "piece", None),
+        (Resonance(5, 3, 0.32, 1.0), "piece", "piece"),  # of 1e-4, not felt
+    ):
+        found = [branches._tongue(main, [own, other], own, side) for side in (True, False)]
+        assert found == [below, beyond]
+    assert asked[-2:] == [(main[0], main[1]), (main[3], main[2])]
+    # No harmonic that is felt, or no two orbits on its side, no tongue.
+    assert branches._tongue(main, [own], Resonance(5, 3, 0.36, 1.0), True) is None
+    assert branches._tongue(main, [own], Resonance(6, 2, 0.32, 1.0), True) is None
