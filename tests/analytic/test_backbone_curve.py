@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.polynomial import Chebyshev
 
 from analytic import (
     AmplitudeNotReachedError,
@@ -13,7 +14,16 @@ from analytic import (
     periodic_orbits,
     reduced_model,
 )
-from analytic.exact.free.curve import care_for, fitted_curve
+from analytic.exact.free.curve import (
+    _converging,
+    _Fitted,
+    _shortened,
+    _tail,
+    care_for,
+    fitted_curve,
+    in_powers,
+    in_square,
+)
 from analytic.input_checks import RotbeamWarning
 
 SPEEDS = (0.0, 4.0, 6.0, 8.0)
@@ -132,3 +142,49 @@ def test_so_few_coefficients_that_no_range_is_left(beam):
     of = replace(backbone(beam, 8.0), care=care_for(1e-9))
     with pytest.raises(AmplitudeNotReachedError, match="ask for more of them"):
         fitted_curve(of, 0.6, 5, 1e-14)
+
+
+def geometric(ratio, count=8):
+    """The series Σ r^k T_k on [0, top²], of 0.5, whose tail is r^count/(1 - r)."""
+    return Chebyshev(ratio ** np.arange(count), domain=[0.0, 0.25])
+
+
+def test_the_tail_of_a_geometric_series_is_its_sum():
+    assert _tail(geometric(0.3)) == pytest.approx(0.3**8 / 0.7)
+    assert _tail(Chebyshev([1.0, 0.0, 0.0, 1e-9])) == 0.0
+    # A series that does not fall has no sum: a tail of nine times its last coefficient.
+    assert _tail(geometric(1.2)) == pytest.approx(9.0 * 1.2**7)
+
+
+def test_coefficients_are_left_out_up_to_the_error():
+    series = geometric(0.1)
+    # 1e-7 + 1e-6 + 1e-5 is less than 1.2e-5, and more than 1.1e-5.
+    assert _shortened(series, 1.2e-5).coef == pytest.approx(series.coef[:5])
+    assert _shortened(series, 1.1e-5).coef == pytest.approx(series.coef[:6])
+    assert _shortened(series, 0.0).coef == pytest.approx(series.coef)
+
+
+def test_powers_of_the_square_are_summed_by_horner():
+    a = np.array([[0.0, 0.1], [0.3, 0.5]])
+    assert in_square(np.array([2.0, -3.0, 5.0]), a) == pytest.approx(2.0 - 3.0 * a**2 + 5.0 * a**4)
+    assert in_square(np.array([2.0]), a) == pytest.approx(np.full((2, 2), 2.0))
+    series = geometric(0.3)
+    assert in_square(in_powers(series), a) == pytest.approx(series(a**2), rel=1e-12)
+
+
+def test_a_shorter_range_has_the_error_that_was_asked_for():
+    """√(s² - s top²)/(s - a²): its last coefficient falls by the place of the pole, s, alone."""
+
+    def fitted(top):
+        places = 0.5 * top**2 * (1.0 - np.cos(np.pi * np.arange(10) / 9))
+        size = np.sqrt(0.5 * (0.5 - top**2))
+        series = Chebyshev.fit(places, size / (0.5 - places), 9, domain=[0.0, top**2])
+        return _Fitted(series, series, _tail(series))
+
+    found = fitted(0.5)
+    for wanted in (10.0, 100.0, 1e3):
+        shorter = fitted(_converging(found, 0.5, found.error / wanted))
+        assert found.series.coef[-1] / shorter.series.coef[-1] == pytest.approx(wanted, rel=0.02)
+    # Never by more than 30 % at once, nor by less than 3 %.
+    assert _converging(found, 0.5, 1e-30) == pytest.approx(0.35)
+    assert _converging(found, 0.5, found.error) == pytest.approx(0.485)

@@ -82,6 +82,40 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert np.isfinite(state.v).all()
 
 
+def test_pieces_leave_the_main_path_and_hold_orbits(branch):
+    a, w, piece = branch.amplitude, branch.frequency, branch.piece
+    main = piece == 0
+    assert sorted(set(piece.tolist())) == [0, 1, 2]
+    assert np.all(np.diff(a[main]) > 1e-3)
+    assert a[main][-1] == 0.68
+    low = {(one.harmonic, one.mode): one for one in branch.resonances if one.mode <= 3}
+    assert {met: one.amplitude for met, one in low.items()} == pytest.approx(
+        {(17, 3): 0.1254, (6, 2): 0.6443}, abs=2e-4
+    )
+    assert [one.amplitude for one in branch.resonances] == sorted(
+        one.amplitude for one in branch.resonances
+    )
+    for one in branch.resonances:
+        assert one.frequency == pytest.approx(np.interp(one.amplitude, a[main], w[main]), rel=1e-6)
+    orbits = np.array(branch.nondimensional, dtype=object)
+    for tongue in (1, 2):
+        here = piece == tongue
+        # It begins with an orbit of the main path, and in it the sixth harmonic takes over.
+        assert orbits[here][0] in orbits[main].tolist()
+        share = np.array([o.gauge_sines[5] / o.gauge_sines[0] for o in orbits[here]])
+        assert np.all(np.diff(np.abs(share)) > 0.0)
+        assert abs(share[-1]) > 3.0 * abs(share[0])
+        assert 12 <= here.sum() <= 15
+        # The invariant drifts where harmonics end; from there on the path is told roughly.
+        assert max(o.invariant_drift for o in orbits[here]) < 1e-4
+    # From below it turns around, from beyond it comes down.
+    below, beyond = (np.sign(np.diff(a[piece == tongue])).tolist() for tongue in (1, 2))
+    assert below == sorted(below, reverse=True)
+    assert beyond == [-1.0] * len(beyond)
+    fold = branch.marks.index("fold")
+    assert a[fold] == a[piece == 1].max()
+
+
 def test_a_branch_without_a_felt_resonance_is_the_backbone(beam):
     branch = backbone(beam, 6.0).branch(up_to=0.3)
     assert not branch.folds

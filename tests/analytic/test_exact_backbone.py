@@ -302,6 +302,7 @@ def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
     [
         ({"amplitudes": [0.1, 1.2]}, ValueError, "between 0 and 1, got 1.2"),
         ({"amplitudes": [0.0]}, ValueError, "between 0 and 1, got 0"),
+        ({"amplitudes": [1.0]}, ValueError, "between 0 and 1, got 1:"),
         ({"amplitudes": [np.nan]}, ValueError, "must be finite, got nan"),
         ({"amplitudes": []}, ValueError, "sequence of numbers"),
         ({"amplitudes": ["a"]}, TypeError, "must be numbers"),

@@ -105,6 +105,12 @@ def test_a_blade_is_named_by_the_plane_that_it_bends_in(beam):
         assert name in {text.get_text() for text in diagram.plot().texts}
 
 
+def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(beam):
+    diagram = campbell(beam, [0.0, 0.5], 1, orders=5)
+    assert not diagram.crossings
+    assert [text.get_text() for text in diagram.plot().texts] == ["1ω", "lag 1"]
+
+
 def test_no_mode_crosses_the_name_of_a_line(beam):
     # Here the third mode runs along 5ω to the end.
     blade = beam.with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)

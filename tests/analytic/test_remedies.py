@@ -179,6 +179,8 @@ def test_spin_up_too_long(beam, monkeypatch):
     said = complaint(spin_up_response, beam, spin_up, [100.0], tolerance=1e-4)
     end = float(re.search(r"ask for times up to ([0-9.e+-]+) s", said)[1])
     assert complaint(spin_up_response, beam, spin_up, [end], tolerance=1e-2) == ""
+    # No less than need be.
+    assert "at most" in complaint(spin_up_response, beam, spin_up, [1.3 * end], tolerance=1e-4)
 
 
 def test_spin_up_ramp_too_short(beam):

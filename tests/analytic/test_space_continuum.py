@@ -1,5 +1,6 @@
 """The blade in space: its equations against the plane, differences, conservation, symmetries."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -103,6 +104,47 @@ def test_about_the_steady_state_stiffness_is_symmetric_and_coriolis_skew(theory)
     assert np.abs(at.residual).max() < 1e-12
     assert np.abs(K - K.T).max() < 1e-8  # as well as the frames are resolved
     assert np.abs(C + C.T).max() < 1e-8
+
+
+@pytest.mark.parametrize(("acts_on", "tip"), [("tip", 1 / 3), ("length", 1 / 8), ("mass", 1 / 8)])
+def test_a_small_load_bends_the_blade_as_in_a_handbook(acts_on, tip):
+    """FL³/3EI and qL⁴/8EI: across it in lag, and what of the radial one the precone turns down."""
+    cone, flap, size = 0.3, 0.5, 1e-6
+    blade = SpaceUnit(flap=flap, torsion=0.1, line=Line(precone=cone))
+    model = space(blade, Theory(extension=False, trapeze=False), bending=8)
+    still = np.zeros((2, model.size))
+    at = model.tangent(still, still, still, 0.0, 0.0, model.push(size * np.array([1, 1j]), acts_on))
+    moved = model.tip(-np.linalg.solve(at.stiffness, at.residual[..., None])[..., 0]) / size
+    assert moved[0, 1:] == pytest.approx([0.0, -math.sin(cone) * tip / flap], abs=1e-5)
+    assert moved[1, 1:] == pytest.approx([tip, 0.0], abs=1e-5)
+
+
+@pytest.mark.parametrize("theory", THEORIES)
+def test_the_power_of_all_forces_is_the_rate_of_the_jacobi_integral(theory):
+    """q̇ · residual of any motion at a constant speed; q + q̇τ + q̈τ²/2 by differences."""
+    model, rate = space(ALL, theory), 1.7
+    q, q_dot, q_ddot = states(model, 0.1)
+    h, energy = 1e-4, []
+    for at in (h, -h):
+        here, there = q + at * q_dot + 0.5 * at**2 * q_ddot, q_dot + at * q_ddot
+        energy.append(model.kinetic_energy(here, there) + model.amended_potential(here, rate))
+    power = np.sum(q_dot * model.residual(q, q_dot, q_ddot, rate), axis=1)
+    assert (energy[0] - energy[1]) / (2.0 * h) == pytest.approx(power, rel=1e-6)
+
+
+def test_the_gauge_is_how_far_the_tip_has_moved_along_its_direction():
+    """Zero in the steady state; its gradient and its rate by differences."""
+    along = np.array([0.6, 0.0, 0.8])
+    steady = SpaceBlade(space(ALL, slenderness=1e-4, bending=8), 2.0, tuple(along))
+    model, still = steady.model, steady.equilibrium[None]
+    assert steady.gauge(still) == pytest.approx(0.0, abs=1e-14)
+    q, q_dot, _ = states(model, 0.1)
+    moved = model.axis(q, np.ones(1))[:, 0] - model.axis(still, np.ones(1))[:, 0]
+    assert steady.gauge(q) == pytest.approx(moved @ along, abs=1e-12)
+    h = 1e-6
+    rate = (steady.gauge(q + h * q_dot) - steady.gauge(q - h * q_dot)) / (2.0 * h)
+    assert steady.gauge_rate(q, q_dot) == pytest.approx(rate, abs=1e-8)
+    assert np.sum(steady.gauge_gradient(q) * q_dot, axis=1) == pytest.approx(rate, abs=1e-8)
 
 
 @pytest.mark.parametrize("theory", THEORIES)

@@ -21,8 +21,13 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
+from analytic.exact.beam.discretization import blade_continuum
+from analytic.exact.beam.space import Space, with_points_for
+from analytic.exact.beam.steady import steady_rotation
+from analytic.exact.plane.growth import _steady_modes
 from analytic.exact.plane.planarity import PlanarStability, growth_rates, planar_note
 from analytic.methods.continuation import Care
+from analytic.theory import BERNOULLI_EULER
 
 ROOT = Path(__file__).parents[2]
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
@@ -317,3 +322,16 @@ def test_a_strip_at_rest_has_a_limit_and_a_square_none(beam):
     )
     assert math.isinf(square.amplitude)
     assert strip.amplitude == pytest.approx(0.00782, rel=1e-3)
+
+
+def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam):
+    """Flap and torsion of the growth's own matrices are those of `linear_modes`, name by name."""
+    blade = beam.with_shape(Rectangle())
+    planar = steady_rotation(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
+    space = Space(blade, 27)
+    frequencies, rows, names = _steady_modes(space, with_points_for(planar, space.functions))
+    assert len(names) == len(rows) == frequencies.size == 54
+    of = dict(zip(names, frequencies * beam.frequency_scale, strict=True))
+    for plane in ("flap", "torsion"):
+        known = linear_modes(blade, 4.0, 2, plane=plane).frequencies
+        assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=1e-8)

@@ -42,6 +42,8 @@ def test_all_files_are_there_and_are_what_their_sums_say(folder):
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
     wanted = {"PROBLEM.pdf", "README.md", "VERSION", "cases.csv", "cases.json", "reference_S1.csv"}
     wanted |= {f"drive_{case.name}.csv" for case in HISTORIES}
+    # Each has twice the elements of the one before, so that orders can be told.
+    assert [mesh * 2**-k for k, mesh in enumerate(MESHES)] == [8] * len(MESHES)
     wanted |= {f"start_O_{mesh}.csv" for mesh in MESHES}
     wanted |= {"sample/entry.toml", "sample/runs.csv", "sample/L.csv"}
     assert wanted <= there

@@ -13,7 +13,13 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission import BackbonePoint, Declaration, Run, Submission
+from rotbeam_exu.verification.submission import (
+    BackbonePoint,
+    Declaration,
+    Frequency,
+    Run,
+    Submission,
+)
 from rotbeam_exu.verification.verify import Entry, handed_in, verify
 
 S1 = SpinUp(omega=6.0, ramp_time=3.0)
@@ -212,6 +218,31 @@ def test_points_of_a_backbone_are_judged_by_their_shift():
         found = judged(submission).findings["B"]["backbone"]
         assert found.outcome is outcome
         assert found.model_difference == pytest.approx(off, abs=2e-3)
+
+
+def test_nonlinear_frequencies_are_over_the_linear_one_of_the_same_code():
+    """A code whose frequencies are all 1e-4 too high has the right shifts, of the same blade."""
+    truth, off = reference(CASES["B"]), 1e-4
+    linear = truth.first_frequency(2.0)
+    points = tuple(
+        BackbonePoint(
+            elements=n, speed=2.0, amplitude=0.3,
+            frequency=truth.frequency_at(0.3, 2.0) * (1.0 + off + 1e-3 / n**2),
+        )
+        for n in (16, 32, 64)
+    )  # fmt: skip
+    rows = tuple(
+        Frequency(elements=n, speed=2.0, frequency=linear * (1.0 + off + 1e-3 / n**2))
+        for n in (16, 32, 64)
+    )
+    submission = Submission(
+        declaration=Declaration(code="mine", order=2.0), backbone=points, frequencies=rows
+    )
+    shift = truth.frequency_at(0.3, 2.0) / linear - 1.0
+    other = replace(CASES["L"], blade=CASES["L"].blade.with_tip_mass(0.1))
+    for known, expected in ((CASES["L"], 0.0), (other, off / shift)):
+        found = judged(submission, cases={"L": known, "B": CASES["B"]}).findings["B"]["backbone"]
+        assert found.model_difference == pytest.approx(expected, abs=1e-4)
 
 
 def test_thresholds_are_asked_of_every_quantity(judged_right):

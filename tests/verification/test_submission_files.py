@@ -193,7 +193,11 @@ FAULTS = [
     (S1, lines((7, lambda row: "0.02,0.5")), ":7: time must increase, but 0.02 s follows 0.08 s"),
     (S1, lambda text: "\n".join(text.split("\n")[:500]), ":500: ends at 9.96 s"),
     (S1, lambda text: "time,q\n" + "\n".join(text.split("\n")[30:]), ":2: begins at 0.58 s"),
-    (S1, lambda text: "time,q\n" + "\n".join(text.split("\n")[1::5]), "samples are 100 ms apart"),
+    (
+        S1,
+        lambda text: "time,q\n" + "\n".join(text.split("\n")[1::5]),
+        "samples are 100 ms apart (and so in 149 more), at most 20 ms",
+    ),
     (S1, numbers("%.4g"), "column 'q' is written to 4 digits, 8 are needed: write %.10g"),
     ("S1+h/m016_h5e-4.csv", None, "there is no such file"),
     ("runs.csv", None, "runs.csv: there is no such file"),

@@ -172,8 +172,8 @@ def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit
     seen = _scanned(orbits, least, largest)
     searched = max(seen)
     amplitude, what, agreed = math.inf, None, True
-    if orbits.growth(searched, 2).per_radian >= least:
-        seen = _seen_finely(orbits, seen, least)
+    if (last := orbits.growth(searched, 2)).per_radian >= least:
+        seen = _seen_finely(orbits, {**seen, searched: last}, least)
         low, high = _last_step(seen, least)
         amplitude = _bisected(orbits, low, high, least) if low else high
         what = orbits.growth(amplitude, 2)
@@ -230,10 +230,12 @@ def _seen_finely(
 
 
 def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
-    """Return the largest amplitude that does not grow so fast, and the next; zero if all do."""
+    """Return the largest amplitude that does not grow so fast, and the next; zero if all do.
+
+    The very largest does.
+    """
     amplitudes = list(seen)
     last = max((k for k, a in enumerate(amplitudes) if seen[a].per_radian < least), default=-1)
-    last = min(last, len(amplitudes) - 2)  # the largest grows at twice the resolution
     return (amplitudes[last] if last >= 0 else 0.0), amplitudes[last + 1]
 
 
