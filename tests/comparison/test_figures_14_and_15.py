@@ -154,6 +154,7 @@ def test_figure_5_is_fitted_where_its_curve_holds(monkeypatch):
         assert float(np.abs(curve / drop - 1.0).max()) < 0.05
 
 
+@pytest.mark.slow  # the paper's mesh, above, is measured by the same code
 def test_converged_points_lie_on_the_exact_backbone(beam):
     """One point of the grid by its largest steps; at 1 ms it and the others are in a slow test."""
     point = comparison.finite_element_points(

@@ -70,6 +70,7 @@ def test_processes_give_the_same_bits(beam, serial):
     xr.testing.assert_identical(sweep(beam, **SMALL, **COARSE, jobs=2, history=True), serial)
 
 
+@pytest.mark.slow  # processes, above, take the same way; a cluster's start is all that it adds
 def test_dask_gives_the_same_bits(beam, serial):
     distributed = pytest.importorskip("distributed")
     with (
@@ -339,6 +340,7 @@ def test_bad_input_is_refused_before_any_work(beam, monkeypatch, options, senten
         sweep(beam, **{**SMALL, **COARSE, "jobs": 1, **options})
 
 
+@pytest.mark.slow  # a child; tests of endings and of dying workers, above, hold its two halves
 def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):
     disk = tmp_path / "disk"
     disk.mkdir()

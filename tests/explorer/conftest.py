@@ -5,7 +5,7 @@ import pytest
 
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
-OMEGAS = tuple(np.arange(0.0, 12.5, 1.0).tolist())
+OMEGAS = tuple(np.arange(0.0, 12.5, 2.0).tolist())
 AMPLITUDES = tuple((np.arange(1, 13) * 5 / 100).tolist())
 RAMPS = (2.5, 3.0, 4.0, 6.5)
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
