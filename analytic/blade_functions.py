@@ -9,13 +9,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from .arrays import FloatArray
 from .lazily import linalg
 from .profiles import evaluated
+from .settled import FoundT, settled
 from .shape_functions import ShapeFunctions, shape_functions
 from .unit_blade import UnitBlade
 
@@ -93,8 +94,6 @@ class BladeFunctions:
         return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))
 
 
-FoundT = TypeVar("FoundT")
-
 _KINKED = 1e-5
 """Change that is left where a section has kinks, with an algebraic tail."""
 _FEWEST, _MOST = 16, 120
@@ -114,32 +113,29 @@ def basis_sizes(blade: UnitBlade, w_bar: float) -> list[int]:
     return [panels * size for size in sizes]
 
 
-def settled(
-    sizes: list[int],
+def settled_functions(
     solve: Callable[[int], FoundT],
-    numbers: Callable[[FoundT], tuple[float, ...]],
+    blade: UnitBlade,
+    w_bar: float,
     tolerance: float,
+    of: Callable[[FoundT], tuple[float, ...]],
     name: str,
 ) -> FoundT:
-    """Return what `solve` finds with the first number of functions that settles its `numbers`.
+    """Return what `solve` finds with the first number of functions that settles its numbers.
 
     Raises
     ------
     ValueError
         If the most functions still change them by more than 1e-5.
     """
-    found, change = solve(sizes[0]), math.inf
-    for count in sizes[1:]:
-        before, found = found, solve(count)
-        change = max(abs(a - b) for a, b in zip(numbers(found), numbers(before), strict=True))
-        if change <= tolerance:
-            return found
-    if change <= _KINKED:
-        return found
-    raise ValueError(
-        f"{name} has not settled with {sizes[-1]} functions: the last third of them changes it by "
-        f"{change:.1e}; rotate slower, or smooth the section"
-    )
+    sizes = basis_sizes(blade, w_bar)
+    _, found, change = settled(solve, iter(sizes), tolerance, of)
+    if change > max(tolerance, _KINKED):
+        raise ValueError(
+            f"{name} has not settled with {sizes[-1]} functions: the last third of them changes it "
+            f"by {change:.1e}; rotate slower, or smooth the section"
+        )
+    return found
 
 
 @lru_cache(maxsize=16)

@@ -32,6 +32,9 @@ class Load(Described, abstract=True):
         What the force is per unit of; None of a load that moves the clamp and is no force.
     frequency : float or None
         ν [rad/s] of a harmonic load, where it is given.
+    varied : {"frequency", "speed"} or None
+        Over which a response is followed: the load's frequency, or the rotation speed of a load
+        that goes around once a turn; None of a load that has no response.
     """
 
     unit: ClassVar[str]
@@ -39,6 +42,7 @@ class Load(Described, abstract=True):
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
+    varied: ClassVar[Literal["frequency", "speed"] | None] = None
     frequency: float | None = None
 
     @property
@@ -100,6 +104,8 @@ class HarmonicLoad(Load, abstract=True):
 
     amplitude: float
     frequency: float | None = None
+
+    varied: ClassVar[Literal["frequency", "speed"] | None] = "frequency"
 
     def __post_init__(self) -> None:
         self._keep(amplitude=finite_number("amplitude", self.amplitude, self.unit))
@@ -242,9 +248,9 @@ class Gravity(Load):
 
     Examples
     --------
-    >>> from analytic import Beam, Damping, gravity_response
+    >>> from analytic import Beam, Damping, Gravity, forced_response
     >>> blade = Beam.reference().with_damping(Damping(external=0.3))
-    >>> found = gravity_response(blade, [5.0, 5.5], gravity=1.62, functions=8)
+    >>> found = forced_response(blade, [5.0, 5.5], Gravity(1.62), functions=8)
     >>> found.load
     Gravity(gravity=1.62)
     >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")
@@ -258,6 +264,7 @@ class Gravity(Load):
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[Literal["mass"]] = "mass"
+    varied: ClassVar[Literal["frequency", "speed"] | None] = "speed"
 
     def __post_init__(self) -> None:
         self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))

@@ -1,4 +1,4 @@
-"""Axes for the results' own pictures: `Backbone.plot`, `Campbell.plot`, `ForcedResponse.plot`.
+"""Axes for the results' own pictures: `Orbits.plot`, `Campbell.plot`, `ForcedResponse.plot`.
 
 The only module of the theory that knows matplotlib, and that only when something is drawn. The
 pictures have the reader's own settings; figures of the house are in `rotbeam_exu.figures`.

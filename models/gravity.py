@@ -12,13 +12,13 @@ harmonics.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from analytic import Beam, Damping, campbell, gravity_response
+from analytic import Beam, Damping, Gravity, campbell, forced_response
 from rotbeam_exu import dataset_of, figures
 
 plt.style.use(figures.STYLE)
 beam = Beam.reference()
 damping = Damping(external=1.5 * beam.mass_per_length * beam.frequency_scale)
-response = gravity_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36))
+response = forced_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36), Gravity())
 crossings = campbell(beam, np.linspace(0.0, 6.0, 25), count=1, orders=4).crossings
 
 _, (above, below) = plt.subplots(nrows=2, figsize=(6, 7))

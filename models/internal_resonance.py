@@ -10,11 +10,11 @@ crossings, the dots with harmonic:mode, are too weak to be seen.
 
 import matplotlib.pyplot as plt
 
-from analytic import Beam, Theory, backbone_branch
+from analytic import Beam, Theory, backbone
 from rotbeam_exu import figures
 
 plt.style.use(figures.STYLE)
-branch = backbone_branch(Beam.reference(), omega=2.0, up_to=0.8, theory=Theory(extension=False))
+branch = backbone(Beam.reference(), omega=2.0, theory=Theory(extension=False)).branch(up_to=0.8)
 print(branch)
 
 _, ax = plt.subplots(figsize=(6.0, 4.2))

@@ -1,7 +1,6 @@
 """Results as labeled data: `dataset_of` makes the Dataset that is saved, printed and drawn.
 
-A kind of result is one function here: it names the result's numbers, their dims, and by a label
-what they are.
+A kind of result is one function here: it names the result's numbers, their dims and their labels.
 """
 
 from __future__ import annotations
@@ -17,14 +16,13 @@ import numpy as np
 from analytic import (
     AmplitudeNotReachedError,
     AnyBlade,
-    Backbone,
     ForcedResponse,
-    Gravity,
+    Orbits,
     PlanarStability,
     SpinUpResponse,
     StabilityLimit,
 )
-from analytic.loads import HarmonicLoad, rippled
+from analytic.loads import Load, rippled
 
 from .lazily import xr
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
@@ -78,9 +76,9 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, whose names are those of a run by `simulate`; a ForcedResponse, with its
-        stability and the backbone that it leans on; a PlanarStability, and if it likes the
-        StabilityLimit beside it, which is all attributes.
+        A SpinUpResponse, with the names of a run by `simulate`; a ForcedResponse, with its
+        stability and its backbone; a PlanarStability, or both it and its StabilityLimit, which
+        becomes attributes.
 
     Returns
     -------
@@ -119,7 +117,7 @@ def _described(result: Any) -> xr.Dataset:
 
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
-    """Over `time`, named as `simulate` names what it returns; Eq. 16."""
+    """Over `time`, with the names of `simulate`; Eq. 16."""
     theory = response.theory
     sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     angle = rippled(response.spin_up, response.loads).angle(response.time)
@@ -190,7 +188,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
     over its orbits.
     """
-    weight = isinstance(response.load, Gravity)
+    weight = response.load.varied == "speed"
     swept = "rotation speed ω" if weight else "drive frequency ν"
     # The weight across the blade is greatest, and negative, at θ = 0.
     phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"
@@ -204,12 +202,12 @@ def _(response: ForcedResponse) -> xr.Dataset:
         "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
         "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
     }
-    backbone: Backbone | None = None
+    backbone: Orbits | None = None
     if not weight:
         try:
-            backbone = response.backbone
+            backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
         except AmplitudeNotReachedError as error:
-            backbone = error.backbone  # what of it is reached
+            backbone = error.orbits  # what of it is reached
     if backbone is not None:
         free = np.append(backbone.omega_n, backbone.frequency)
         label = "frequency of the free, undamped orbit [rad/s]"
@@ -223,9 +221,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     return dataset(variables, {}, {**inputs, **known})
 
 
-def response_inputs(
-    beam: AnyBlade, load: HarmonicLoad | Gravity, omega: float | None
-) -> dict[str, Any]:
+def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
         **beam_attributes(beam),

@@ -8,9 +8,8 @@ from analytic.lazily import Lazily
 
 if TYPE_CHECKING:
     import h5netcdf
-    import h5py  # type: ignore[import-untyped]
     import xarray as xr
 else:
-    h5netcdf, h5py, xr = map(Lazily, ("h5netcdf", "h5py", "xarray"))
+    h5netcdf, xr = map(Lazily, ("h5netcdf", "xarray"))
 
-__all__ = ["Lazily", "h5netcdf", "h5py", "xr"]
+__all__ = ["Lazily", "h5netcdf", "xr"]

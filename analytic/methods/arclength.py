@@ -15,12 +15,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..arrays import FloatArray
-from ..lazily import linalg, optimize
+from ..lazily import optimize
+from .newton import Newton, NoOrbitError, factored, solved
 
-_NEWTON_STEPS = 15
-_CONVERGED = 1e-12  # of the unknowns, which are of order 1
-_STAGNATES = 1e-9  # where a contraction that fails is round-off
-_SLOW = 0.2  # a contraction worse than this pays for a new factorization
+# Of the unknowns, which are of order 1.
+_NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
 _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
@@ -38,14 +37,6 @@ class Curve(Protocol):
     def jacobian(self, z: FloatArray) -> FloatArray:
         """Return their derivatives, (N, N + 1)."""
         ...
-
-
-class NoWayOnError(Exception):
-    """The curve cannot be followed on; the message says why, `remedy` what else to try."""
-
-    def __init__(self, message: str, remedy: str = "") -> None:
-        super().__init__(message)
-        self.remedy = remedy
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,42 +71,26 @@ def corrected(
 
     Raises
     ------
-    NoWayOnError
+    NoOrbitError
         If Newton's method does not converge.
     """
-    z, last, fresh = guess, np.inf, False
-    for count in range(1, _NEWTON_STEPS + 1):
-        if factors is None:
-            factors, fresh = _factored(curve.jacobian(z), across), True
-        defect = np.append(curve.residual(z), across @ (z - guess))
-        if not np.all(np.isfinite(defect)):
-            break
-        change = linalg.lu_solve(factors, defect, check_finite=False)
-        z = z - change
-        size = float(np.linalg.norm(change))
-        contraction = size / last if np.isfinite(last) else 1.0
-        if size * min(1.0, contraction) < _CONVERGED or (
-            size < _STAGNATES and fresh and contraction > _SLOW
-        ):
-            return _with_tangent(curve, z, across, count)
-        if not size < 10.0:
-            break
-        if contraction > _SLOW and np.isfinite(last):
-            factors = None
-        last = size
-    raise NoWayOnError("Newton's method does not converge")
 
+    def residual(z: FloatArray) -> FloatArray:
+        return np.append(curve.residual(z), across @ (z - guess))
 
-def _factored(jacobian: FloatArray, row: FloatArray) -> tuple[Any, Any]:
-    factors: tuple[Any, Any] = linalg.lu_factor(np.vstack((jacobian, row)), check_finite=False)
-    return factors
+    def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
+        return factored(np.vstack((curve.jacobian(z), across))), residual(z)
+
+    found = _NEWTON.root(guess, residual, linearized, factors=factors)
+    if found is None:
+        raise NoOrbitError("Newton's method does not converge")
+    return _with_tangent(curve, found.z, across, found.steps)
 
 
 def _with_tangent(curve: Curve, z: FloatArray, along: FloatArray, steps: int) -> Point:
     """Return the point `z` with the tangent that goes the way of `along`."""
-    jacobian = curve.jacobian(z)
-    factors = _factored(jacobian, along)
-    tangent = linalg.lu_solve(factors, np.eye(1, z.size, z.size - 1)[0], check_finite=False)
+    factors = factored(np.vstack((curve.jacobian(z), along)))
+    tangent = solved(factors, np.eye(1, z.size, z.size - 1)[0])
     # The last row of the matrix was `along`; times the length it is the tangent's, in sign.
     tangent /= np.linalg.norm(tangent)
     lu, pivots = factors
@@ -131,13 +106,13 @@ def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[P
 
     Raises
     ------
-    NoWayOnError
+    NoOrbitError
         If no step, however short, finds one.
     """
     for _ in range(_HALVINGS):
         try:
             found = corrected(curve, point.z + step * point.tangent, point.tangent, point.factors)
-        except NoWayOnError:
+        except NoOrbitError:
             step *= 0.5
             continue
         if found.tangent @ point.tangent < _LARGEST_TURN:
@@ -146,7 +121,7 @@ def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[P
         if found.steps <= _EASY:
             return found, min(1.5 * step, longest)
         return found, step if found.steps < _HARD else 0.5 * step
-    raise NoWayOnError(f"steps down to {step:.1e} of the curve's length find no next point")
+    raise NoOrbitError(f"steps down to {step:.1e} of the curve's length find no next point")
 
 
 def located(
@@ -171,26 +146,18 @@ def located(
     return found[share]
 
 
-def crossing(curve: Curve, start: Point, end: Point) -> tuple[FloatArray, FloatArray] | None:
-    """Return where another branch crosses between two points, and the way it goes there.
+def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
+    """Return where another branch crosses between two points, if one does.
 
-    At a branch point the equations' Jacobian has two null vectors: the tangent, and one that leads
-    off. None if there is none in between: the determinant changes its sign through infinity too,
-    where a narrow excursion of the curve is stepped over.
+    There the equations' Jacobian has two null vectors. The determinant changes its sign through
+    infinity too, where a narrow excursion of the curve is stepped over.
     """
     try:
         found = located(curve, start, end, lambda point: point.determinant)
-    except NoWayOnError:
+    except NoOrbitError:
         return None
     if found is None:
         return None
-    _, sizes, vectors = np.linalg.svd(curve.jacobian(found.z))
-    if sizes[-1] > _SINGULAR * sizes[-2]:
-        return None
-    null = vectors[-2:]
-    tangent = start.tangent / np.linalg.norm(null @ start.tangent)
-    along = null.T @ (null @ tangent)
-    # Across the tangent, within the two.
-    others = null - np.outer(null @ along, along)
-    off = others[int(np.argmax(np.linalg.norm(others, axis=1)))]
-    return found.z, off / np.linalg.norm(off)
+    sizes = np.linalg.svd(curve.jacobian(found.z), compute_uv=False)
+    # N singular values of N rows: the tangent's is not among them.
+    return found.z if sizes[-1] <= _SINGULAR * sizes[-2] else None

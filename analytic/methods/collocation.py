@@ -9,20 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from ..arrays import FloatArray
-from ..lazily import linalg, special
+from ..lazily import special
+from .newton import Newton, factored
 from .system import Tangent
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
-_NEWTON_STEPS = 12
-_CONVERGED = 1e-13  # of the coordinates, which are of order 1
-_SLOW = 0.2  # a contraction worse than this pays for a new factorization
+# Of the coordinates, which are of order 1.
+_NEWTON = Newton(converged=1e-13, slow=0.2, steps=12)
 
 
 class Collocation:
@@ -86,28 +87,21 @@ class Collocation:
         tangent: Linearization,
     ) -> FloatArray | None:
         """Return the accelerations (stages, n) that make the residuals zero, None if not found."""
-        acceleration, factors, last = guess, None, np.inf
-        for _ in range(_NEWTON_STEPS):
-            state = self.stages(h, q, q_dot, acceleration)
-            if factors is None:
-                at = tangent(*state)
-                factors = linalg.lu_factor(self.matrix(h, at), check_finite=False)
-                defect = at.residual
-            else:
-                defect = residual(*state)
-            change = linalg.lu_solve(factors, defect.ravel(), check_finite=False)
-            change = change.reshape(guess.shape)
-            acceleration = acceleration - change
-            size = float(np.abs(h**2 * self.position @ change).max())
-            if not np.isfinite(size):
-                return None
-            contraction = size / last if np.isfinite(last) else 1.0
-            if size * min(1.0, contraction) < _CONVERGED:
-                return acceleration
-            if contraction > _SLOW and np.isfinite(last):
-                factors = None
-            last = size
-        return None
+
+        def state(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+            return self.stages(h, q, q_dot, z.reshape(guess.shape))
+
+        def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
+            at = tangent(*state(z))
+            return factored(self.matrix(h, at)), at.residual.ravel()
+
+        found = _NEWTON.root(
+            guess.ravel(),
+            lambda z: residual(*state(z)).ravel(),
+            linearized,
+            size=lambda _, z: float(np.abs(h**2 * self.position @ z.reshape(guess.shape)).max()),
+        )
+        return None if found is None else found.z.reshape(guess.shape)
 
 
 @lru_cache(maxsize=8)

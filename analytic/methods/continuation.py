@@ -11,8 +11,10 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
-from .harmonic_balance import LastTangent, NoOrbitError, frequency_change, solve
-from .periodic_orbit import PeriodicOrbit, S
+from .fourier import packed
+from .harmonic_balance import LastTangent, frequency_change, solve
+from .newton import NoOrbitError
+from .orbit import Orbit, S
 
 RESIDUAL_BOUND = 1e-4
 """Largest residual of an orbit on the way; away from resonances its frequency is good to 1e-8."""
@@ -21,6 +23,7 @@ FREQUENCY_BOUND = 1e-9
 """Relative change of an orbit's frequency under one more refinement, up to which it is settled."""
 
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
+_TRUNCATED = 5e-6  # residual of harmonics left out, which leave 1e-6 of a response's amplitude
 _FEWEST_HARMONICS = 6
 MOST_FUNCTIONS = 128
 """For θ; enough for the smallest orbits up to w̄ = 1000."""
@@ -42,29 +45,29 @@ class Care(NamedTuple):
         The most that are taken.
     halvings : int
         Of a step that finds nothing.
+    functions : int
+        The most that are taken.
     """
 
     drift: float = 2e-11
     harmonics: int = 64
     halvings: int = 5
+    functions: int = 128
 
 
 THOROUGH = Care()
 
 
-def linear_orbit(
-    system: S, shape: FloatArray, frequency: float, amplitude: float
-) -> PeriodicOrbit[S]:
+def linear_orbit(system: S, shape: FloatArray, frequency: float, amplitude: float) -> Orbit[S]:
     """Return the motion q₀ + `amplitude` times `shape` (n,), odd coordinates in the sine."""
-    coefficients = np.zeros((_FEWEST_HARMONICS + 1, system.size))
+    coefficients = np.zeros((2 * _FEWEST_HARMONICS + 1, system.size))
     coefficients[0] = system.equilibrium
-    coefficients[1] = amplitude * shape
-    return PeriodicOrbit(
-        system=system, amplitude=amplitude, frequency=frequency, coefficients=coefficients
-    )
+    coefficients[1] = amplitude * np.where(system.odd, 0.0, shape)
+    coefficients[_FEWEST_HARMONICS + 1] = amplitude * np.where(system.odd, shape, 0.0)
+    return Orbit(system=system, amplitude=amplitude, frequency=frequency, coefficients=coefficients)
 
 
-def meets_the_equations(orbit: PeriodicOrbit[Any]) -> bool:
+def meets_the_equations(orbit: Orbit[Any]) -> bool:
     """Return whether the functions suffice, by the residual on half as many again."""
     return bool(orbit.residual <= RESIDUAL_BOUND)
 
@@ -78,7 +81,7 @@ class Path(Generic[S]):
 
     Attributes
     ----------
-    seed, double : PeriodicOrbit
+    seed, double : Orbit
         The smallest orbits.
     longest : float
         Longest step of the amplitude.
@@ -86,23 +89,23 @@ class Path(Generic[S]):
         With which they are.
     tangent : LastTangent
         That of the smallest orbits, to begin with.
-    nodes : list of PeriodicOrbit
+    nodes : list of Orbit
         Those found so far, ascending.
     """
 
-    seed: PeriodicOrbit[S]
-    double: PeriodicOrbit[S]
+    seed: Orbit[S]
+    double: Orbit[S]
     longest: float
     care: Care = THOROUGH
     tangent: LastTangent = field(default_factory=LastTangent, repr=False)
-    nodes: list[PeriodicOrbit[S]] = field(init=False)
+    nodes: list[Orbit[S]] = field(init=False)
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
 
     def __post_init__(self) -> None:
         self.nodes = [self.seed, self.double]
 
-    def at(self, amplitude: float) -> PeriodicOrbit[S]:
+    def at(self, amplitude: float) -> Orbit[S]:
         """Return the orbit of the peak `amplitude`, with the error of its frequency.
 
         Raises
@@ -129,7 +132,7 @@ class Path(Generic[S]):
                 reasons.append(str(reason))
         raise NoOrbitError(reasons[0], below)
 
-    def laid(self, amplitude: float) -> PeriodicOrbit[S]:
+    def laid(self, amplitude: float) -> Orbit[S]:
         """Return the orbit of the peak `amplitude`, at or beyond the last node: it becomes a node.
 
         Raises
@@ -163,7 +166,7 @@ class Path(Generic[S]):
         self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"
         raise NoOrbitError(self._end, last)
 
-    def _stepped(self, amplitude: float) -> PeriodicOrbit[S]:
+    def _stepped(self, amplitude: float) -> Orbit[S]:
         last = self.nodes[-1]
         guess = _through(self.nodes[-_GUESSED_FROM:], amplitude)
         # Cut at harmonic H, the invariant drifts as the next one, with a^(H + 1).
@@ -172,14 +175,14 @@ class Path(Generic[S]):
             guess = _on_more_harmonics(guess, self.care.harmonics)
         return self._resolved(guess, amplitude)
 
-    def _resolved(self, guess: PeriodicOrbit[S], amplitude: float) -> PeriodicOrbit[S]:
+    def _resolved(self, guess: Orbit[S], amplitude: float) -> Orbit[S]:
         """Return the orbit near `guess` with as many harmonics and functions as it needs."""
         orbit = solve(guess, amplitude, self.tangent)
         while (larger := refined(orbit, self.care)) is not None:
             orbit = solve(larger, amplitude, self.tangent)
         return orbit
 
-    def _settled(self, orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+    def _settled(self, orbit: Orbit[S]) -> Orbit[S]:
         """Return the orbit with its frequency's error, on as many functions as that needs."""
         error, tangent = frequency_change(orbit, self.tangent), LastTangent()
         while error > FREQUENCY_BOUND:
@@ -194,7 +197,7 @@ class Path(Generic[S]):
         return replace(orbit, frequency_error=error)
 
 
-def _change_by_harmonics(orbit: PeriodicOrbit[Any]) -> float:
+def _change_by_harmonics(orbit: Orbit[Any]) -> float:
     """Return the relative change of the frequency by a quarter more harmonics."""
     try:
         more = solve(_on_more_harmonics(orbit, 2 * orbit.harmonics), orbit.amplitude)
@@ -203,7 +206,7 @@ def _change_by_harmonics(orbit: PeriodicOrbit[Any]) -> float:
     return abs(more.frequency / orbit.frequency - 1.0)
 
 
-def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOrbit[S]:
+def _through(orbits: Sequence[Orbit[S]], amplitude: float) -> Orbit[S]:
     """Return the guess through orbits: harmonic k as a^k, times a polynomial of a²."""
     # Far below, the high harmonics are round-off.
     near = [orbit for orbit in orbits if amplitude < _FARTHEST * orbit.amplitude]
@@ -226,43 +229,50 @@ def _through(orbits: Sequence[PeriodicOrbit[S]], amplitude: float) -> PeriodicOr
     )
 
 
-def refined(orbit: PeriodicOrbit[S], care: Care = THOROUGH) -> PeriodicOrbit[S] | None:
+def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
-    Harmonics until the invariant is constant, functions until the residual is small.
+    Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
+    functions until the residual on half as many again is small.
 
     Raises
     ------
     NoOrbitError
         If it needs more than are taken.
     """
-    if orbit.invariant_drift > care.drift + orbit.invariant_noise:
-        last = orbit.harmonics >= care.harmonics
-        if last and orbit.invariant_drift < _LARGE_DRIFT and meets_the_equations(orbit):
-            return None
-        larger = _on_more_harmonics(orbit, care.harmonics)
-        if last or _too_large(larger):
-            raise NoOrbitError(
-                f"{orbit.harmonics} harmonics leave the Jacobi integral drifting by "
-                f"{orbit.invariant_drift:.1e}"
-            )
-        return larger
-    return None if meets_the_equations(orbit) else _on_more_functions(orbit)
+    if orbit.system.driven:
+        lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"
+    else:
+        lacks = orbit.invariant_drift > care.drift + orbit.invariant_noise
+        left = f"the Jacobi integral drifting by {orbit.invariant_drift:.1e}"
+    if not lacks:
+        return None if meets_the_equations(orbit) else _on_more_functions(orbit, care)
+    last = orbit.harmonics >= care.harmonics
+    nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
+    if last and nearly and meets_the_equations(orbit):
+        return None
+    larger = _on_more_harmonics(orbit, care.harmonics)
+    if last or _too_large(larger):
+        raise NoOrbitError(f"{orbit.harmonics} harmonics leave {left}")
+    return larger
 
 
-def _on_more_harmonics(orbit: PeriodicOrbit[S], most: int) -> PeriodicOrbit[S]:
-    return orbit.with_harmonics(min(orbit.harmonics + max(4, orbit.harmonics // 4), most))
+def _on_more_harmonics(orbit: Orbit[S], most: int) -> Orbit[S]:
+    more = 2 if orbit.system.driven else max(4, orbit.harmonics // 4)
+    return orbit.with_harmonics(min(orbit.harmonics + more, most))
 
 
-def _on_more_functions(orbit: PeriodicOrbit[S]) -> PeriodicOrbit[S]:
+def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     larger = orbit.on(orbit.system.refined())
-    if larger.system.functions > MOST_FUNCTIONS or _too_large(larger):
+    if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "
-            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}"
+            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}",
+            remedy="no damping helps where functions are missing: smooth the steps of the section, "
+            "or rotate slower",
         )
     return larger
 
 
-def _too_large(orbit: PeriodicOrbit[Any]) -> bool:
-    return bool(orbit.harmonics * orbit.system.size > _MOST_UNKNOWNS)
+def _too_large(orbit: Orbit[Any]) -> bool:
+    return bool(packed(orbit.coefficients, orbit.parts).size > _MOST_UNKNOWNS)

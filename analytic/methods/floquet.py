@@ -2,12 +2,13 @@
 
 The equations of motion, linearized about the orbit, are integrated over one period by Gauss's
 method, which damps nothing. Modes too fast for its steps are left out by their shape, for they come
-out on the unit circle at a wrong place, where they may meet others that they never meet.
+out on the unit circle at a wrong place, where they may meet others that they never meet. Of an
+orbit all this depends on its `frequency`, `tangent` and `constants`, as `Orbit` has them.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,26 +27,6 @@ _LARGE = 1e60  # size of a monodromy that is kept apart, before it overflows
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 
 
-class Orbit(Protocol):
-    """What of a periodic orbit its stability depends on."""
-
-    @property
-    def frequency(self) -> float:
-        """Rate of the phase."""
-        ...
-
-    def tangent(self, phase: FloatArray) -> Tangent:
-        """Return the residual and its derivatives at the phases (phases,)."""
-        ...
-
-    def constants(self) -> tuple[FloatArray, FloatArray] | None:
-        """Return the direction (2n,) of the flow and the gradient (2n,) of the invariant at φ = 0.
-
-        None where the orbit is driven.
-        """
-        ...
-
-
 class Multipliers(NamedTuple):
     """Floquet multipliers, those of the lowest modes first.
 
@@ -59,12 +40,12 @@ class Multipliers(NamedTuple):
 
     @property
     def modes(self) -> int:
-        """How many modes are covered."""
+        """Number of modes that are covered."""
         return self.values.size // 2
 
     @property
     def lowest(self) -> ComplexArray:
-        """Those of the lowest four modes, (8,)."""
+        """Multipliers of the lowest four modes, (8,)."""
         return self.values[: 2 * _REPORTED]
 
     def stable(self, tolerance: float = 1e-6) -> bool:
@@ -73,12 +54,13 @@ class Multipliers(NamedTuple):
 
 
 @one_thread
-def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
+def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     """Return the Floquet multipliers of the lowest `modes`, as far as there are so many."""
     shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))
     covered = min(modes, frequencies.size)
     phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
-    matrix = monodromy(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))))
+    scaled, exponent = _flow(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))), 1.0)
+    matrix = scaled * np.exp(exponent)
     constants, n = orbit.constants(), len(matrix) // 2
     basis = np.eye(2 * n)
     if constants is not None:
@@ -109,20 +91,10 @@ def floquet_multipliers(orbit: Orbit, modes: int = _COVERED) -> Multipliers:
     return Multipliers(np.concatenate((trivial, values[order])).astype(np.complex128))
 
 
-def monodromy(orbit: Orbit, steps: int) -> FloatArray:
-    """Return what a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n)."""
-    matrix, exponent = scaled_monodromy(orbit, steps)
-    return np.asarray(matrix * np.exp(exponent))
+def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
+    """Return the monodromy of an undamped orbit that time reversal maps onto itself.
 
-
-def scaled_monodromy(orbit: Orbit, steps: int) -> tuple[FloatArray, float]:
-    """Return the `monodromy` over its size, where that is beyond 1e60, and the size's logarithm."""
-    return _flow(orbit, steps, 1.0)
-
-
-def reversible_monodromy(orbit: Orbit, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
-    """Return the same of an undamped orbit that time reversal maps onto itself, from half of it.
-
+    From half of it, and over its size, where that is beyond 1e60; and the size's logarithm.
     With signs S (n,), M(-φ) = SM(φ)S and K(-φ) = SK(φ)S. What half a period makes of (q, Mq̇) is
     symplectic, which gives its inverse, and reversed that is the other half.
     """
@@ -141,8 +113,11 @@ def reversible_monodromy(orbit: Orbit, signs: FloatArray, steps: int) -> tuple[F
     return whole, 2.0 * exponent
 
 
-def _flow(orbit: Orbit, steps: int, share: float) -> tuple[FloatArray, float]:
-    """Return what the first `share` of a period makes, scaled as `scaled_monodromy` says."""
+def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
+    """Return what a share of a period makes of a small change of (q, q̇) at φ = 0, (2n, 2n).
+
+    Over its size, where that is beyond 1e60, and with the size's logarithm.
+    """
     method = gauss(_STAGES)
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
     tangents = orbit.tangent(2.0 * np.pi * share * nodes.ravel())

@@ -8,43 +8,44 @@ beam the gauge is the tip's deflection, and the Coriolis force brings in even ha
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
-from ..lazily import linalg
-from .fourier import fine_half_period, half_period, packed, unpacked
-from .periodic_orbit import Crest, PeriodicOrbit, S, highest, peak_gradient
+from .fourier import packed, unpacked
+from .newton import Newton, NoOrbitError, factored, length, solved
+from .orbit import Orbit, S, crest_of, peak_gradient
+from .system import Tangent
 
-_NEWTON_STEPS, _MOST_TANGENTS = 25, 8
-_CONVERGED = 4e-15  # of the odd coordinates and of Ω; in the energies they count a 1000 times
-_ROUND_OFF = 1e-9  # of the same: where small orbits may stagnate, by the round-off of the mean
+# Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
+# stagnate by the round-off of the mean.
+_NEWTON = Newton(
+    converged=4e-15, stagnates=1e-9, slow=0.4, steps=25, tangents=8, largest=1.0, broyden=True
+)
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
+_PEAKS = 3  # tried, where another becomes the highest
 _FINER_STEPS = 2  # after which a tenth of the change is left out, or less
-_SLOW = 0.4  # a contraction worse than this pays for a new tangent
+_DIFFERENCE = 1e-6  # of a drive's frequency, for derivatives to it
 
 
-class NoOrbitError(Exception):
-    """Newton's method found no orbit; the message says why, `last` is the last orbit found."""
+def projected(orbit: Orbit[Any]) -> FloatArray:
+    """Return the harmonics of the residual, as many as the orbit has unknowns."""
+    at = orbit.period()
+    defect = orbit.system.residual(*orbit.summed(at.waves), *orbit.drive(at.phase))
+    return packed(at.onto @ defect, orbit.parts)
 
-    def __init__(self, message: str, last: PeriodicOrbit[Any] | None = None) -> None:
-        super().__init__(message)
-        self.last = last
 
-
-def jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
+def jacobian(orbit: Orbit[Any]) -> FloatArray:
     """Return the derivatives of the harmonics of the residual to those of q and to Ω.
 
     The last row is left to the amplitude, or to whatever picks one orbit of the branch.
     """
-    half, system = half_period(orbit.harmonics), orbit.system
-    q, q_dot, q_ddot = orbit.at_waves(half.waves)
-    tangent = system.tangent(q, q_dot, q_ddot)
+    at, system = orbit.period(), orbit.system
+    state = orbit.summed(at.waves)
+    tangent = system.tangent(*state, *orbit.drive(at.phase))
+    # From samples (3 phases, n, n) to harmonics of the residual to harmonics of q.
     in_time = np.concatenate(
         (
             tangent.stiffness,
@@ -52,27 +53,35 @@ def jacobian(orbit: PeriodicOrbit[Any]) -> FloatArray:
             orbit.frequency**2 * tangent.mass,
         )
     )
-    sides = (
-        (np.flatnonzero(system.odd), half.onto_odd, half.waves.odd),
-        (np.flatnonzero(~system.odd), half.onto_even, half.waves.even),
-    )
-    cut = len(half.onto_odd) * len(sides[0][0])
-    unknowns = cut + len(half.onto_even) * len(sides[1][0]) + 1
-    matrix = np.zeros((unknowns, unknowns), order="F")  # as LAPACK takes it
-    places = (slice(0, cut), slice(cut, unknowns - 1))
-    for down, (rows, onto, _) in zip(places, sides, strict=True):
-        for across, (columns, _, waves) in zip(places, sides, strict=True):
-            part = in_time[:, rows[:, None], columns]
+    places, end = [], 0
+    for coordinates, rows in orbit.parts:
+        start, end = end, end + len(at.onto[rows]) * coordinates.size
+        places.append((slice(start, end), coordinates, at.onto[rows], at.waves[..., rows]))
+    matrix = np.zeros((end + 1, end + 1), order="F")  # as LAPACK takes it
+    for down, of, onto, _ in places:
+        for across, by, _, waves in places:
+            part = in_time[:, of[:, None], by]
             products = onto[:, None, None, :] * waves.transpose(2, 0, 1)[None]
             block = products.reshape(-1, len(part)) @ part.reshape(len(part), -1)
             place = matrix[down, across]
-            place.shape = len(onto), len(rows), -1, len(columns)  # a view
-            place[...] = block.reshape(len(onto), -1, len(rows), len(columns)).swapaxes(1, 2)
-    by_frequency = (tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None])[
-        ..., 0
-    ] / orbit.frequency
-    matrix[:-1, -1] = half.project(by_frequency, system.odd)
+            place.shape = len(onto), len(of), -1, len(by)  # a view
+            place[...] = block.reshape(len(onto), -1, len(of), len(by)).swapaxes(1, 2)
+    matrix[:-1, -1] = packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
     return matrix
+
+
+def _by_frequency(
+    orbit: Orbit[Any], tangent: Tangent, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
+) -> FloatArray:
+    """Return the derivative of the residual at the phases to Ω, by the rates and by the drive."""
+    by_rates = (tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None])[..., 0]
+    if not orbit.system.driven:
+        return np.asarray(by_rates / orbit.frequency)
+    h, phase = _DIFFERENCE * orbit.frequency, orbit.period().phase
+    ahead, behind = (
+        orbit.system.residual(q, q_dot, q_ddot, phase, orbit.frequency + step) for step in (h, -h)
+    )
+    return np.asarray(by_rates / orbit.frequency + (ahead - behind) / (2.0 * h))
 
 
 class LastTangent:
@@ -87,27 +96,18 @@ class LastTangent:
     def __init__(self) -> None:
         self.factors: Any = None
 
-    def fits(self, orbit: PeriodicOrbit[Any]) -> bool:
-        """Return whether it is one for as many unknowns as the orbit has."""
-        unknowns = orbit.harmonics * orbit.system.size + int((~orbit.system.odd).sum()) + 1
+    def fits(self, unknowns: int) -> bool:
+        """Return whether it is one for so many unknowns, the frequency among them."""
         return self.factors is not None and len(self.factors[0]) == unknowns
 
-    def factor(self, orbit: PeriodicOrbit[Any]) -> None:
+    def factor(self, orbit: Orbit[Any]) -> None:
         """Factor the tangent at the orbit, the derivatives of its peak the last row."""
         matrix = jacobian(orbit)
         matrix[-1] = peak_gradient(orbit)
-        self.factors = linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
-
-    def solve(self, defect: FloatArray) -> FloatArray:
-        """Return what the defect takes to vanish."""
-        assert self.factors is not None
-        # As `linalg.lu_solve`, whose checks take longer than it does.
-        return np.asarray(linalg.lapack.dgetrs(*self.factors, defect)[0])
+        self.factors = factored(matrix)
 
 
-def solve(
-    guess: PeriodicOrbit[S], amplitude: float, tangent: LastTangent | None = None
-) -> PeriodicOrbit[S]:
+def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None) -> Orbit[S]:
     """Return the orbit near `guess` whose gauge has the peak `amplitude`.
 
     The tangent is factored anew only where the iteration contracts slowly; until then Broyden's
@@ -115,7 +115,7 @@ def solve(
 
     Parameters
     ----------
-    guess : PeriodicOrbit
+    guess : Orbit
     amplitude : float
     tangent : LastTangent, optional
         That of an orbit near by, tried first.
@@ -125,54 +125,50 @@ def solve(
     NoOrbitError
         If Newton's method does not converge.
     """
-    tangent = tangent or LastTangent()
-    orbit, last = highest(guess), np.inf
-    crest = Crest(orbit)
-    own, fresh = False, not tangent.fits(orbit)
-    half, odd = half_period(orbit.harmonics), orbit.system.odd
-    tangents, steps = 0, list[FloatArray]()
-    for _ in range(_NEWTON_STEPS):
-        crest.follow(orbit)
-        defect = orbit.system.residual(*orbit.at_waves(half.waves))
-        defect = np.append(half.project(defect, odd), crest.height - amplitude)
-        if not np.all(np.isfinite(defect)):
-            break
-        if fresh:
-            tangents += 1
-            if tangents > _MOST_TANGENTS:
-                break
-            tangent.factor(replace(orbit, peak_phase=crest.phase))
-            own, fresh = True, False
-            steps = []
-        change = _improved(-tangent.solve(defect), steps)
-        steps.append(change)
-        orbit = replace(
-            orbit,
-            coefficients=orbit.coefficients + unpacked(change[:-1], odd),
-            frequency=orbit.frequency + float(change[-1]),
+    tangent, crest = tangent or LastTangent(), crest_of(guess)
+    parts, shape = guess.parts, guess.coefficients.shape
+    moving = slice(guess.sines.size)
+
+    def orbit(z: FloatArray) -> Orbit[S]:
+        return replace(
+            guess,
+            coefficients=unpacked(z[:-1], parts, shape),
+            frequency=float(z[-1]),
+            peak_phase=crest.phase,
         )
-        size = _norm(change[:-1]) / _norm(orbit.sines.ravel())
-        size += abs(float(change[-1])) / orbit.frequency
-        contraction = size / last if np.isfinite(last) else 1.0
-        stagnates = own and size < _ROUND_OFF and contraction > _SLOW
-        if stagnates or size * min(1.0, contraction) < _CONVERGED:
-            found = highest(orbit)
-            if abs(found.peak_phase - crest.phase) > half.spacing:
-                crest = Crest(found)
-            if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
-                return replace(orbit, amplitude=amplitude, peak_phase=crest.phase)
-            orbit = found  # a second peak is higher
-        if size > 1.0 or orbit.frequency <= 0.0:
+
+    def residual(z: FloatArray) -> FloatArray:
+        here = orbit(z)
+        crest.follow(here)
+        return np.append(projected(here), crest.height - amplitude)
+
+    def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
+        defect = residual(z)
+        tangent.factor(orbit(z))
+        return tangent.factors, defect
+
+    def size(z: FloatArray, change: FloatArray) -> float:
+        if z[-1] <= 0.0:
+            return np.inf
+        return length(change[:-1]) / length(z[moving]) + abs(float(change[-1])) / float(z[-1])
+
+    z = np.append(packed(guess.coefficients, parts), guess.frequency)
+    others = factors = tangent.factors if tangent.fits(z.size) else None
+    for _ in range(_PEAKS):
+        found = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
+        if found is None:
             break
-        fresh = contraction > _SLOW and bool(np.isfinite(last))
-        last = size
-    if not own:  # another orbit's tangent led astray
+        z, factors = found.z, found.factors
+        crest = crest_of(orbit(z))
+        if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
+            return replace(orbit(z), amplitude=amplitude)
+    if others is not None and tangent.factors is others:  # they led astray
         tangent.factors = None
         return solve(guess, amplitude, tangent)
     raise NoOrbitError("Newton's method does not converge")
 
 
-def frequency_change(orbit: PeriodicOrbit[Any], tangent: LastTangent | None = None) -> float:
+def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> float:
     """Return the relative change of an orbit's frequency on the refined system.
 
     The refined equations are solved at the same amplitude and as many harmonics, by a tangent of
@@ -180,44 +176,31 @@ def frequency_change(orbit: PeriodicOrbit[Any], tangent: LastTangent | None = No
 
     Parameters
     ----------
-    orbit : PeriodicOrbit
+    orbit : Orbit
     tangent : LastTangent, optional
         One that fits the orbit; its own is factored otherwise.
     """
-    if tangent is None or not tangent.fits(orbit):
+    unknowns = packed(orbit.coefficients, orbit.parts).size + 1
+    if tangent is None or not tangent.fits(unknowns):
         tangent = LastTangent()
         tangent.factor(orbit)
-    finer, odd = orbit.system.refined(), orbit.system.odd
+    finer = orbit.system.refined()
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
     moved, peak = orbit.on(finer), np.array([orbit.peak_phase])
-    half, defect = fine_half_period(orbit.harmonics), orbit.finer_defect
+    at, defect = orbit.period(fine=True), orbit.finer_defect
     for step in range(_FINER_STEPS):
         if step > 0:
-            half = half_period(orbit.harmonics)
-            defect = finer.residual(*moved.at_waves(half.waves))
-        change = -unpacked(half.project(defect, finer.odd), finer.odd)
+            at = orbit.period()
+            defect = finer.residual(*moved.summed(at.waves))
+        harmonics = packed(at.onto @ defect, moved.parts)
+        change = -unpacked(harmonics, moved.parts, moved.coefficients.shape)
         height = finer.gauge(moved.coordinates(peak)[0])
-        known = -tangent.solve(np.append(-packed(change[:, kept], odd), height - orbit.amplitude))
-        change[:, kept] = unpacked(known[:-1], odd)
+        defects = np.append(-packed(change[:, kept], orbit.parts), height - orbit.amplitude)
+        known = -solved(tangent.factors, defects)
+        change[:, kept] = unpacked(known[:-1], orbit.parts, orbit.coefficients.shape)
         moved = replace(
             moved,
             coefficients=moved.coefficients + change,
             frequency=moved.frequency + float(known[-1]),
         )
     return abs(moved.frequency / orbit.frequency - 1.0)
-
-
-def _norm(vector: FloatArray) -> float:
-    return math.sqrt(float(vector @ vector))
-
-
-def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:
-    """Return a step by a factored tangent, improved by what the `steps` since then tell of it.
-
-    Broyden's method, in the form that keeps steps instead of matrices (Kelley 1995, Sec. 7.3).
-    """
-    if not steps:
-        return step
-    for last, following in pairwise(steps):
-        step = step + following * (last @ step) / (last @ last)
-    return np.asarray(step / (1.0 - (steps[-1] @ step) / (steps[-1] @ steps[-1])))

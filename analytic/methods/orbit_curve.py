@@ -1,75 +1,231 @@
-"""A curve of orbits, resolved as finely as each of its points needs."""
+"""Curves of orbits by arclength, each resolved as finely as it needs: free ones and responses.
+
+The unknowns are the coefficients of the series and the frequency, one more than the projected
+equations.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, Generic, Protocol, Self, TypeVar
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any, Generic, Literal
+
+import numpy as np
 
 from ..arrays import FloatArray
-from .arclength import Curve, Point, advanced, corrected
+from .arclength import Point, advanced, corrected, crossing, located
+from .continuation import Care, refined
+from .fourier import packed, unpacked
+from .harmonic_balance import jacobian, projected
+from .newton import NoOrbitError
+from .orbit import Orbit, S, at_peak, peak_gradient
 
+Mark = Literal["", "asked", "fold", "peak", "branch point"]
+Marked = tuple[Orbit[Any], Mark]
+"""An orbit on a curve, and what is special about it: "asked" for, a "fold" of the frequency, a
+"peak" of the amplitude, a "branch point" where another curve crosses."""
 
-class OrbitCurve(Curve, Protocol):
-    """Equations whose solutions are orbits, on some harmonics and functions."""
-
-    def orbit(self, z: FloatArray) -> Any:
-        """Return the orbit of the unknowns."""
-        ...
-
-    def unknowns(self, orbit: Any) -> FloatArray:
-        """Return the unknowns of an orbit, its series and coordinates cut or padded to these."""
-        ...
-
-    def finer(self, orbit: Any) -> Self | None:
-        """Return the curve on as many more harmonics or functions as the orbit lacks, if any.
-
-        Raises
-        ------
-        NoWayOnError
-            If that is more than are taken.
-        """
-        ...
-
-
-C = TypeVar("C", bound=OrbitCurve)
+_CARE = Care(harmonics=40, functions=64)
+_FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
+_MOST_POINTS = 4000
 
 
 @dataclass(frozen=True, eq=False)
-class At(Generic[C]):
+class OrbitCurve(Generic[S]):
+    """The projected equations of orbits, as a curve in their coefficients and frequency.
+
+    Attributes
+    ----------
+    like : Orbit
+        An orbit on the same system and harmonics.
+    origin, scale : float
+        The frequency is the origin plus the scale times the last unknown.
+    larger : callable
+        Returns an orbit on as many more harmonics or functions as one lacks, None if it lacks none;
+        raises NoOrbitError if that is more than are taken.
+    """
+
+    like: Orbit[S]
+    origin: float
+    scale: float
+    larger: Callable[[Orbit[S]], Orbit[S] | None]
+
+    def unknowns(self, orbit: Orbit[Any]) -> FloatArray:
+        """Return the unknowns of an orbit, cut or padded to these harmonics and functions."""
+        orbit = orbit.with_harmonics(self.like.harmonics).on(self.like.system)
+        last = (orbit.frequency - self.origin) / self.scale
+        return np.append(packed(orbit.coefficients, self.like.parts), last)
+
+    def _raw(self, z: FloatArray) -> Orbit[S]:
+        return replace(
+            self.like,
+            coefficients=unpacked(z[:-1], self.like.parts, self.like.coefficients.shape),
+            frequency=float(self.origin + self.scale * z[-1]),
+        )
+
+    def orbit(self, z: FloatArray) -> Orbit[S]:
+        """Return the orbit of the unknowns, with its peak."""
+        return at_peak(self._raw(z))
+
+    def residual(self, z: FloatArray) -> FloatArray:
+        """Return the projected residual, as many as there are coefficients."""
+        return projected(self._raw(z))
+
+    def jacobian(self, z: FloatArray) -> FloatArray:
+        """Return its derivatives to all unknowns."""
+        matrix = jacobian(self._raw(z))[:-1]
+        matrix[:, -1] *= self.scale
+        return matrix
+
+
+@dataclass(frozen=True, eq=False)
+class At(Generic[S]):
     """A point of a curve of orbits."""
 
-    curve: C
+    curve: OrbitCurve[S]
     point: Point
 
     @cached_property
-    def orbit(self) -> Any:
+    def orbit(self) -> Orbit[S]:
         """The orbit."""
         return self.curve.orbit(self.point.z)
 
-    def on(self, curve: C) -> At[C]:
+    def on(self, curve: OrbitCurve[S]) -> At[S]:
         """Return the nearest point of a finer curve."""
-        z, tangent = self.point.z, self.point.tangent
         here = curve.unknowns(self.orbit)
-        ahead = curve.unknowns(self.curve.orbit(z + tangent))
+        ahead = curve.unknowns(self.curve.orbit(self.point.z + self.point.tangent))
         return At(curve, corrected(curve, here, ahead - here))
 
-    def resolved(self) -> At[C]:
+    def resolved(self) -> At[S]:
         """Return the same with as many harmonics and functions as it needs."""
         at = self
-        while (curve := at.curve.finer(at.orbit)) is not None:
-            at = at.on(curve)
+        while (larger := at.curve.larger(at.orbit)) is not None:
+            at = at.on(replace(at.curve, like=larger))
         return at
 
-    def advanced(self, step: float, longest: float) -> tuple[At[C], At[C], float]:
-        """Return this point and the next, on the curve that resolves both, and the step after it.
+    def followed(self, step: float, longest: float) -> Iterator[tuple[At[S], At[S]]]:
+        """Yield one point after the other with the next, on a curve that resolves both.
 
         Raises
         ------
-        NoWayOnError
+        NoOrbitError
             If no step, however short, finds one, or it needs more than is taken.
         """
-        point, following = advanced(self.curve, self.point, step, longest)
-        there = At(self.curve, point).resolved()
-        here = self if there.curve is self.curve else self.on(there.curve)
-        return here, there, following
+        here = self
+        while True:
+            point, step = advanced(here.curve, here.point, step, longest)
+            there = At(here.curve, point).resolved()
+            if there.curve is not here.curve:
+                here = here.on(there.curve)
+            yield here, there
+            here = there
+
+    def fold(self, there: At[S]) -> Point | None:
+        """Return where the frequency turns around before the next point, if it does."""
+        return located(self.curve, self.point, there.point, lambda point: float(point.tangent[-1]))
+
+    def peak(self, there: At[S]) -> Point | None:
+        """Return where the amplitude turns around before the next point, if it does."""
+        curve = self.curve
+
+        def climb(point: Point) -> float:
+            return float(peak_gradient(curve.orbit(point.z)) @ point.tangent)
+
+        return located(curve, self.point, there.point, climb)
+
+    def crossing(self, there: At[S]) -> FloatArray | None:
+        """Return where another branch crosses before the next point, if one does."""
+        return crossing(self.curve, self.point, there.point)
+
+
+def response_curve(
+    system: S, frequencies: FloatArray, largest: float, harmonics: int
+) -> list[Marked]:
+    """Return the response from the first frequency to the last, in order along the curve.
+
+    Followed by arclength through all folds, from the small response at the first; the frequencies
+    between are met wherever the curve passes them. Curves that are not connected to it are not
+    found. At least so many `harmonics` are taken.
+
+    Raises
+    ------
+    NoOrbitError
+        If no response is found, the curve has no way on, or the amplitude exceeds `largest`; `last`
+        is the list of what was found.
+    """
+    first, last = float(frequencies[0]), float(frequencies[-1])
+    rest = np.zeros((2 * harmonics + 1, system.size))
+    rest[0] = system.rest(first)
+    like = Orbit(system=system, frequency=first, coefficients=rest)
+    curve = OrbitCurve(like, first, last - first, partial(refined, care=_CARE))
+    found: list[Marked] = []
+    try:
+        at = _beginning(curve)
+        found.append((at.orbit, "asked"))
+        for here, there in at.followed(_FIRST_STEP, _LONGEST_STEP):
+            between, over = _between(here, there, frequencies)
+            found += between
+            if over:
+                return found
+            if there.orbit.amplitude > largest:
+                raise NoOrbitError(f"the amplitude exceeds {largest:g} there")
+            found.append((there.orbit, ""))
+            if len(found) >= _MOST_POINTS:
+                break
+    except NoOrbitError as reason:
+        raise NoOrbitError(str(reason), found, reason.remedy) from None
+    raise NoOrbitError(f"the curve does not end within {_MOST_POINTS} points", found)
+
+
+def _beginning(curve: OrbitCurve[S]) -> At[S]:
+    """Return the small response at the first frequency."""
+    z = curve.unknowns(curve.like)
+    across = np.eye(1, z.size, z.size - 1)[0]
+    resolved = At(curve, corrected(curve, z, across)).resolved()
+    curve, z = resolved.curve, resolved.point.z.copy()
+    z[-1] = 0.0  # refining goes across the curve, not along the frequency
+    return At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))
+
+
+def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Marked], bool]:
+    """Return what is special between two points, in order, and whether the curve's end is."""
+    curve, found = at.curve, list[tuple[float, Mark, FloatArray]]()
+
+    def note(mark: Mark, z: FloatArray) -> None:
+        found.append((float(at.point.tangent @ (z - at.point.z)), mark, z))
+
+    fold = at.fold(there)
+    if fold is not None:
+        note("fold", fold.z)
+    if (peak := at.peak(there)) is not None:
+        note("peak", peak.z)
+    if (crossed := at.crossing(there)) is not None:
+        note("branch point", crossed)
+    # A fold between them may pass a frequency twice: each side for itself.
+    stops = [at.point, *([fold] if fold is not None else []), there.point]
+    for one, other in pairwise(stops):
+        for value in (frequencies - curve.origin) / curve.scale:
+            if (one.z[-1] - value) * (other.z[-1] - value) < 0.0 or other.z[-1] == value:
+                point = _at_frequency(curve, one, other, float(value))
+                if point is not None:
+                    note("asked", point.z)
+    found.sort(key=lambda item: item[0])
+    marked, over = list[Marked](), False
+    for _, mark, z in found:
+        marked.append((curve.orbit(z), mark))
+        if mark == "asked" and not 1e-9 <= z[-1] <= 1.0 - 1e-9:
+            over = True
+            break
+    return marked, over
+
+
+def _at_frequency(curve: OrbitCurve[S], one: Point, other: Point, value: float) -> Point | None:
+    """Return the point between two, with no fold between them, at a value of the last unknown."""
+    share = (value - one.z[-1]) / (other.z[-1] - one.z[-1])
+    guess = one.z + share * (other.z - one.z)
+    try:
+        return corrected(curve, guess, np.eye(1, guess.size, guess.size - 1)[0])
+    except NoOrbitError:  # next to a fold
+        return located(curve, one, other, lambda point: float(point.z[-1] - value))

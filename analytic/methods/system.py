@@ -1,15 +1,14 @@
-"""What a mechanical system must answer, so that its motions can be found without knowing it."""
+"""The equations of motion of a mechanical system, as all that finds its motions sees them."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Protocol, Self
+from collections.abc import Callable
+from typing import NamedTuple, Protocol, Self
 
-import numpy as np
+from numpy import bool_
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-
-_MOVES = 1e-9  # of the coordinates; less is round-off of those that stand still
 
 
 class Tangent(NamedTuple):
@@ -21,10 +20,10 @@ class Tangent(NamedTuple):
     mass: FloatArray
 
 
-class Coordinates(Protocol):
-    """What describes the state of a mechanical system, n numbers, and what is read off them.
+class System(Protocol):
+    """Equations of motion r(q, q̇, q̈) = 0 in n coordinates, or r(q, q̇, q̈, φ, Ω) = 0 under a drive.
 
-    Samples come first in every array.
+    Samples come first in every array. A drive has the phase φ (samples,) and its rate Ω.
     """
 
     @property
@@ -35,6 +34,21 @@ class Coordinates(Protocol):
     @property
     def functions(self) -> int:
         """How finely the system is resolved: what `refined` makes larger."""
+        ...
+
+    @property
+    def driven(self) -> bool:
+        """Whether a drive acts; without one the system is autonomous and conservative."""
+        ...
+
+    @property
+    def odd(self) -> NDArray[bool_] | None:
+        """Which coordinates time reversal turns around, (n,); None of a system without reversal.
+
+        (q, t) → (Rq, -t), R diagonal with -1 for these and 1 for the others, maps motions onto
+        motions. An orbit through a state that is its own image is then a series of sines in these
+        and of cosines in the others. Without reversal the series is full.
+        """
         ...
 
     def gauge(self, q: FloatArray) -> FloatArray:
@@ -57,93 +71,29 @@ class Coordinates(Protocol):
         """Return the coordinates (samples, n') of the same states in the system `finer`."""
         ...
 
-
-class DrivenSystem(Coordinates, Protocol):
-    """Equations of motion r(q, q̇, q̈, φ) = 0 under a drive of phase φ, damped or not.
-
-    One parameter sets the drive's frequency, and may set more; along a response curve it varies.
-    """
-
-    def frequency(self, parameter: float) -> float:
-        """Return the rate of the phase φ."""
+    @property
+    def residual(self) -> Callable[..., FloatArray]:
+        """The function r(q, q̇, q̈), or r(q, q̇, q̈, φ, Ω) under a drive: (samples, n), units of q."""
         ...
-
-    def rest(self, parameter: float) -> FloatArray:
-        """Return a state (n,) from which a small response is found."""
-        ...
-
-    def residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        parameter: float,
-    ) -> FloatArray:
-        """Return r (samples, n), in units of q."""
-        ...
-
-    def tangent(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        parameter: float,
-    ) -> Tangent:
-        """Return r and its derivatives."""
-        ...
-
-
-class System(Coordinates, Protocol):
-    """Autonomous, conservative equations of motion r(q, q̇, q̈) = 0 in n coordinates.
-
-    Time reversal, (q, t) → (Rq, -t) with a diagonal R of ±1, must map motions onto motions: an
-    orbit through a state that is its own mirror image is a series of sines in the coordinates that
-    R turns around, and of cosines in the others.
-    """
 
     @property
-    def odd(self) -> NDArray[np.bool_]:
-        """Which coordinates time reversal turns around, (n,): -1 on the diagonal of R."""
+    def tangent(self) -> Callable[..., Tangent]:
+        """The function that returns r and its derivatives, of the same."""
+        ...
+
+    def rest(self, frequency: float) -> FloatArray:
+        """Return a state (n,) of a driven system, from which a small response is found."""
         ...
 
     @property
     def equilibrium(self) -> FloatArray:
-        """The state about which it moves, (n,)."""
-        ...
-
-    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
-        """Return r (samples, n), in units of q."""
-        ...
-
-    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
-        """Return r and its derivatives."""
+        """The state about which a free system moves, (n,)."""
         ...
 
     def potential(self, q: FloatArray) -> FloatArray:
-        """Return what with the kinetic energy stays constant along a motion, (samples,)."""
+        """Return what with the kinetic energy stays constant along a free motion, (samples,)."""
         ...
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy, (samples,); by it changes of their sum are judged."""
         ...
-
-
-def relative_defect(defect: FloatArray, q: FloatArray, moving: Any) -> float:
-    """Return the largest residual (samples, n) along a motion q, without its unit.
-
-    The mean and the motion are each measured by their own size, or the residual of a steady
-    stretch would be told as that of a small motion about it.
-
-    Parameters
-    ----------
-    defect, q : ndarray (samples, n)
-    moving : index
-        Coordinates by which the motion is measured.
-    """
-    mean, motion = defect.mean(axis=0), q - q.mean(axis=0)
-    moved = max(np.linalg.norm(motion[:, moving], axis=-1).max(), _MOVES)
-    of_mean = np.linalg.norm(mean) / max(np.linalg.norm(q, axis=-1).max(), _MOVES)
-    of_motion = np.linalg.norm(defect - mean, axis=-1).max() / moved
-    return float(of_mean + of_motion)

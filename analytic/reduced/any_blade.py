@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
-from ..blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
+from ..blade_functions import BladeFunctions, blade_functions, settled_functions
 from ..lazily import linalg
 from ..unit_blade import UnitBlade
 from .oscillator import Oscillator
@@ -44,11 +44,12 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
     ValueError
         If as many functions as are taken do not settle it to 1e-5.
     """
-    return settled(
-        basis_sizes(blade, w_bar),
+    return settled_functions(
         lambda count: _with_functions(blade, w_bar, coriolis, count),
-        lambda found: (math.log(found.oscillator.w_n), found.oscillator.lambda_omega),
+        blade,
+        w_bar,
         _SETTLED,
+        lambda found: (math.log(found.oscillator.w_n), found.oscillator.lambda_omega),
         "the first mode",
     )
 

@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import ComplexArray, FloatArray
-from ..blade_functions import BladeFunctions, basis_sizes, blade_functions, settled
+from ..blade_functions import BladeFunctions, blade_functions, settled_functions
 from ..lazily import linalg
-from ..methods.fourier import half_period
+from ..methods.fourier import period
 from ..unit_blade import UnitBlade
 
 _ORDER = 5
@@ -68,11 +68,12 @@ def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
     ValueError
         If as many functions as are taken do not settle λ and κ, as where a section has steps.
     """
-    return settled(
-        basis_sizes(blade, w_bar),
+    return settled_functions(
         lambda count: _with_functions(blade, w_bar, count),
-        lambda found: (found.lambda_omega, found.kappa_of_peak),
+        blade,
+        w_bar,
         _SETTLED,
+        lambda found: (found.lambda_omega, found.kappa_of_peak),
         "the nonlinear normal mode",
     )
 
@@ -112,8 +113,8 @@ class _VirtualWork:
         self._of, self._w_bar = of, w_bar
         self._green = of.to_masses.T @ (of.dm[:, None] * of.to_masses)
         self._hub = w_bar**2 * of.blade.hub * (of.dm @ of.to_masses)
-        self._half = half_period(_ORDER)
-        self._waves = self._half.waves.odd[:, :, :_HARMONICS]
+        half, sines = period(_ORDER, half=True), slice(_ORDER + 1, _ORDER + 1 + _HARMONICS)
+        self._waves, self._onto = half.waves[..., sines], half.onto[sines]
 
     def harmonics(
         self, theta: FloatArray, rate: FloatArray, square: FloatArray, k: int
@@ -134,12 +135,12 @@ class _VirtualWork:
         beyond[0] -= self._hub
         work = product(at.conj(), beyond)[k].imag @ of.slope
         work += product(square, self._waves[2] @ theta)[k] @ of.turning
-        return np.asarray(self._half.onto_odd[:_HARMONICS] @ work)
+        return np.asarray(self._onto @ work)
 
     def tip(self, theta: FloatArray) -> FloatArray:
         """Return the orders of harmonics 1 to 3 of the tip's deflection, (harmonics, orders)."""
         at: ComplexArray = turn(self._waves[0] @ theta @ self._of.slope.T)
-        return np.asarray(self._half.onto_odd[:_HARMONICS] @ (at.imag @ self._of.weights).T)
+        return np.asarray(self._onto @ (at.imag @ self._of.weights).T)
 
 
 def _of_series(w_n: float, rate: FloatArray, tip: FloatArray) -> NormalMode:

@@ -43,14 +43,13 @@ GROUPS = (
     _group(
         "Backbone",
         "Frequency against amplitude, exactly: orbit by orbit, as a series, beyond folds.",
-        analytic="periodic_orbits Backbone BeamState AmplitudeNotReachedError backbone_curve "
-        "BackboneCurve backbone_branch BackboneBranch Resonance",
+        analytic="periodic_orbits Orbits BeamState AmplitudeNotReachedError backbone Backbone "
+        "backbone_curve BackboneCurve BackboneBranch Resonance",
     ),
     _group(
         "Forced response",
         "Damped and driven, through the folds.",
-        analytic="forced_response gravity_response ForcedResponse ResponsePoint "
-        "ResponseNotReachedError",
+        analytic="forced_response ForcedResponse SpecialPoint ResponseNotReachedError",
     ),
     _group(
         "Spin-up",
@@ -61,8 +60,7 @@ GROUPS = (
     _group(
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
-        analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue "
-        "planar_note",
+        analytic="planar_stability PlanarStability stability_limit StabilityLimit Tongue",
     ),
     _group(
         "Reduced models",

@@ -6,8 +6,10 @@ What a command computes with is imported when it runs, so that --help and theory
 from __future__ import annotations
 
 import difflib
+import inspect
 import math
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -21,9 +23,7 @@ import cyclopts
 from analytic.warning import RotbeamWarning
 
 from .. import __version__
-from .documented import documented, epilogue
-from .endings import sentence_on, stopped_as_by_ctrl_c
-from .messages import Messages
+from .endings import Messages, sentence_on, stopped_as_by_ctrl_c
 from .output import ready_streams
 
 
@@ -57,13 +57,32 @@ _COMMANDS = (
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
+
+def documented(command: str) -> tuple[str, tuple[str, ...]]:
+    """Return what a command's docstring says ahead of its parameters, and its examples.
+
+    The examples are the lines of the numpydoc section that begin with "$": command lines,
+    each of which `tests/cli/test_examples.py` runs.
+    """
+    source = Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8")
+    # Not by a parser: all commands' are read at each call of any, and --help is to be quick.
+    (text,) = re.findall(rf'^def {command}\(.*?^    """(.*?)"""$', source, re.DOTALL | re.MULTILINE)
+    said, _, rest = inspect.cleandoc(text).partition("Examples\n---")
+    lines = (line.removeprefix("$ ") for line in rest.splitlines() if line.startswith("$ "))
+    return said.partition("Parameters\n---")[0].strip(), tuple(lines)
+
+
+def epilogue(examples: tuple[str, ...]) -> str:
+    """Return examples as Markdown, each in a line of its own: two spaces break one."""
+    return "Examples:\n\n" + "  \n".join(examples) if examples else ""
+
+
 for _order, _command in enumerate(_COMMANDS):
     _help, _examples = documented(_command)
     app.command(
         f"{__name__}.{_command}:{_command}",
         name=_command, help=_help, help_epilogue=epilogue(_examples), sort_key=_order,
     )  # fmt: skip
-app.command(f"{__name__}.campbell:campbell", name="compare-modes", show=False)  # its former name
 
 _SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
 """Options that are none, and what one of their units is in rad/s."""

@@ -13,23 +13,30 @@ from rich.progress import Progress
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import whole_file, writable_folder
-from .configuration import configured, motion_of
-from .motion import chosen_times, slower_than_paper
-from .options import Whole
+from ..files.results import whole_file
+from .job import require_writable
+from .motion import (
+    Config,
+    RampTime,
+    SteadySpeed,
+    chosen_times,
+    configured,
+    motion_of,
+    slower_than_paper,
+)  # fmt: skip
+from .options import Force, Whole
 from .output import new_console, print_text
-from .targets import Force, refuse_to_replace_unread
 
 
 def animate(
     *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
     duration: float | None = None,
     rate: Whole = 20,
     slow_motion: float | None = None,
     beside: Literal["linear"] | None = None,
-    config: Path | None = None,
+    config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Force = False,
 ) -> None:
@@ -42,10 +49,6 @@ def animate(
 
     Parameters
     ----------
-    omega
-        Steady angular velocity [rad/s]; without it that of the file's [motion], or the paper's.
-    ramp_time
-        Time from rest to the steady angular velocity, T in Eq. 1 [s].
     duration
         End of the motion [s].
     rate
@@ -55,9 +58,6 @@ def animate(
     beside
         Show what a model that is linear in one floating frame makes of it beside the exact beam:
         above the first natural frequency at rest it flies apart.
-    config
-        TOML file with the beam, and if it likes with [motion], and duration in [numerics]; without
-        it, the paper's beam.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force
@@ -83,12 +83,11 @@ def animate(
     _require_film(duration, rate, slower)
     name = f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
-    writable_folder(target.parent)
 
     from ..figures import animation
 
     animation.check_format(target)
-    refuse_to_replace_unread(target, force)
+    require_writable(target, force)
     console = new_console()
     times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
@@ -106,7 +105,6 @@ def animate(
                 progress=lambda n: bar.update(task, completed=n),
             )
     print_text(
-        console,
         f"written {target}, {target.stat().st_size / 1e6:.1f} MB, "
         f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
         + ("" if slower == 1.0 else f", {slower:g} times slower"),

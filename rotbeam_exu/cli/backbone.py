@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import Path
+from contextlib import suppress
 from typing import Annotated, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from analytic import AnyBlade
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
-from .configuration import configured, omega_of
+from .motion import Config, Omega, configured, omega_of
 from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, print_columns, print_note
 
@@ -31,14 +31,14 @@ _FIFTH = "; FrM5 has Eq. 63 with -κ (a/L)⁴"
 
 def backbone(
     *,
-    omega: float | None = None,
+    omega: Omega = None,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: VariantName | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
     mode: Whole = 1,
     functions: Whole = 16,
-    config: Path | None = None,
+    config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the frequency over the amplitude, reduced and exact.
@@ -48,8 +48,6 @@ def backbone(
 
     Parameters
     ----------
-    omega
-        Rotation speed [rad/s]; needed, unless [motion] of the file has it.
     amplitude
         Amplitudes over the length, one or several.
     variant
@@ -62,8 +60,6 @@ def backbone(
         Mode from which the exact backbone grows; beyond 1 it comes alone, without the models.
     functions
         Functions that resolve the exact beam along its length, at least.
-    config
-        TOML file with the beam, and if it likes with [motion]; without it, the paper's beam.
     form
         A table for the reader, or CSV with all digits.
 
@@ -80,7 +76,12 @@ def backbone(
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
     names = list(analytic.VARIANTS) if all_variants else [] if mode > 1 else [variant or "FrE"]
     refused: list[Refusal] = []
-    models = _models(file.beam, omega, names, refused)
+    models = []
+    for name in names:
+        try:
+            models.append(analytic.reduced_model(file.beam, omega, name))
+        except ValueError as error:
+            refused.append((name, str(error)))
     if names and not models:
         raise ValueError("; ".join(_grouped(refused)))
     truth, failure = None, ""
@@ -89,7 +90,7 @@ def backbone(
     columns = _frequencies(models, amplitude, refused)
     if truth is not None:
         columns |= _exact_columns(truth, amplitude, max(len(models), 1))
-    if form == "table":
+    if form == "table" and models:
         _print_coefficients(models, truth, omega)
     print_columns(columns, form, title="" if models else str(truth))
     if form == "table" and models:
@@ -102,19 +103,6 @@ def backbone(
         warn(f"no answer: {sentence}")
     if failure:
         raise RuntimeError(failure)
-
-
-def _models(
-    beam: AnyBlade, omega: float, names: list[str], refused: list[Refusal]
-) -> list[analytic.ReducedModel]:
-    """Return the models that there are, and add to `refused` why others are not."""
-    models = []
-    for name in names:
-        try:
-            models.append(analytic.reduced_model(beam, omega, name))
-        except ValueError as error:
-            refused.append((name, str(error)))
-    return models
 
 
 def _grouped(refused: list[Refusal]) -> list[str]:
@@ -133,14 +121,14 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 def _exact(
     beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
-) -> tuple[analytic.Backbone, str]:
+) -> tuple[analytic.Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
     except analytic.AmplitudeNotReachedError as error:
-        if error.backbone is None:
+        if error.orbits is None:
             raise
-        return error.backbone, str(error)
+        return error.orbits, str(error)
 
 
 def _frequencies(
@@ -169,20 +157,19 @@ def _each(
     frequency: Callable[[Any], Any], amplitude: list[float], name: str, refused: list[Refusal]
 ) -> list[float]:
     """Return the frequency at each amplitude, NaN where there is none; together if they can be."""
-    try:
+    with suppress(ValueError):
         return [float(one) for one in frequency(amplitude)]
-    except ValueError:
-        if len(amplitude) > 1:
-            return [_each(frequency, [a], name, refused)[0] for a in amplitude]
+    found = [math.nan] * len(amplitude)
+    for i, a in enumerate(amplitude):
         try:
-            frequency(amplitude)
+            found[i] = float(frequency(a))
         except ValueError as error:
             refused.append((name, str(error)))
-        return [math.nan]
+    return found
 
 
 def _exact_columns(
-    truth: analytic.Backbone, amplitude: list[float], times: int
+    truth: analytic.Orbits, amplitude: list[float], times: int
 ) -> dict[str, list[float]]:
     found = [
         truth.frequency[near[0]] if near.size else math.nan
@@ -196,31 +183,24 @@ def _exact_columns(
 
 
 def _print_coefficients(
-    models: list[analytic.ReducedModel], truth: analytic.Backbone | None, omega: float
+    models: list[analytic.ReducedModel], truth: analytic.Orbits | None, omega: float
 ) -> None:
     """Print one row of coefficients for each model, and one for the exact beam."""
-    if not models:
-        return
-    rows: list[tuple[str, ...]] = [
-        (
-            model.variant.name, f"{model.omega_n:.6f}", f"{model.g1:.6g}", f"{model.g2:.6g}",
-            f"{model.lambda_omega:.6f}", f"{model.lambda_x:.6f}",
-            f"{model.kappa:.6f}" if model.kappa else "-",
-        )
-        for model in models
-    ]  # fmt: skip
+    columns: dict[str, list[str]] = {"variant": [model.variant.name for model in models]}
+    for title, name, form in (
+        ("ω_n\n[rad/s]", "omega_n", ".6f"), ("Eq. 41's\ng1", "g1", ".6g"),
+        ("Eq. 41's\ng2", "g2", ".6g"), ("Eq. 64's\nλ_ω", "lambda_omega", ".6f"),
+        ("Eq. 65's\nλ_x", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
+    ):  # fmt: skip
+        columns[title] = [format(getattr(model, name), form) for model in models]
+        if truth is not None:
+            known = name in ("omega_n", "lambda_omega")
+            columns[title].append(format(getattr(truth, name), form) if known else "-")
     if truth is not None:
-        rows.append(
-            ("exact", f"{truth.omega_n:.6f}", "-", "-", f"{truth.lambda_omega:.6f}", "-", "-")
-        )
-    titles = [
-        "variant", "ω_n\n[rad/s]", "Eq. 41's\ng1", "Eq. 41's\ng2", "Eq. 64's\nλ_ω", "Eq. 65's\nλ_x",
-        "κ",
-    ]  # fmt: skip
-    shown = len(titles) if any(model.kappa for model in models) else len(titles) - 1
+        columns["variant"].append("exact")
+    columns["κ"] = [kappa if kappa.strip("0.") else "-" for kappa in columns["κ"]]
+    if set(columns["κ"]) == {"-"}:
+        del columns["κ"]
     whose = models[0].variant.name if len(models) == 1 else f"{len(models)} models"
-    print_columns(
-        {title: [row[i] for row in rows] for i, title in enumerate(titles[:shown])},
-        "table",
-        title=f"{whose} at ω = {omega:g} rad/s (Ω = {models[0].speed_ratio:.4g})",
-    )
+    speed = models[0].speed_ratio
+    print_columns(columns, title=f"{whose} at ω = {omega:g} rad/s (Ω = {speed:.4g})")

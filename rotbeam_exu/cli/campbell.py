@@ -15,15 +15,11 @@ from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from ..files.results import writable_folder
-from .configuration import configured
-from .motion import chosen_speeds
-from .options import Whole
-from .output import Format, new_console, print_columns, print_written
-from .sections import SectionOptions
-from .targets import Force, refuse_to_replace_unread
+from .job import require_writable
+from .motion import chosen_speeds, configured
+from .options import SECTION, Force, SectionOptions, Whole
+from .output import Format, print_columns, print_written
 
-_GIVEN = SectionOptions()
 _HIGHEST = 12.0  # of the paper's beam [rad/s]
 _PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
 
@@ -35,7 +31,7 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 10,
-    shape: SectionOptions = _GIVEN,
+    shape: SectionOptions = SECTION,
     config: Path | None = None,
     format: Format = "table",  # noqa: A002  the name of the option
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
@@ -88,16 +84,16 @@ def campbell(
     beam = shape.of(configured(config).beam)
     highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
     speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)
-    path = None if out is None else writable_folder(out) / f"campbell-{shape.name}"
+    path = None if out is None else out / f"campbell-{shape.name}"
     if path is not None:
-        refuse_to_replace_unread(path.with_name(f"{path.name}.png"), force)
+        require_writable(Path(f"{path}.png"), force)
     diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
     _print(diagram, format)
     if path is not None:
         from .. import figures
 
         written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
-        print_written(new_console(stderr=format == "csv"), written)
+        print_written(written, stderr=format == "csv")
 
 
 def _families(beam: AnyBlade) -> list[Plane]:

@@ -14,23 +14,18 @@ from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .configuration import configured
-from .job import saved
-from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, grid_motion
-from .options import Results, Workers
-from .output import new_console, print_columns, print_note, print_written
-from .progress import counter
-from .targets import refuse_to_replace, telling_what_is_kept
-
-_WORKERS, _RESULTS = Workers(), Results()
+from .job import refuse_to_replace, saved
+from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, configured, grid_motion
+from .options import RESULTS, WORKERS, Results, Workers
+from .output import formatted, print_columns, print_note, print_written
 
 
 def compare(
     *,
     amplitude: float = 0.1,
     config: Path | None = None,
-    workers: Workers = _WORKERS,
-    results: Results = _RESULTS,
+    workers: Workers = WORKERS,
+    results: Results = RESULTS,
 ) -> None:
     """Print all models' errors, and write Figures 14 and 15's data.
 
@@ -53,7 +48,6 @@ def compare(
 
     require_exudyn()
     folder = writable_folder(results.out)
-    console = new_console()
     beam = _uniform(configured(config).beam)
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
@@ -63,8 +57,7 @@ def compare(
     refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
     motion = _even(grid_motion(beam, omegas, ramp_times))
     main = chosen_motion(beam)
-    spin_ups = f"finished spin-ups are kept in the cache {workers.cache}"
-    with telling_what_is_kept(lambda: spin_ups), counter(console, "spin-ups") as progress:
+    with workers.counted("spin-ups") as progress:
         options: dict[str, Any] = {
             "omegas": omegas, "ramp_times": ramp_times, "duration": motion.duration,
             "step": motion.step, "jobs": workers.jobs, "cache": workers.cache, "progress": progress,
@@ -83,7 +76,7 @@ def compare(
         written += saved(table.assign_attrs(mine), folder / name)
     _print_models(models, amplitude)
     _print_elements(data["budget_finite_elements"], motion.step)
-    print_written(console, written)
+    print_written(written)
 
 
 def _uniform(beam: AnyBlade) -> Beam:
@@ -115,10 +108,9 @@ def _print_models(models: xr.Dataset, amplitude: float) -> None:
         for model in here["model"].to_numpy():
             one = here.sel(model=model)
             errors = [*one["error"].to_numpy(), one["total"].item()]
-            rows[str(model)] = [_signed(error) for error in errors]
+            rows[str(model)] = formatted(errors, "+.1e")
         print_columns(
             rows,
-            "table",
             title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
         )
 
@@ -130,18 +122,13 @@ def _print_elements(elements: xr.Dataset, step: float) -> None:
             "ω [rad/s]": frame["omega"].tolist(),
             "T [s]": frame["ramp_time"].tolist(),
             **{
-                str(source): [_signed(error) for error in frame[source]]
+                str(source): formatted(frame[source], "+.1e")
                 for source in elements["source"].to_numpy()
             },
         },
-        "table",
         title=(
             f"16 elements, {1e3 * step:g} ms: distance from the exact ω_NL/ω_n at its amplitude"
         ),
     )
     if np.isnan(elements["error"]).any():
         print_note("-: the amplitude is above 0.6, where the budget ends")
-
-
-def _signed(error: float) -> str:
-    return "-" if np.isnan(error) else f"{error:+.1e}"

@@ -5,14 +5,12 @@ from __future__ import annotations
 import time
 from importlib import metadata
 
-from rich.console import Console
-
 import analytic
 from analytic import Beam, SpinUp
 
 from ..fem.lazily import require_exudyn
 from ..runs.versions import versions
-from .output import new_console, print_text
+from .output import print_text
 
 
 def doctor() -> None:
@@ -24,14 +22,13 @@ def doctor() -> None:
     --------
     $ rotbeam doctor
     """
-    console = new_console()
     for name, version in versions().items():
-        console.print(f"{name:<14}{version}")
-    _draw(console)
+        print_text(f"{name:<14}{version}")
+    _draw()
     try:
         require_exudyn()
     except ImportError as error:
-        print_text(console, f"{'spin-up':<14}not run: {error}")
+        print_text(f"{'spin-up':<14}not run: {error}")
         return
     from ..fem.simulation import simulate
 
@@ -39,10 +36,10 @@ def doctor() -> None:
     run = simulate(
         Beam.reference(), SpinUp(omega=2.0, ramp_time=0.5), elements=4, duration=1.0, step=5e-3
     )
-    console.print(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")
+    print_text(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")
 
 
-def _draw(console: Console) -> None:
+def _draw() -> None:
     """Draw as all figures are: a matplotlib that is too old fails here, not after a long run."""
     from .. import figures
     from ..figures.judgement import svg
@@ -56,4 +53,4 @@ def _draw(console: Console) -> None:
             f"matplotlib {metadata.version('matplotlib')} cannot draw a figure ({error}); try "
             "pip install --upgrade matplotlib"
         ) from error
-    console.print(f"{'figure':<14}drawn in {time.perf_counter() - started:.2f} s")
+    print_text(f"{'figure':<14}drawn in {time.perf_counter() - started:.2f} s")

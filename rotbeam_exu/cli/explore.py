@@ -11,13 +11,11 @@ from analytic import AnyBlade
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import whole_file, writable_folder
-from .configuration import configured
-from .motion import chosen_speeds, chosen_times, grid_motion
-from .options import Jobs
-from .output import new_console, print_text
-from .progress import counter
-from .targets import Force, refuse_to_replace_unread, telling_what_is_kept
+from ..files.results import whole_file
+from .job import require_writable
+from .motion import chosen_speeds, chosen_times, configured, grid_motion
+from .options import Force, Jobs, Workers
+from .output import print_text
 
 
 def explore(
@@ -58,22 +56,15 @@ def explore(
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     if out.suffix not in (".html", ".htm"):
         raise ValueError(f"cannot write {out.name!r}: the ending must be .html")
-    writable_folder(out.parent)
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
-    if not _is_explorer(out):
-        refuse_to_replace_unread(out, force)
+    require_writable(out, force, b"<title>Rotating beam explorer")
     beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
-    console = new_console()
-    kept = f"finished spin-ups are kept in the cache {cache}" if cache else ""
-    with (
-        telling_what_is_kept(lambda: kept),
-        counter(console, "exact orbits and spin-ups") as progress,
-    ):
+    with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
         page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
         partial.write_text(page, encoding="utf-8")
-    print_text(console, f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
+    print_text(f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 
 def _scaled(beam: AnyBlade) -> dict[str, Any]:
@@ -93,7 +84,3 @@ def _scaled(beam: AnyBlade) -> dict[str, Any]:
         "duration": motion.duration,
         "step": motion.step,
     }
-
-
-def _is_explorer(page: Path) -> bool:
-    return page.is_file() and b"<title>Rotating beam explorer" in page.read_bytes()[:4096]

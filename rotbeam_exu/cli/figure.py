@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from ..files.results import whole_file, writable_folder
+from ..files.results import writable_folder
 from ..lazily import xr
 from .job import Job
-from .options import Results, Workers, spelled_as
-from .output import new_console
-from .progress import counter
-from .targets import telling_what_is_kept
-
-_WORKERS, _RESULTS = Workers(), Results()
+from .options import RESULTS, WORKERS, Results, Workers, spelled_as
 
 
 def _styles() -> Iterable[str]:
@@ -32,8 +26,8 @@ StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
 def figure(
     number: str,
     *,
-    workers: Workers = _WORKERS,
-    results: Results = _RESULTS,
+    workers: Workers = WORKERS,
+    results: Results = RESULTS,
     style: StyleName = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
@@ -62,35 +56,27 @@ def figure(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
         )
-    folder = writable_folder(results.out)
-    kept = f"finished spin-ups are kept in the cache {workers.cache}"
-    with figures.style(style), telling_what_is_kept(lambda: kept):
+    with figures.style(style):
         for n in wanted:
-            _made(n, folder, workers, force=results.force)
+            _made(n, workers, results)
 
 
-def _made(n: int, folder: Path, workers: Workers, *, force: bool) -> None:
+def _made(n: int, workers: Workers, results: Results) -> None:
     """Make one figure."""
     from .. import figures
 
     made = figures.PAPER_FIGURES[n]
-    with counter(new_console(), f"figure {n}") as progress:
-        options = (
-            {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
-            if made.sweeps
-            else {}
-        )
-        data = made.data(**options)
+    writable_folder(results.out)
+    with workers.counted(f"figure {n}") as progress:
+        options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
+        data = made.data(**options if made.sweeps else {})
 
-    def drawn(data: xr.Dataset, path: Path) -> Iterable[Path]:
+    def drawn(_: Any, data: xr.Dataset) -> Any:
         axes = made.draw(data)
-        words = path.with_name(f"{path.name}.txt")
-        with whole_file(words) as partial:
-            partial.write_text(f"Figure {n}. {made.caption(data)}\n", encoding="utf-8")
-        return *figures.save_figure(axes[0] if isinstance(axes, Sequence) else axes, path), words
+        return axes[0] if isinstance(axes, Sequence) else axes
 
     # The data tells its inputs, so files are compared with it after it is computed.
     Job(
-        path=folder / f"figure_{n}", inputs=data, force=force, compute=lambda: data,
-        dataset=lambda data: data, show=lambda *_: None, draw=drawn,
+        path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
+        show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {made.caption(data)}",
     ).run()  # fmt: skip

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ..files.results import save, save_tables, writable_folder
+from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
-from .output import new_console, print_written
-from .targets import free_name, listed, refuse_to_replace, telling_what_is_kept
+from .output import print_written
 
 R = TypeVar("R")
 T = TypeVar("T")
+
+_MOST_NAMED = 4
 
 
 class UnfinishedError(Exception):
@@ -23,15 +25,8 @@ class UnfinishedError(Exception):
     """
 
 
-def drawn(draw: Callable[[Any, xr.Dataset], Any]) -> Callable[[xr.Dataset, Path], Iterable[Path]]:
-    """Return a drawing of a Dataset into files; `draw` is given `figures`, imported late."""
-
-    def files(data: xr.Dataset, path: Path) -> Iterable[Path]:
-        from .. import figures
-
-        return figures.save_figure(draw(figures, data), path)
-
-    return files
+def _itself(data: Any) -> Any:
+    return data
 
 
 def saved(data: xr.Dataset, path: Path, table: xr.Dataset | None = None) -> list[Path]:
@@ -56,23 +51,26 @@ class Job(Generic[R, T]):
     compute
         Computation of the result; it may raise `UnfinishedError` from a `RuntimeError`.
     dataset
-        The result as a Dataset, to save and to draw.
+        The result as a Dataset, to save and to draw; itself, unless given.
     table
         The part of the Dataset that its CSV holds; all of it, unless given.
     show
         Printing of the result; the Dataset is handed over with it.
     draw
-        Drawing of the Dataset into files beside `path`, which it returns; none, unless given.
+        Drawing of the Dataset by `figures`, which is handed over; none, unless given.
+    caption
+        Words about the figure, for a file of text beside it.
     """
 
     path: Path
     inputs: xr.Dataset | Mapping[str, object]
     force: bool
     compute: Callable[[], R]
-    dataset: Callable[[R], xr.Dataset]
-    table: Callable[[xr.Dataset], xr.Dataset] = lambda data: data
+    dataset: Callable[[R], xr.Dataset] = _itself
+    table: Callable[[xr.Dataset], xr.Dataset] = _itself
     show: Callable[[R, xr.Dataset], T]
-    draw: Callable[[xr.Dataset, Path], Iterable[Path]] | None = None
+    draw: Callable[[Any, xr.Dataset], Any] | None = None
+    caption: str = ""
 
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
@@ -85,17 +83,90 @@ class Job(Generic[R, T]):
             raise RuntimeError(self._kept(end)) from end
         data = self.dataset(result)
         written = saved(data, self.path, self.table(data))
-        with telling_what_is_kept(lambda: f"kept: {listed(written)}"):
+        with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):
             shown = self.show(result, data)
             if self.draw is not None:
-                written += self.draw(data, self.path)
-        print_written(new_console(), written)
+                from .. import figures
+
+                written += figures.save_figure(self.draw(figures, data), self.path)
+            if self.caption:
+                written.append(Path(f"{self.path}.txt"))
+                with whole_file(written[-1]) as partial:
+                    partial.write_text(f"{self.caption}\n", encoding="utf-8")
+        print_written(written)
         return shown
 
     def _kept(self, end: UnfinishedError) -> str:
         """Save the part of a result, marked failed, and return why it ended and where it is."""
         error, (found, word) = end.__cause__, end.args
         part = self.dataset(found).assign_attrs(verdict=f"failed: {error}")
-        name = free_name(part, self.path.parent, f"{self.path.name}-failed")
-        kept = saved(part, self.path.with_name(name), self.table(part))[0]
+        stem = f"{self.path}-failed"
+        names = (Path(stem if n == 1 else f"{stem}-{n}") for n in range(1, 10_000))
+        free = next(name for name in names if not differing_inputs(part, f"{name}.nc"))
+        kept = saved(part, free, self.table(part))[0]
         return f"{error}; what was {word} is in {kept}, marked failed"
+
+
+def refuse_to_replace(
+    inputs: xr.Dataset | Mapping[str, object], *targets: Path, force: bool = False
+) -> None:
+    """Refuse, unless forced, where a target holds results of other inputs.
+
+    Parameters
+    ----------
+    inputs
+        A result, or its inputs by name before it is computed.
+    targets
+        Files to write; the same inputs may write them again.
+    force
+        Refuse nothing.
+    """
+    if force:
+        return
+    for target in targets:
+        differing = differing_inputs(inputs, target)
+        if not differing:
+            continue
+        if "file" in differing:
+            what = f"is not a result that can be compared ({differing['file'][1]})"
+        else:
+            named = [
+                f"{name} {_short(there)} instead of {_short(mine)}"
+                for name, (mine, there) in differing.items()
+            ]
+            more = len(named) - _MOST_NAMED
+            rest = [f"{more} more"] if more > 0 else []
+            what = f"holds another result: {'; '.join([*named[:_MOST_NAMED], *rest])}"
+        raise FileExistsError(f"{target} {what}; choose another folder with --out, or --force")
+
+
+def require_writable(target: Path, force: bool, ours: bytes = b"") -> None:
+    """Refuse, unless forced, a file that is there and does not hold `ours` at its beginning.
+
+    Such a file does not tell what it was made of. Its folder is made, if it can be written.
+    """
+    writable_folder(target.parent)
+    known = ours and target.is_file() and ours in target.read_bytes()[:4096]
+    if target.exists() and not known and not force:
+        raise FileExistsError(
+            f"{target} is there, and does not tell what it was made from; choose another name "
+            "with --out, or --force"
+        )
+
+
+@contextmanager
+def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
+    """Let Ctrl-C say what it leaves behind: `kept` is asked then, and empty for nothing."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
+
+
+def _short(value: object) -> str:
+    """Return a value as one would type it; of a long one, its beginning."""
+    if value is None:
+        return "none"
+    text = f"{value:.12g}" if isinstance(value, float) else " ".join(str(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."

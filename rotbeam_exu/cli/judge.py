@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from json import dumps
 from pathlib import Path
 
 from ..files.results import whole_file, writable_folder
 from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
-from ..verification.cases import CASES, VERSION
-from ..verification.judgement import Judgement, judged
+from ..verification.cases import VERSION
+from ..verification.judgement import judged
 from ..verification.mistakes import Mistake, mistakes_in
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import MalformedSubmissionError
-from .output import new_console, print_note, print_text, print_written
-from .verdicts import print_judgements
+from .output import print_note, print_text, print_written
+from .verify import print_judgements
 
 
 def judge(
@@ -26,7 +25,6 @@ def judge(
     *,
     report: Path | None = None,
     json: Path | None = None,
-    case: list[str] | None = None,
 ) -> None:
     """Judge the files that any code handed in, by what it tends to.
 
@@ -41,14 +39,11 @@ def judge(
         Write the report, one HTML page.
     json
         Write all findings as JSON.
-    case
-        Tell of this case alone; may be given again.
 
     Examples
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
     """
-    chosen = _known_cases(case)
     for target, ending in ((report, ".html"), (json, ".json")):
         if target is not None:
             _may_write(target, ending)
@@ -57,9 +52,8 @@ def judge(
     except MalformedSubmissionError as error:
         _print_faults(error)
         sys.exit(2)
-    whole = judged(submission)
-    mistakes = [one for one in mistakes_in(submission, whole) if one.case in chosen]
-    found = _only(whole, chosen)
+    found = judged(submission)
+    mistakes = mistakes_in(submission, found)
     _print_mistakes(mistakes)
     print_judgements([found], f"benchmark {VERSION}")
     for source in dict.fromkeys(found.sources.values()):
@@ -75,13 +69,6 @@ def judge(
     sys.exit(0 if found.passed else 1)
 
 
-def _known_cases(case: Sequence[str] | None) -> tuple[str, ...]:
-    for name in case or ():
-        if name not in CASES:
-            raise ValueError(f"unknown case {name!r}; known are {', '.join(CASES)}")
-    return tuple(case or CASES)
-
-
 def _may_write(target: Path, ending: str) -> None:
     """Refuse a target of another ending, in a folder that cannot be written, or not of ours."""
     if target.suffix != ending:
@@ -95,26 +82,14 @@ def _may_write(target: Path, ending: str) -> None:
 def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
-    print_written(new_console(), [target])
-
-
-def _only(found: Judgement, chosen: tuple[str, ...]) -> Judgement:
-    """Return what was found of some cases; all were judged, for L has a share in the others."""
-    return replace(
-        found,
-        findings={name: one for name, one in found.findings.items() if name in chosen},
-        orders={name: one for name, one in found.orders.items() if name in chosen},
-        histories={name: one for name, one in found.histories.items() if name in chosen},
-        sources={name: one for name, one in found.sources.items() if name in chosen},
-    )
+    print_written([target])
 
 
 def _print_faults(error: MalformedSubmissionError) -> None:
-    console = new_console(stderr=True)
     for fault in error.faults:
-        print_text(console, str(fault))
+        print_text(str(fault), stderr=True)
     count = len(error.faults)
-    console.print(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged")
+    print_text(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True)
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:

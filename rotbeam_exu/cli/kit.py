@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..verification.kit import write_kit
-from .output import new_console
+from .output import print_text
 
 
 def kit(directory: Path, /) -> None:
@@ -22,4 +22,4 @@ def kit(directory: Path, /) -> None:
     """
     folder = write_kit(directory)
     count = sum(path.is_file() for path in folder.rglob("*"))
-    new_console().print(f"{count} files in {folder}; begin with README.md and PROBLEM.pdf")
+    print_text(f"{count} files in {folder}; begin with README.md and PROBLEM.pdf")

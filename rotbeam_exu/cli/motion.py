@@ -1,13 +1,46 @@
-"""The motion and the step of a run, chosen from the beam's own ω_0 where they are not given."""
+"""Beam, motion and step of a run: given, in the file, or chosen by the beam's own ω_0."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive, rotation_speed
+
+from ..files.beam_file import RunFile, load_run_file
+
+Config = Annotated[
+    Path | None,
+    Parameter(
+        help="TOML file with the beam or blade, and if it likes with [motion] and [numerics], of "
+        "which a command takes what it has no option for; without it, the paper's beam."
+    ),
+]
+"""The option --config; `configured` reads it."""
+
+Omega = Annotated[
+    float | None,
+    Parameter(help="Rotation speed [rad/s]; needed, unless [motion] of the file has it."),
+]
+"""A speed that is not guessed: see `omega_of`."""
+
+SteadySpeed = Annotated[
+    float | None,
+    Parameter(help="Steady angular velocity [rad/s]; 6 for the paper's beam, unless given."),
+]
+"""Speed after the ramp."""
+
+RampTime = Annotated[
+    float | None,
+    Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
+]
+"""Ramp time."""
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's, for the paper's beam [rad/s, s, s, s]; what is chosen has the same ratios to ω_0."""
@@ -89,6 +122,27 @@ def chosen_motion(
         # The number as printed, where round-off is all that sets them apart.
         step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
     return Motion(spin_up=spin_up, duration=duration, step=step)
+
+
+def configured(config: Path | None) -> RunFile:
+    """Return a run from a TOML file; without one, the paper's beam and nothing else."""
+    return RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+
+
+def omega_of(file: RunFile, omega: float | None) -> float:
+    """Return the speed [rad/s] given, or that of the file's [motion]; refuse to guess one."""
+    known = file.motion.get("omega") if omega is None else omega
+    if known is None:
+        raise ValueError(
+            "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
+        )
+    return known
+
+
+def motion_of(file: RunFile, **options: float | None) -> Motion:
+    """Return `chosen_motion` of the options given, then of what the file's [motion] holds."""
+    given = {name: value for name, value in options.items() if value is not None}
+    return chosen_motion(file.beam, **{**file.motion, **given})
 
 
 def grid_motion(

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Self, get_args
 
 from cyclopts import Parameter, Token
 
 import analytic
 from analytic import AnyBlade
+from analytic.description import kinds_of
+from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
+from .job import telling_what_is_kept
 from .motion import Motion
-from .output import choice
-from .targets import Force
+from .output import choice, counter
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -35,12 +38,17 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
 Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
 
+_OF_FILE = "given"
+
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
 
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
+
+Force = Annotated[bool, Parameter(negative=(), show_default=False)]
+"""Replace files even if they hold what other inputs gave."""
 
 Amplitudes = Annotated[
     list[float],
@@ -83,44 +91,6 @@ VariantName = Annotated[str, Parameter(converter=spelled_as(lambda: analytic.VAR
 """Name of a variant; what is none is refused by `reduced_model`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Numerics:
-    """How a run is computed; step and duration may be left to `chosen_motion`."""
-
-    element: str = "cable"
-    option: Mapping[str, object] = field(default_factory=dict)
-    elements: int = 16
-    step: float | None = None
-    duration: float | None = None
-    frame: Frame = "inertial"
-
-    @property
-    def name(self) -> str:
-        """Formulation, options and mesh as part of a file's name."""
-        options = [f"{name}-{value}" for name, value in self.option.items()]
-        return "-".join([self.element, *options, str(self.elements)])
-
-    @property
-    def title(self) -> str:
-        """Formulation and options for a reader."""
-        return ", ".join([self.element, *(f"{k}={v}" for k, v in self.option.items())])
-
-    def case(self, beam: AnyBlade, motion: Motion) -> Case:
-        """Return the case of a motion, whose step and duration are chosen."""
-        from ..fem.case import Case
-        from ..fem.elements import formulation
-
-        return Case(
-            beam=beam,
-            spin_up=motion.spin_up,
-            element=formulation(self.element, self.option),
-            elements=self.elements,
-            duration=motion.duration,
-            step=motion.step,
-            frame=self.frame,
-        )
-
-
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Discretization:
@@ -149,24 +119,43 @@ class Discretization:
     duration: float | None = None
     frame: Annotated[Frame | None, Parameter(converter=choice)] = None
 
-    def over(self, numerics: Mapping[str, Any]) -> Numerics:
-        """Return what is given here, over what is given in a file, over the paper's."""
-        mine = given(
-            element=self.element, elements=self.elements, step=self.step, duration=self.duration,
-            frame=self.frame,
+    def over(self, numerics: Mapping[str, Any]) -> Self:
+        """Return what is given here, over what is given in a file, over the paper's.
+
+        Step and duration may be left to `chosen_motion`.
+        """
+        mine = {name: value for name, value in vars(self).items() if value is not None}
+        chosen = {"element": "cable", "elements": 16, "frame": "inertial", **numerics, **mine}
+        chosen["element"] = _spelled(chosen["element"], element_names())
+        chosen["frame"] = _spelled(chosen["frame"], get_args(Frame))
+        return replace(self, **chosen)
+
+    @property
+    def options(self) -> dict[str, object]:
+        """Options of the formulation by name."""
+        return dict(map(_name_and_value, self.option or []))
+
+    @property
+    def name(self) -> str:
+        """Formulation, options and mesh as part of a file's name."""
+        options = [f"{name}-{value}" for name, value in self.options.items()]
+        return "-".join([f"{self.element}", *options, f"{self.elements}"])
+
+    @property
+    def title(self) -> str:
+        """Formulation and options for a reader."""
+        return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
+
+    def case(self, beam: AnyBlade, motion: Motion) -> Case:
+        """Return the case of a motion, whose step and duration are chosen."""
+        from ..fem.case import Case
+        from ..fem.elements import formulation
+
+        mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
+        return Case(
+            beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
+            element=formulation(f"{self.element}", self.options), **mesh,
         )  # fmt: skip
-        options = dict(map(_name_and_value, self.option or []))
-        chosen = Numerics(**{**numerics, **mine}, option=options)
-        return replace(
-            chosen,
-            element=_spelled(chosen.element, element_names()),
-            frame=cast(Frame, _spelled(chosen.frame, get_args(Frame))),
-        )
-
-
-def given(**options: Any) -> dict[str, Any]:
-    """Return the options that are not None."""
-    return {name: value for name, value in options.items() if value is not None}
 
 
 @Parameter(name="*")
@@ -200,7 +189,93 @@ class Workers:
     """
 
     jobs: Jobs = None
-    cache: Path = Path("results/cache")
+    cache: Path | None = Path("results/cache")
+
+    @contextmanager
+    def counted(self, title: str) -> Iterator[Callable[[int, int], None]]:
+        """Give what counts the pieces done; Ctrl-C says where finished spin-ups are."""
+        kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
+        with telling_what_is_kept(lambda: kept), counter(title) as progress:
+            yield progress
+
+
+def _shapes() -> dict[str, Any]:
+    """Return the kinds of section that are known, by the option's value."""
+    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
+
+
+_Section = Annotated[
+    str,
+    Parameter(
+        help=f"The section out of the plane: {', '.join(_shapes())}, or {_OF_FILE}, that of the "
+        "file."
+    ),
+]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class SectionOptions:
+    """The section out of the plane.
+
+    Parameters
+    ----------
+    ratio
+        Height in the plane over width, of a rectangle or an ellipse whose material and size follow
+        the beam's EA, EI and mass; without it, the one that has the beam's A and I.
+    poisson_ratio
+        Poisson's ratio, for the torsional stiffness.
+    """
+
+    section: _Section = _OF_FILE
+    ratio: float | None = None
+    poisson_ratio: float = 0.3
+
+    @property
+    def name(self) -> str:
+        """The shape as part of a file's name."""
+        return self.section if self.ratio is None else f"{self.section}-{self.ratio:g}"
+
+    def of(self, beam: AnyBlade) -> AnyBlade:
+        """Return the beam with the section asked for; with what it has, where none is."""
+        kinds = _shapes()
+        kind = kinds.get(self.section)
+        if kind is None and self.section != _OF_FILE:
+            raise ValueError(
+                f"--section must be {', '.join(kinds)} or {_OF_FILE}, got {self.section!r}"
+            )
+        sides = kind is not None and "ratio" in (field.name for field in fields(kind))
+        if self.ratio is not None and not sides:
+            raise ValueError(
+                f"--ratio is height over width, and --section {self.section} has none: leave it out"
+            )
+        if kind is None:
+            return beam
+        if sides and self.ratio is None and beam.gyration.area is None:
+            raise ValueError(
+                "a blade has EA and EI, but no area that tells its width: give --ratio, height in "
+                "the plane over width"
+            )
+        if self.ratio is None:
+            return beam.with_shape(kind(poisson_ratio=self.poisson_ratio))
+        # With another material than the beam's, of which the blade knows none.
+        shape = kind(ratio=self.ratio, poisson_ratio=self.poisson_ratio)
+        return beam.blade.with_shape(shape)
+
+    def required_of(self, beam: AnyBlade) -> AnyBlade:
+        """Return the same, refusing a beam of whose section nothing is known out of the plane."""
+        blade = self.of(beam)
+        if blade.section.out_of_plane is None:
+            raise ValueError(
+                "what the section is out of the plane is unknown: give --section rectangle or "
+                "--section tube, or [blade.section.out_of_plane] in --config"
+            )
+        return blade
+
+
+DISCRETIZATION, RESULTS = Discretization(), Results()
+SECTION, WORKERS = SectionOptions(), Workers()
+"""Nothing given."""
 
 
 def _name_and_value(text: str) -> tuple[str, object]:

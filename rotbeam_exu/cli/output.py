@@ -8,8 +8,10 @@ import io
 import math
 import os
 import sys
+import time
 import unicodedata
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
@@ -17,6 +19,7 @@ from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
+from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -39,8 +42,8 @@ _TITLE = 22
 _DIGITS = 7
 """Of a float in a table."""
 
-_FRAME = 3
-"""Columns of the terminal that a column of a table takes beside its text."""
+_LINES = 50
+"""Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
 
 _SPELLED = {
     "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
@@ -110,7 +113,8 @@ def _in_ascii(letter: str) -> str:
 
 def print_columns(
     columns: Mapping[str, Sequence[str | float]],
-    form: Format,
+    form: Format = "table",
+    *,
     title: str = "",
     frame: box.Box = box.HEAVY_HEAD,
     header: bool = True,
@@ -132,28 +136,65 @@ def print_columns(
         _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
         for name, cells in columns.items()
     }
-    numeric = [all(map(_is_number, cells)) for cells in readable.values()]
-    names = list(readable)
-    least = [max(map(_longest_word, (name, *readable[name]))) for name in names]
+    least, most = (
+        [
+            max(cell_len(piece) for text in (name, *cells) for piece in text.split(at) or [""])
+            for name, cells in readable.items()
+        ]
+        for at in (None, "\n")
+    )
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    most = [max(map(_longest_line, (name, *readable[name]))) for name in names]
     room = console.width
     for part in _parts(least, room):
-        bare = _total([0] * len(part))
-        widths = _widths([least[i] for i in part], [most[i] for i in part], room - bare)
+        widths = _widths([least[i] for i in part], [most[i] for i in part], room)
         table = Table(box=frame)
-        for i, width in zip(part, widths, strict=True):
-            table.add_column(names[i], width=width, justify="right" if numeric[i] else "left")
-        for row in zip(*(readable[names[i]] for i in part), strict=True):
+        cells = [list(readable.values())[i] for i in part]
+        for i, width, column in zip(part, widths, cells, strict=True):
+            numeric = all(map(_is_number, column))
+            title = list(readable)[i]
+            table.add_column(title, width=width, justify="right" if numeric else "left")
+        for row in zip(*cells, strict=True):
             table.add_row(*row)
         # Two columns at least: a longer line is better than half a number.
         console.width = max(room, _total(widths))
         console.print(table, soft_wrap=False)
 
 
-def print_text(console: Console, text: str | Text) -> None:
+def _total(widths: Sequence[int]) -> int:
+    """Return the width of a table: three letters of frame and padding for each column."""
+    return sum(widths) + 3 * len(widths) + 1
+
+
+def _parts(least: Sequence[int], room: int) -> list[list[int]]:
+    """Return the columns of each table, so that its longest words fit; the first is in each."""
+    parts = [[0]]
+    for column in range(1, len(least)):
+        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
+            parts.append([0])
+        parts[-1].append(column)
+    return parts
+
+
+def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
+    """Return what the columns want, less what the widest texts can give for the table to fit.
+
+    Rich does not know how long words are where it shrinks columns, and breaks numbers.
+    """
+    widths = list(most)
+    while _total(widths) > room and widths != list(least):
+        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
+    return widths
+
+
+def formatted(values: Iterable[float], form: str) -> list[str]:
+    """Return numbers as text, and a dash where there is none."""
+    return ["-" if math.isnan(value) else format(float(value), form) for value in values]
+
+
+def print_text(text: str | Text, *, stderr: bool = False) -> None:
     """Print a sentence: broken between words on a terminal, in one line for what reads a file."""
+    console = new_console(stderr=stderr)
     console.print(text, soft_wrap=not console.is_terminal)
 
 
@@ -162,8 +203,9 @@ def print_note(text: str) -> None:
     new_console().print(text, soft_wrap=False)
 
 
-def print_line(console: Console, title: str, text: str) -> None:
+def print_line(title: str, text: str) -> None:
     """Print a title and its text beside it, on a terminal in as many lines as it takes."""
+    console = new_console()
     if not console.is_terminal:
         console.print(f"{title:<{_TITLE}}{text}")
         return
@@ -174,10 +216,10 @@ def print_line(console: Console, title: str, text: str) -> None:
     console.print(grid, soft_wrap=False)
 
 
-def print_written(console: Console, paths: Iterable[Path]) -> None:
+def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
     """Print what was written, one path a line."""
     for path in paths:
-        console.print(f"written {path}")
+        new_console(stderr=stderr).print(f"written {path}")
 
 
 def _cells(column: Sequence[str | float]) -> list[str]:
@@ -215,34 +257,38 @@ def _encodable(text: str, console: Console) -> str:
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
 
 
-def _longest_word(text: str) -> int:
-    return max(map(cell_len, text.split()), default=1)
+@contextmanager
+def counter(title: str) -> Iterator[Callable[[int, int], None]]:
+    """Give what is called with the pieces done and their number.
 
-
-def _longest_line(text: str) -> int:
-    return max(map(cell_len, text.split("\n")))
-
-
-def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
-    """Return what the columns want, less what the widest texts can give for the table to fit.
-
-    Rich does not know how long words are where it shrinks columns, and breaks numbers.
+    Without a terminal its lines go to standard error: results stay alone on standard output.
     """
-    widths = list(most)
-    while sum(widths) > room and widths != list(least):
-        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
-    return widths
+    console = new_console()
+    if not console.is_terminal:
+        yield _plain(title)
+        return
+    with Progress(
+        *Progress.get_default_columns(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn(""),
+        console=console,
+        transient=True,
+    ) as bar:
+        task = bar.add_task(title, total=None)
+
+        def progress(done: int, number: int) -> None:
+            bar.update(task, completed=done, total=number)
+
+        yield progress
 
 
-def _total(widths: Sequence[int]) -> int:
-    return sum(widths) + _FRAME * len(widths) + 1
+def _plain(title: str) -> Callable[[int, int], None]:
+    errors, started = new_console(stderr=True), time.monotonic()
 
+    def progress(done: int, number: int) -> None:
+        if done % -(-number // _LINES) and done != number:
+            return
+        errors.print(f"{title}: {done} of {number} done after {time.monotonic() - started:.0f} s")
 
-def _parts(least: Sequence[int], room: int) -> list[list[int]]:
-    """Return the columns of each table, so that its longest words fit; the first is in each."""
-    parts = [[0]]
-    for column in range(1, len(least)):
-        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
-            parts.append([0])
-        parts[-1].append(column)
-    return parts
+    return progress

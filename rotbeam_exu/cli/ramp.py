@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import analytic
@@ -13,27 +11,24 @@ from analytic.input_checks import positive, whole_number
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .configuration import configured, motion_of
-from .job import Job, drawn
-from .motion import chosen_times, refuse_rest
-from .options import Discretization, Element, Results, Whole
-from .output import new_console, print_columns, print_note
-from .progress import counter
+from .job import Job
+from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, refuse_rest
+from .options import RESULTS, Discretization, Element, Results, Whole
+from .output import counter, formatted, print_columns, print_note
 
 _LONGEST = 10.0  # of the paper's beam [s]
-_RESULTS = Results()
 
 
 def ramp(
     *,
-    omega: float | None = None,
+    omega: SteadySpeed = None,
     longest: float | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
     element: Element | None = None,
     elements: Whole | None = None,
-    config: Path | None = None,
-    results: Results = _RESULTS,
+    config: Config = None,
+    results: Results = RESULTS,
 ) -> None:
     """Tell what a spin-up leaves over its ramp time, and where least.
 
@@ -41,8 +36,6 @@ def ramp(
 
     Parameters
     ----------
-    omega
-        Speed after the ramp [rad/s], unless [motion] of the file has it; 6 for the paper's beam.
     longest
         Longest ramp time [s]; 10 for the paper's beam.
     points
@@ -53,39 +46,36 @@ def ramp(
         Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
     elements
         Number of elements, 16 unless given.
-    config
-        TOML file with the beam or blade, and if it likes with omega in [motion], and element and
-        elements in [numerics]; without it, the paper's beam.
 
     Examples
     --------
     $ rotbeam ramp --omega 6 --longest 10
     """
     from .. import comparison
-    from ..fem.elements import formulation
 
     file = configured(config)
     beam = file.beam
-    omega = motion_of(file, omega=omega).spin_up.omega
-    mesh = Discretization(element=element, elements=elements).over(file.numerics)
-    element, elements = mesh.element, mesh.elements
+    motion = motion_of(file, omega=omega)
+    omega = motion.spin_up.omega
+    case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)
     refuse_rest(omega)
     longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
     for name, count in (("points", points), ("finite-element-points", finite_element_points)):
         whole_number(name, count, least=0)
     inputs = {
         **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
-        "finite_element_points": finite_element_points, "element": formulation(element).name,
-        "elements": elements,
+        "finite_element_points": finite_element_points, "element": case.model.name,
+        "elements": case.elements,
     }  # fmt: skip
     if finite_element_points:
         _require_exudyn()
 
     def computed() -> xr.Dataset:
-        with counter(new_console(), "transients") as progress:
+        with counter("transients") as progress:
             return comparison.residual(
-                beam, omega, longest=longest, points=points, element=element, elements=elements,
-                finite_element_points=finite_element_points, progress=progress,
+                beam, omega, longest=longest, points=points, element=case.model.name,
+                elements=case.elements, finite_element_points=finite_element_points,
+                progress=progress,
             )  # fmt: skip
 
     Job(
@@ -95,7 +85,7 @@ def ramp(
         compute=computed,
         dataset=lambda data: data.assign_attrs(inputs),
         show=lambda data, _: _print(beam, omega, longest, data),
-        draw=drawn(lambda figures, data: figures.residual(data)),
+        draw=lambda figures, data: figures.residual(data),
     ).run()
 
 
@@ -111,39 +101,30 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
     """Print the quiet ramps, then the points."""
     one = SpinUp(omega=omega, ramp_time=longest)
     quiet = data["quiet_ramp_time"].to_numpy()
+    left = analytic.residual_amplitude
     print_columns(
         {
-            "T [s]": [f"{T:.4f}" for T in quiet],
-            "left/L": [f"{left:.2e}" for left in data["quiet"].to_numpy()],
-            "closed form": [
-                f"{left:.2e}" for left in analytic.residual_amplitude(beam, one, quiet)
-            ],
+            "T [s]": formatted(quiet, ".4f"),
+            "left/L": formatted(data["quiet"], ".2e"),
+            "closed form": formatted(left(beam, one, quiet), ".2e"),
         },
-        "table",
         title="Quiet ramp times of Eq. 1",
     )
-    exact = dict(zip(data["exact_ramp_time"].to_numpy(), data["exact"].to_numpy(), strict=True))
-    elements = dict(
-        zip(
-            data["finite_element_ramp_time"].to_numpy(),
-            data["finite_element"].to_numpy(),
-            strict=True,
-        )
+    exact, elements = (
+        dict(zip(data[f"{name}_ramp_time"].to_numpy(), data[name].to_numpy(), strict=True))
+        for name in ("exact", "finite_element")
     )
     times = np.array(sorted({*exact, *elements}))
     if not times.size:
         return
     print_columns(
         {
-            "T [s]": [f"{T:.4f}" for T in times],
-            "closed form": [f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times)],
-            "with the backbone": [
-                f"{a:#.4g}" for a in analytic.residual_amplitude(beam, one, times, corrected=True)
-            ],
-            "exact": [f"{exact[T]:#.4g}" if T in exact else "-" for T in times],
-            "finite elements": [f"{elements[T]:#.4g}" if T in elements else "-" for T in times],
+            "T [s]": formatted(times, ".4f"),
+            "closed form": formatted(left(beam, one, times), "#.4g"),
+            "with the backbone": formatted(left(beam, one, times, corrected=True), "#.4g"),
+            "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
+            "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
-        "table",
         title=f"Amplitude left over L, ω = {omega:g} rad/s",
     )
     print_note(

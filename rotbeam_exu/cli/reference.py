@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import analytic
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes
-from .configuration import configured, motion_of
 from .job import Job
-from .options import Results, Whole
-from .output import new_console, print_line
-
-_RESULTS = Results()
+from .motion import Config, RampTime, SteadySpeed, configured, motion_of
+from .options import RESULTS, Results, Whole
+from .output import print_line
 
 
 def reference(
     *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
     duration: float | None = None,
     samples: Whole = 1501,
     tolerance: float = 1e-8,
-    config: Path | None = None,
-    results: Results = _RESULTS,
+    config: Config = None,
+    results: Results = RESULTS,
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 
@@ -35,18 +31,12 @@ def reference(
 
     Parameters
     ----------
-    omega
-        Steady angular velocity [rad/s].
-    ramp_time
-        Time from rest to the steady angular velocity, T in Eq. 1 [s].
     duration
         Last time that is written [s].
     samples
         Times that are written, at equal distances from 0 on.
     tolerance
         Largest error of the tip's position over the largest |q|.
-    config
-        TOML file with the beam, and if it likes with [motion] and the duration in [numerics].
 
     Examples
     --------
@@ -78,13 +68,12 @@ def reference(
 
 
 def _print(response: analytic.SpinUpResponse) -> None:
-    console, spin_up = new_console(), response.spin_up
+    spin_up = response.spin_up
     farthest = int(np.abs(response.q).argmax())
-    print_line(console, "spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
-    print_line(console, "samples", f"{response.time.size}, up to t = {response.time[-1]:g} s")
+    print_line("spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")
+    print_line("samples", f"{response.time.size}, up to t = {response.time[-1]:g} s")
     print_line(
-        console,
         "largest |q|",
         f"{abs(response.q[farthest]):.9g} m at t = {response.time[farthest]:g} s, of the samples",
     )
-    print_line(console, "error of the tip", f"at most {response.error:.1e} of the largest |q|")
+    print_line("error of the tip", f"at most {response.error:.1e} of the largest |q|")

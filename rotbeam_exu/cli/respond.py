@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, make_dataclass
-from pathlib import Path
+from dataclasses import MISSING, dataclass, fields, make_dataclass
 from typing import Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade, Damping, Gravity
+from analytic import AnyBlade, Damping
 from analytic.arrays import FloatArray
 from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
-from analytic.loads import HarmonicLoad, Load
+from analytic.loads import Load
 
 from ..lazily import xr
-from .configuration import configured, omega_of
-from .job import Job, UnfinishedError, drawn
-from .options import Flag, NoFigure, Results, Whole
-from .output import print_columns
+from .job import Job, UnfinishedError
+from .motion import Config, configured, omega_of
+from .options import RESULTS, Flag, NoFigure, Results, Whole
+from .output import formatted, print_columns
 
 
 def _option(kind: type[Load]) -> str:
@@ -28,52 +27,60 @@ def _option(kind: type[Load]) -> str:
     return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
 
 
-_HARMONIC = {_option(kind): kind for kind in kinds_of(HarmonicLoad).values()}
-_Weight = Annotated[
-    bool | float,
-    Parameter(
-        negative=(), show_default=False, metavar="[FLOAT]",
-        help="Weight in a vertical plane of rotation, 9.81 unless given [m/s²].",
-    ),
-]  # fmt: skip
+def _has_default(kind: Any) -> bool:
+    """Return whether the size of a load may be left out."""
+    return fields(kind)[0].default is not MISSING
+
+
+_KINDS = {
+    f"--{_option(kind)}": kind
+    for kind in sorted(kinds_of(Load).values(), key=_has_default)
+    if kind.varied
+}
+"""Loads that have a response, by their options; those that need no size come last."""
 
 
 class _OneLoad:
-    """What acts on the blade: one of these."""
+    """Options of which one is given: the load's size, or none but that of the kind's default."""
 
-    def one(self) -> HarmonicLoad | Gravity:
+    def one(self) -> Load:
         """Return the load."""
-        asked = {name: getattr(self, name.replace("-", "_")) for name in (*_HARMONIC, "gravity")}
-        given: dict[str, HarmonicLoad | Gravity] = {
-            f"--{name}": kind(amplitude=asked[name])
-            for name, kind in _HARMONIC.items()
-            if asked[name] is not None
+        asked = {f"--{name.replace('_', '-')}": size for name, size in vars(self).items()}
+        given = {
+            name: size for name, size in asked.items() if size is not None and size is not False
         }
-        if (weight := asked["gravity"]) is not False:
-            given["--gravity"] = Gravity() if weight is True else Gravity(weight)
         if len(given) != 1:
-            *others, last = [f"--{name}" for name in asked]
+            *others, last = asked
             raise ValueError(
                 f"give one load, {', '.join(others)} or {last}, got "
                 + (" and ".join(given) or "none")
             )
-        (load,) = given.values()
+        ((name, size),) = given.items()
+        kind: Any = _KINDS[name]
+        load: Load = kind() if size is True else kind(**{fields(kind)[0].name: size})
         if load.size == 0.0:
-            raise ValueError(f"{next(iter(given))} 0 is no load: give its amplitude")
+            raise ValueError(f"{name} 0 is no load: give its amplitude")
         return load
 
 
-def _amplitude(kind: type[HarmonicLoad]) -> tuple[str, Any, None]:
-    first = (kind.__doc__ or "").partition("\n")[0].removesuffix(".")
-    about = Parameter(help=f"{first}; {kind.symbol} [{kind.unit}].")
-    return _option(kind).replace("-", "_"), Annotated[float | None, about], None
+def _size(kind: Any) -> tuple[str, Any, bool | None]:
+    """Return the option of a kind of load, whose size may be left out if it has a default."""
+    about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
+    about += f"; {kind.symbol} [{kind.unit}]"
+    name = _option(kind).replace("-", "_")
+    if not _has_default(kind):
+        return name, Annotated[float | None, Parameter(help=f"{about}.")], None
+    option = Parameter(
+        help=f"{about}, {size.default:g} unless given.",
+        negative=(), show_default=False, metavar="[FLOAT]",
+    )  # fmt: skip
+    return name, Annotated[bool | float, option], False
 
 
 # An option for each kind of load that is known.
 Loads: Any = Parameter(name="*")(
     make_dataclass(
-        "Loads",
-        [*map(_amplitude, _HARMONIC.values()), ("gravity", _Weight, False)],
+        "Loads", map(_size, _KINDS.values()),
         bases=(_OneLoad,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
     )
 )  # fmt: skip
@@ -112,7 +119,7 @@ class Dampings:
         return beam
 
 
-_LOADS, _DAMPINGS, _RESULTS = Loads(), Dampings(), Results()
+_LOADS, _DAMPINGS = Loads(), Dampings()
 
 
 def respond(
@@ -125,9 +132,9 @@ def respond(
     points: Whole = 41,
     inextensible: Flag = False,
     functions: Whole = 10,
-    config: Path | None = None,
+    config: Config = None,
     no_figure: NoFigure = False,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
 
@@ -150,9 +157,6 @@ def respond(
         Leave the axial motion out.
     functions
         Functions that resolve the beam along its length, at least.
-    config
-        TOML file with the beam or blade, and if it likes with [motion]; without it, the paper's
-        beam.
 
     Examples
     --------
@@ -164,14 +168,13 @@ def respond(
     load = loads.one()
     file = configured(config)
     beam = dampings.on(file.beam)
-    if isinstance(load, Gravity):
-        if omega is not None:
-            raise ValueError(
-                "under --gravity the rotation speeds are those --from one --to another: leave "
-                "--omega out"
-            )
-    else:
+    if load.varied == "frequency":
         omega = omega_of(file, omega)
+    elif omega is not None:
+        raise ValueError(
+            f"under --{_option(type(load))} the rotation speeds are those --from one --to "
+            "another: leave --omega out"
+        )
     frequencies = _frequencies(first, last, points)
     inputs = {
         **response_inputs(beam, load, omega),
@@ -180,11 +183,12 @@ def respond(
     }  # fmt: skip
 
     def computed() -> analytic.ForcedResponse:
+        theory = analytic.Theory(extension=not inextensible)
+        how: Any = {"theory": theory, "functions": functions}
         try:
-            return _response(
-                beam, omega, load, frequencies,
-                theory=analytic.Theory(extension=not inextensible), functions=functions,
-            )  # fmt: skip
+            if omega is None:
+                return analytic.forced_response(beam, frequencies, load, **how)
+            return analytic.forced_response(beam, omega, load, frequencies, **how)
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
                 raise
@@ -198,21 +202,8 @@ def respond(
         dataset=lambda found: dataset_of(found).assign_attrs(inputs),
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         show=lambda found, data: _print(data, str(found)),
-        draw=None if no_figure else drawn(lambda figures, data: figures.forced_response(data)),
+        draw=None if no_figure else lambda figures, data: figures.forced_response(data),
     ).run()
-
-
-def _response(
-    beam: AnyBlade,
-    omega: float | None,
-    load: HarmonicLoad | Gravity,
-    frequencies: FloatArray,
-    **options: Any,
-) -> analytic.ForcedResponse:
-    if isinstance(load, Gravity):
-        return analytic.gravity_response(beam, frequencies, load.gravity, **options)
-    assert omega is not None
-    return analytic.forced_response(beam, omega, load, frequencies, **options)
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:
@@ -223,7 +214,7 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
     return np.linspace(first, last, points)
 
 
-def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
+def _name(load: Load, omega: float | None) -> str:
     turning = "" if omega is None else f"omega-{omega:g}-"
     return f"response-{turning}{_option(type(load))}-{load.size:g}"
 
@@ -231,21 +222,19 @@ def _name(load: HarmonicLoad | Gravity, omega: float | None) -> str:
 def _print(data: xr.Dataset, title: str) -> None:
     marks = data["mark"].to_numpy()
     (shown,) = np.nonzero(marks)
+    frequency = data["frequency"].attrs["long_name"].split()[-1]
     stable = np.where(data["stable"].to_numpy(), "yes", "no")
     print_columns(
         {
             "": marks[shown].tolist(),
-            data["frequency"].attrs["long_name"].split()[-1] + " [rad/s]": [
-                f"{nu:.6f}" for nu in data["frequency"].to_numpy()[shown]
-            ],
-            "|q|/L": [f"{a:.6g}" for a in data["amplitude"].to_numpy()[shown]],
-            "lag [rad]": [f"{phase:.4f}" for phase in data["phase"].to_numpy()[shown]],
+            f"{frequency} [rad/s]": formatted(data["frequency"][shown], ".6f"),
+            "|q|/L": formatted(data["amplitude"][shown], ".6g"),
+            "lag [rad]": formatted(data["phase"][shown], ".4f"),
             # A fold is the limit of both.
             "stable": [
                 f"{stable[i - 1]} | {stable[i + 1]}" if marks[i] == "fold" else stable[i]
                 for i in shown
             ],
         },
-        "table",
         title=title,
     )

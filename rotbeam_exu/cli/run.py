@@ -3,107 +3,73 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from cyclopts import Parameter
-from rich.console import Console
 from rich.progress import Progress
 
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.check import SimulationError
-from .configuration import configured, motion_of
-from .job import Job, UnfinishedError, drawn
-from .motion import refuse_rest
-from .options import Discretization, NoFigure, Results, given
+from ..runs.check import SimulationError, energy_drift
+from .job import Job, UnfinishedError
+from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
+from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
 from .output import new_console, print_line
 
 if TYPE_CHECKING:
     from ..fem.case import Case
     from ..runs.oscillation import SteadyOscillation
-    from .assessment import Assessment
-
-_DISCRETIZATION, _RESULTS = Discretization(), Results()
+    from ..verification.assessment import Assessment
 
 
 def run(
     *,
-    omega: float | None = None,
-    ramp_time: float | None = None,
-    discretization: Discretization = _DISCRETIZATION,
-    config: Path | None = None,
-    recorded: Annotated[Path | None, Parameter(name="--from")] = None,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
+    discretization: Discretization = DISCRETIZATION,
+    config: Config = None,
     no_figure: NoFigure = False,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Spin a beam up in Exudyn and measure what oscillation is left.
 
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
     another beam speed, times and step follow its ω_0.
 
-    Parameters
-    ----------
-    omega
-        Steady angular velocity [rad/s].
-    ramp_time
-        Time from rest to the steady angular velocity, T in Eq. 1 [s].
-    config
-        TOML file with the beam, and if it likes with [motion] and [numerics]; options come first.
-    recorded
-        Repeat the run in this file exactly, and say whether it came out the same.
-
     Examples
     --------
     $ rotbeam run
     $ rotbeam run --omega 4 --ramp-time 2.5 --frame rotating --elements 32 -o fine
     $ rotbeam run --config beam.toml --element exact --option nodes=3 --no-figure
-    $ rotbeam run --from results/cable-16-omega-6-ramp-3.nc
     """
-    from .assessment import assess
-    from .repeat import likeness, recorded_case, recorded_title
-    from .summary import print_inputs, print_results
+    from ..verification.assessment import assess
 
-    console = new_console()
-    if recorded is not None:
-        others = given(omega=omega, ramp_time=ramp_time, config=config)
-        if others or discretization != _DISCRETIZATION:
-            raise ValueError(
-                "--from repeats a run exactly: leave --config and the options of motion and "
-                "discretization out"
-            )
-        case, before = recorded_case(recorded)
-        name, title = recorded.stem, recorded_title(case)
-    else:
-        file, before = configured(config), None
-        numerics = discretization.over(file.numerics)
-        motion = motion_of(
-            file, omega=omega, ramp_time=ramp_time, duration=numerics.duration, step=numerics.step
-        )
-        refuse_rest(motion.spin_up.omega)
-        case, title = numerics.case(file.beam, motion), numerics.title
-        name = f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
-    path = results.out / name
+    file = configured(config)
+    numerics = discretization.over(file.numerics)
+    motion = motion_of(
+        file, omega=omega, ramp_time=ramp_time, duration=numerics.duration, step=numerics.step
+    )
+    refuse_rest(motion.spin_up.omega)
+    case = numerics.case(file.beam, motion)
+    path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def computed() -> xr.Dataset:
         if config is not None:
             where = "(where not given, the paper's, scaled by ω_0)"
-            print_line(console, "motion", f"{motion} {where}")
-        return _computed(case, console)
+            print_line("motion", f"{motion} {where}")
+        return _computed(case)
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
-        assessment = assess(case, steady)
-        print_inputs(console, case, title)
-        print_results(console, data, steady, assessment)
-        if before is not None:
-            print_line(console, "repeats", f"{recorded}: {likeness(data, before)}")
-        return assessment
+        found = assess(case, steady)
+        for title, text in (*_inputs(case, numerics.title), *_results(data, steady, found)):
+            print_line(title, text)
+        return found
 
     found = Job(
         path=path, inputs=case.describe(), force=results.force, compute=computed,
-        dataset=lambda data: data, show=shown,
-        draw=None if no_figure else drawn(lambda figures, data: figures.spin_up(data)[0]),
+        show=shown,
+        draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)
@@ -119,9 +85,10 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
-def _computed(case: Case, console: Console) -> xr.Dataset:
+def _computed(case: Case) -> xr.Dataset:
     from ..fem.simulation import run_case
 
+    console = new_console()
     try:
         with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task("spinning up", total=1.0)
@@ -130,3 +97,58 @@ def _computed(case: Case, console: Console) -> xr.Dataset:
         if error.run is None:
             raise
         raise UnfinishedError(error.run, "computed") from error
+
+
+def _inputs(case: Case, element: str) -> list[tuple[str, str]]:
+    """Return the lines that say what is run."""
+    beam = case.beam
+    return [
+        (
+            "beam",
+            f"L = {beam.length:g} m, EI = {beam.bending_stiffness:.6g} N m², "
+            f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg, "
+            f"ω_0 = {beam.omega_0:.6g} rad/s",
+        ),
+        (
+            "spin-up",
+            f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
+            f"(Ω = {case.omega / beam.omega_0:.4f})",
+        ),
+        (
+            "discretization",
+            f"{case.elements} × {element}; {case.frame} frame, "
+            f"step {case.step:g} s, {case.duration:g} s",
+        ),
+    ]
+
+
+def _results(
+    data: xr.Dataset, steady: SteadyOscillation, found: Assessment
+) -> list[tuple[str, str]]:
+    """Return the lines of what was measured, beside the exact beam, and what the checks found."""
+    worst = max(
+        float(abs(data["direction_residual"]).max()),
+        float(data["clamp_residual"].max()) / data.attrs["beam_length"],
+    )
+    drift, ripple = energy_drift(data)
+    plane = [("plane", data.attrs["out_of_plane"])] if "out_of_plane" in data.attrs else []
+    return [
+        ("natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)"),
+        (
+            "steady amplitude",
+            f"{steady.amplitude:.5f} L half peak to peak, "
+            f"first harmonic {steady.first_harmonic:.5f} L",
+        ),
+        (
+            "steady frequency",
+            f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
+            f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
+            f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
+        ),
+        *found.lines(),
+        ("constraint residual", f"{worst:.2g} (worst)"),
+        ("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy"),
+        *plane,
+        ("wall time", f"{data.attrs['wall_time']:.2f} s"),
+        ("verdict", f"checks {data.attrs['verdict']}"),
+    ]

@@ -2,44 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from .. import paper
-from ..files.run_file import RunFile
+from ..files.beam_file import RunFile
 from ..lazily import xr
-from .configuration import configured
 from .job import Job
-from .motion import Motion, chosen_speeds, chosen_times, grid_motion, refuse_rest
-from .options import Discretization, Flag, Results, Workers
-from .output import choice, new_console, print_columns, print_line, print_text
-from .progress import counter
-from .targets import telling_what_is_kept
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
+from .motion import Motion, chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
+from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
+from .output import formatted, print_columns, print_line, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
-
-_DISCRETIZATION, _RESULTS, _WORKERS = Discretization(), Results(), Workers()
 
 
 def sweep(
     *,
     omega: Values = None,
     ramp_time: Values = None,
-    discretization: Discretization = _DISCRETIZATION,
-    workers: Workers = _WORKERS,
-    executor: Annotated[Literal["processes", "dask"], Parameter(converter=choice)] = "processes",
-    scheduler: str | None = None,
+    discretization: Discretization = DISCRETIZATION,
+    workers: Workers = WORKERS,
     shard: str = "1/1",
     history: Flag = False,
     config: Path | None = None,
-    results: Results = _RESULTS,
+    results: Results = RESULTS,
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
@@ -52,10 +40,6 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    executor
-        Where the cases run: processes here, or a Dask cluster.
-    scheduler
-        Address of the Dask scheduler, as tcp://host:8786.
     shard
         Part k of n of the grid, as 1/4, for job arrays that share a cache.
     history
@@ -79,23 +63,18 @@ def sweep(
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
-    if executor == "dask" and scheduler is None:
-        raise ValueError("the Dask executor needs --scheduler ADDRESS, as tcp://host:8786")
     count = len(omegas) * len(ramp_times)
     one = numerics.case(beam, motion)
 
     def computed() -> xr.Dataset:
         if config is not None:
-            print_line(new_console(), "motion", _described(motion, omegas, ramp_times))
-        with (
-            _executor(scheduler if executor == "dask" else None) as pool,
-            _kept_and_counted(workers.cache, count // part[1]) as progress,
-        ):
+            print_line("motion", _described(motion, omegas, ramp_times))
+        with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
-                executor=pool, jobs=workers.jobs, cache=workers.cache, progress=progress,
-                on_error="record", shard=part, history=history,
+                jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
+                shard=part, history=history,
             )  # fmt: skip
 
     name = f"sweep-{numerics.name}"
@@ -106,7 +85,6 @@ def sweep(
         inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
         force=results.force,
         compute=computed,
-        dataset=lambda result: result,
         table=_measured,
         show=_print,
     ).run()
@@ -134,49 +112,15 @@ def _measured(result: xr.Dataset) -> xr.Dataset:
 
 def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     """Print the result, and why cases failed; return how many did."""
-    from ..sweeps.grid import failed_cases
+    from ..sweeps.grid import failures
 
     measured = _measured(result)
     _print_result(measured)
-    failed = failed_cases(measured)
+    failed = failures(measured)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        print_text(new_console(), f"failed at {where}: {sentence}")
+        print_text(f"failed at {where}: {sentence}")
     return sum(map(len, failed.values()))
-
-
-@contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor | None]:
-    """Give the executor of a Dask cluster, or None for processes here."""
-    from ..sweeps.dask import dask_executor
-
-    if scheduler is None:
-        yield None
-        return
-    pool, client = dask_executor(scheduler)
-    try:
-        yield pool
-    finally:
-        client.close()
-
-
-@contextmanager
-def _kept_and_counted(cache: Path, cases: int) -> Iterator[Callable[[int, int], None]]:
-    """Show how many spin-ups are done, and say where they are should they not all be."""
-    finished = 0
-
-    def kept() -> str:
-        where = f"{finished} of {cases} spin-ups are kept in the cache {cache}"
-        return f"{where}; the same command goes on from there" if finished else ""
-
-    with telling_what_is_kept(kept), counter(new_console(), "spin-ups") as shown:
-
-        def progress(done: int, number: int) -> None:
-            nonlocal finished, cases
-            finished, cases = done, number
-            shown(done, number)
-
-        yield progress
 
 
 def _described(motion: Motion, omegas: list[float], ramp_times: list[float]) -> str:
@@ -198,11 +142,11 @@ def _print_result(measured: xr.Dataset) -> None:
         "T [s]": rows["ramp_time"],
         "amplitude a/L": rows["amplitude"],
         "ω_NL [rad/s]": rows["frequency"],
-        "±": [f"{error:.1e}".replace("nan", "-") for error in rows["frequency_error"]],
+        "±": formatted(rows["frequency_error"], ".1e"),
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "verdict": rows["verdict"],
     }
-    print_columns({title: list(values) for title, values in columns.items()}, "table")
+    print_columns({title: list(values) for title, values in columns.items()})
 
 
 def _shard(text: str) -> tuple[int, int]:

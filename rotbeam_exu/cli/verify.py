@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 from rich import box
-from rich.console import Console
 
 from analytic import AnyBlade
 from analytic.input_checks import positive
 
-from .configuration import configured, motion_of
-from .motion import Motion, slower_than_paper
+from ..verification.judgement import THRESHOLDS, Judgement
+from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.submission import Run
+from .motion import Config, Motion, configured, motion_of, slower_than_paper
 from .options import Flag, element_names, spelled_as
-from .output import new_console, print_columns, print_text
-from .progress import counted
+from .output import counter, print_columns, print_note, print_text
 
 if TYPE_CHECKING:
     from ..verification.verify import Entry
+
+_SHORT = {
+    "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
+    "backbone": "shift",
+}  # fmt: skip
 
 
 def _names() -> tuple[str, ...]:
@@ -39,7 +43,7 @@ def verify(
     element: list[Judged] | None = None,
     cost: Flag = False,
     error: float = 1e-2,
-    config: Path | None = None,
+    config: Config = None,
 ) -> None:
     """Judge elements, and other codes at hand, by what they tend to.
 
@@ -56,9 +60,6 @@ def verify(
         Print the cost at equal error instead.
     error
         That error, of q(t) over max|q|.
-    config
-        TOML file with the beam, and if it likes with [motion] and with step and duration in
-        [numerics]; without it, the paper's beam. What is not given follows its ω_0.
 
     Examples
     --------
@@ -73,11 +74,10 @@ def verify(
     beam = file.beam
     motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
     entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
-    console = new_console()
     if cost:
-        _print_costs(console, entries, error, beam, motion)
+        _print_costs(entries, error, beam, motion)
     else:
-        _print_verdicts(console, entries, beam if config else None, motion)
+        _print_verdicts(entries, beam if config else None, motion)
 
 
 def _entry(name: str) -> Entry:
@@ -93,43 +93,35 @@ def _entry(name: str) -> Entry:
     return peer(name)
 
 
-def _print_verdicts(
-    console: Console, entries: tuple[Entry, ...], beam: AnyBlade | None, motion: Motion
-) -> None:
+def _print_verdicts(entries: tuple[Entry, ...], beam: AnyBlade | None, motion: Motion) -> None:
     from ..verification.verify import verify as verification_of
-    from .verdicts import print_judgements
 
     spin_up = None if beam is None else motion.spin_up
     found = [
         verification_of(entry, beam=beam, spin_up=spin_up, duration=motion.duration)
-        for entry in _tracked(console, entries)
+        for entry in _tracked(entries)
     ]
     print_judgements(found, "the paper's beam" if beam is None else _named(motion))
 
 
-def _print_costs(
-    console: Console, entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion
-) -> None:
+def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion) -> None:
     from ..verification.verify import LADDER, cost_at_error
 
-    rows = []
-    for entry in _tracked(console, entries):
+    columns: dict[str, list[str]] = {"code": [entry.name for entry in entries]}
+    titles = [f"{n} × {h * slower_than_paper(beam):g} s" for n, h in LADDER]
+    columns |= {title: [] for title in (*titles, f"s at {error:g}")}
+    for entry in _tracked(entries):
         seconds, ladder = cost_at_error(entry, error, beam=beam, spin_up=motion.spin_up)
-        cells = (f"{e:.1e} {s:.2f} s" if math.isfinite(e) else "failed" for e, s in ladder)
-        reached = f"{seconds:.2f}" if math.isfinite(seconds) else "not reached"
-        rows.append([entry.name, *cells, reached])
-    _print_rows(
-        [
-            "code",
-            *(f"{n} × {h * slower_than_paper(beam):g} s" for n, h in LADDER),
-            f"s at {error:g}",
-        ],
-        rows,
+        cells = [f"{e:.1e} {s:.2f} s" if math.isfinite(e) else "failed" for e, s in ladder]
+        cells.append(f"{seconds:.2f}" if math.isfinite(seconds) else "not reached")
+        for column, cell in zip(list(columns.values())[1:], cells, strict=True):
+            column.append(cell)
+    _print(
+        columns,
         f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
     print_text(
-        console,
         "Each cell: error and wall time of one run, one after the other in this process; the last "
         "column interpolates time over error logarithmically.",
     )
@@ -139,10 +131,107 @@ def _named(motion: Motion) -> str:
     return f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
 
 
-def _print_rows(headers: list[str], rows: list[list[str]], title: str) -> None:
-    columns = dict(zip(headers, map(list, zip(*rows, strict=True)), strict=True))
-    print_columns(columns, "table", title=title, frame=box.SIMPLE)
+def _tracked(entries: tuple[Entry, ...]) -> Iterator[Entry]:
+    """Yield each entry, and count it when the next one is asked for."""
+    with counter("verifying") as progress:
+        for done, entry in enumerate(entries, start=1):
+            yield entry
+            progress(done, len(entries))
 
 
-def _tracked(console: Console, entries: tuple[Entry, ...]) -> Iterator[Entry]:
-    return counted(console, "verifying", entries, len(entries))
+def print_judgements(found: Sequence[Judgement], about: str) -> None:
+    """Print the limits of codes less the reference, their discretization, and the outcomes."""
+    keys = list(dict.fromkeys(key for one in found for key in one.by_quantity))
+    known = {key: [one.by_quantity[key] for one in found if key in one.by_quantity] for key in keys}
+    asked = {
+        "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
+        "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
+        "floor": [_largest(_floor(one) for one in known[key]) for key in keys],
+        "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
+    }
+
+    def of_each(cell: Callable[[Finding | None], str]) -> dict[str, list[str]]:
+        return {
+            one.declaration.code: [cell(one.by_quantity.get(key)) for key in keys] for one in found
+        }
+
+    _print(asked | of_each(_limit), f"What codes tend to, less the reference; {about}")
+    print_note(
+        "! decides against the code, ? decides nothing; floor: of what measures it, ref ±: of the "
+        "reference, in the shift also of the limit of the code's own ω_n"
+    )
+    bars = {"quantity": asked["quantity"]} | of_each(_discretization)
+    _print(bars, "Discretization of the finest run: less its own limit ± the bar of that")
+    _print(
+        {
+            "code": [one.declaration.code for one in found],
+            "theory": [one.declaration.theory.name for one in found],
+            "mesh": [_finest(one, lambda run: str(run.elements)) for one in found],
+            "h [ms]": [_finest(one, lambda run: f"{1e3 * run.step:g}") for one in found],
+            "order l": [_order(one, "mesh") for one in found],
+            "order h": [_order(one, "step") for one in found],
+            "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
+            "outcome": [one.outcome for one in found],
+        },
+        "Orders of q(t) observed of declared, and time, of the finest run of the first history",
+    )
+    for one in found:
+        for sentence in _sentences(one):
+            print_note(f"{one.declaration.code}: {sentence}")
+
+
+def _print(columns: dict[str, list[str]], title: str) -> None:
+    print_columns(columns, title=title, frame=box.SIMPLE)
+
+
+def _limit(found: Finding | None) -> str:
+    """Return the model difference, marked where it decides against the code or decides nothing."""
+    if found is None or found.outcome is Outcome.NOT_SUBMITTED:
+        return "-"
+    if not math.isfinite(found.model_difference):
+        return "none!" if found.outcome is Outcome.NO_LIMIT else "none?"
+    mark = {True: "", False: "!", None: "?"}[found.outcome.passed]
+    return _signed(found.model_difference) + mark
+
+
+def _discretization(found: Finding | None) -> str:
+    if found is None or found.runs is None or not math.isfinite(found.runs.limit):
+        return "-"
+    return f"{_signed(float(found.runs.errors[-1]))} ±{found.runs.bar:.0e}"
+
+
+def _floor(found: Finding) -> float:
+    return math.nan if found.runs is None else float(found.runs.noise[-1])
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.0e}"
+
+
+def _largest(values: Iterable[float]) -> str:
+    finite = [value for value in values if math.isfinite(value)]
+    return f"{max(finite):.0e}" if finite else "-"
+
+
+def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
+    """Return what there is to say of the finest run of the first history."""
+    return cell(next(iter(one.histories.values())).rows.finest) if one.histories else "-"
+
+
+def _order(one: Judgement, name: str) -> str:
+    """Return the observed order of the declared one, marked where it is low."""
+    order: Order | None = next((of[name] for of in one.orders.values() if name in of), None)
+    if order is None or math.isnan(order.value):
+        return "-"
+    return f"{order}{'!' if order.low else ''}"
+
+
+def _sentences(found: Judgement) -> list[str]:
+    """Return why there is no verdict, or one against the code; each sentence once."""
+    said = [
+        f"{finding.outcome}: {finding.note}"
+        for finding in found.by_quantity.values()
+        if finding.outcome is not Outcome.REFERENCE and finding.note
+    ]
+    remarks = [run.remark for one in found.histories.values() for run in one.runs if run.remark]
+    return list(dict.fromkeys([*said, *remarks]))

@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from analytic import Beam, periodic_orbits, planar_note, reduced_model
+from analytic import Beam, periodic_orbits, reduced_model
+from analytic.exact.plane.planarity import planar_note
 
 from ..datasets import AMPLITUDE, OMEGA, dataset, labeled
 from ..fem.frame import Frame
@@ -46,11 +47,11 @@ def finite_element_points(
     omegas, ramp_times : sequences of float
         The grid [rad/s], [s].
     mesh : {"paper", "converged"}
-        "paper": 16 elements, inertial frame, step 1 ms, as they come; the bars hold the whole
-        distance to a step of zero, from steps of 1 and 2 ms. "converged": 64 elements in the
-        rotating frame, the same steps extrapolated to zero; the bars hold a tenth of the
-        extrapolation. Both add, for the mesh, the fifteenth of what half the elements change that
-        a fourth-order error leaves, and the estimator's own bar.
+        "paper": 16 elements, inertial frame, step 1 ms; the bars hold the whole distance to a step
+        of zero, from steps of 1 and 2 ms. "converged": 64 elements, rotating frame, the same steps
+        extrapolated to zero; the bars hold a tenth of the extrapolation. Both add, for the mesh,
+        the fifteenth of what half the elements change that a fourth-order error leaves, and the
+        estimator's own bar.
     step : float
         The smaller step [s], for a beam that is faster or slower than the paper's.
     **options
@@ -60,7 +61,7 @@ def finite_element_points(
     -------
     Dataset
         Over (omega, ramp_time): amplitude [-], ratio ω_NL/ω_n [-] to the ω_n of the same mesh, and
-        their errors; `estimator_error`, the estimator's share in that of the ratio.
+        their errors; `estimator_error`, the estimator's share in the error of the ratio.
     """
     if mesh not in _MESHES:
         raise ValueError(f"unknown mesh {mesh!r}; known are 'paper' and 'converged'")
@@ -169,11 +170,11 @@ def figure_14(
     Dataset
         `backbone`, ω_NL/ω_n [-] by Eq. 63, over (model, omega, a), model "exact" included;
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
-        (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L, and Eq. 63 is taken at the
-        first harmonic that has it; `as_printed` is Eq. 63 with a itself for the first harmonic, as
-        the paper draws it among the points. Options are those of `finite_element_points`. The
-        attribute `out_of_plane` is there if the section of a blade is known to leave the plane,
-        and says at which speeds from which amplitudes on.
+        (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L; Eq. 63 is taken at its first
+        harmonic. `as_printed` is Eq. 63 with a itself for the first harmonic, as the paper draws
+        it. Options as in `finite_element_points`. The attribute `out_of_plane` is there if the
+        section of a blade is known to leave the plane, and says at which speeds from which
+        amplitudes on.
     """
     beam = beam or Beam.reference()
     points = xr.concat(

@@ -39,13 +39,12 @@ def model_budget(
 ) -> xr.Dataset:
     """Frequency error of CI, CE, FrI, FrE, FrC and FrM, source by source.
 
-    Each model is changed into the exact one step by step; a source is the difference of the two
-    frequencies before and after its step, so that the sources add up to the whole error:
-    linear frequency (both frequencies relative to the model's own ω_n), perturbation (Eq. 63, at
-    the first harmonic that has the peak a, less Eq. 41 solved exactly from the peak a), shape (the
-    cantilever's mode for the rotating one), elongation (the sine for the static solution),
-    foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), Coriolis modes (FrC less FrM), and what is left
-    between FrM and the exact beam.
+    Each model is changed into the exact one step by step. A source is the difference of the
+    frequencies before and after its step; the sources add up to the whole error. They are the
+    linear frequency (both relative to the model's own ω_n), the perturbation (Eq. 63 less Eq. 41
+    solved exactly from the peak a), the shape (cantilever's mode for the rotating one), the
+    elongation (sine for the static solution), the foreshortening (-v'²/2 for -v'²/2 - v'⁴/8), the
+    Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
 
     Returns
     -------
@@ -86,7 +85,7 @@ def model_budget(
 
 
 def _stages(variant: Variant) -> list[Variant]:
-    """Return the model, and what it becomes as one fault after another is taken away."""
+    """Return the model, and the models that follow as one fault after another is taken away."""
     rotating = replace(variant, shape="rotating")
     static = replace(rotating, axial="static") if variant.axial == "sine" else rotating
     consistent = replace(static, axial="consistent")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from analytic import AnyBlade, Beam, Rectangle
-from analytic.exact.plane.orbit_growth import growth_rates
+from analytic.exact.plane.planarity import growth_rates
 from analytic.input_checks import finite_values
 from analytic.reduced.any_blade import blade_oscillator
 

@@ -1,4 +1,4 @@
-"""What Eq. 1 leaves over its ramp time: closed form, exact transient and finite elements."""
+"""Residual amplitude after Eq. 1 over its ramp time: closed form, transient, finite elements."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def residual(
     longest : float, optional
         Longest ramp time [s], by default five periods of the blade at rest.
     points, finite_element_points : int
-        Ramp times of exact transients and of finite element runs, evenly spaced from where the
-        closed form leaves 0.9 to the longest; none if zero.
+        Numbers of ramp times of exact transients and of finite element runs, or zero. They are
+        evenly spaced, from where the closed form leaves 0.9 to the longest.
     element, elements
         As in `simulate`.
     progress : callable, optional
@@ -70,7 +70,7 @@ def residual(
     Dataset
         `linear` and `corrected` (by the backbone's action) over `ramp_time`, `exact` over
         `exact_ramp_time`, `finite_element` over `finite_element_ramp_time`, `quiet` over
-        `quiet_ramp_time`: half peak to peak of the tip over L, that of the first mode the last.
+        `quiet_ramp_time`: half peak to peak of the tip over L; `quiet` that of the first mode.
     """
     blade = Beam.reference() if beam is None else beam
     period = 2.0 * math.pi / blade.omega_0

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Backbone, Beam, SpinUp, periodic_orbits, reduced_model
+from analytic import Beam, Orbits, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
@@ -76,7 +76,7 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
     Dataset
         `q_bar` and `q_dot_bar` [-] over (case, sample): first ω = 4 rad/s with T = 1.5, 2 and
         3 s (a), then T = 3 s with ω = 4, 6 and 8 rad/s (b). `sample` counts from the end of the
-        ramp, and what a shorter steady phase lacks is NaN. `smear` over case: the largest velocity
+        ramp, and a shorter steady phase is filled with NaN. `smear` over case: the largest velocity
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
     beam = beam or Beam.reference()
@@ -229,7 +229,7 @@ def _from_the_peak(
     return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
 
 
-def _from_exact_peak(backbone: Backbone, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _from_exact_peak(backbone: Orbits, time: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return x = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
     x, rate = backbone.orbit(0, 401)
     period = 2.0 * np.pi / backbone.frequency[0]

@@ -1,4 +1,4 @@
-"""Data of Figures 8 to 13: what the reduced models say by themselves."""
+"""Data of Figures 8 to 13: the reduced models by themselves."""
 
 from __future__ import annotations
 

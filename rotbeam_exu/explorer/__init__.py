@@ -22,7 +22,7 @@ _SCRIPTS = (
     "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "spin_up",
     "table", "table_file", "own", "export", "main",
 )  # fmt: skip
-"""Of page/, in the order in which they run."""
+"""Scripts of page/, in the order in which they run."""
 _STEP = 5e-5
 """Step to which positions are rounded, of the length: a hundredth of a pixel."""
 _UNKNOWN = -32768

@@ -1,4 +1,4 @@
-"""What the Explorer shows: models, exact orbits and finite element points over a grid of speeds."""
+"""Data of the Explorer: models, exact orbits and finite element points over a grid of speeds."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _TIP_HARMONICS = 20
 _AXIS_HARMONICS = 7  # those beyond are below 2e-4 of the length, a twentieth of a pixel
 _AXIS_POINTS = 13
 _SAMPLES = 376
-"""Of a history: forty a period of the paper's beam."""
+"""Samples of a history: forty a period of the paper's beam."""
 _CURVE = 300  # ramp times of the closed form
 _A_PERIOD = 200  # samples of what is left
 _LARGEST = 1.1  # left by the closed form; beyond, the blade is thrown about and costs minutes
@@ -95,12 +95,12 @@ def explorer_data(
         Reduced models over (model, omega): omega_n [rad/s], lambda_omega, kappa, h2, lambda_x [-],
         and over a as well the first_harmonic that has the peak a, NaN where a model has no
         oscillation. Exact orbits: exact_omega_n and exact_lambda_omega over omega,
-        exact_frequency [rad/s] over (omega, a), NaN where no orbit is found, as the sine
-        coefficients `harmonics` of q/L, and the beam's axis over L in the rotating frame, along
-        Σ axis_x cos kφ, across Σ axis_y sin kφ, k = 0, 1 ...; `note`, what `periodic_orbits`
-        warned of. Points over (fe_omega, ramp_time): fe_amplitude [-], fe_frequency and fe_omega_n
-        [rad/s]. Exact `spin_up`, q/L over (fe_omega, exact_ramp_time, time), and the amplitude over
-        L that it leaves, exact_left; by the closed form closed_left over (fe_omega, ramp_curve).
+        exact_frequency [rad/s] over (omega, a), the sine coefficients `harmonics` of q/L, NaN where
+        no orbit is found. The beam's axis over L in the rotating frame: along Σ axis_x cos kφ,
+        across Σ axis_y sin kφ, k = 0, 1 ...; `note`, the warnings of `periodic_orbits`. Points over
+        (fe_omega, ramp_time): fe_amplitude [-], fe_frequency and fe_omega_n [rad/s]. Exact
+        `spin_up`, q/L over (fe_omega, exact_ramp_time, time), and the amplitude over L that it
+        leaves, exact_left; by the closed form closed_left over (fe_omega, ramp_curve).
 
     Raises
     ------
@@ -178,7 +178,7 @@ def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]
 
 
 def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
-    """Return what is shown of the exact orbits at one speed; a pure function, for any executor.
+    """Return the exact orbits shown at one speed; a pure function, for any executor.
 
     NaN for orbits that are not found.
     """
@@ -188,9 +188,9 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
         try:
             backbone = periodic_orbits(beam, omega, wanted)
         except AmplitudeNotReachedError as error:
-            if error.backbone is None:
+            if error.orbits is None:
                 raise
-            backbone = error.backbone
+            backbone = error.orbits
     found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
 
     def at_all(values: FloatArray) -> FloatArray:
@@ -235,7 +235,7 @@ def _axis_harmonics(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArra
 def exact_spin_up(
     beam: AnyBlade, omega: float, ramp_time: float, duration: float
 ) -> tuple[FloatArray, float]:
-    """Return q/L of an exact spin-up and what it leaves; a pure function, for any executor.
+    """Return q/L of an exact spin-up and the amplitude it leaves; a pure function.
 
     Half peak to peak in the period after the ramp is left. NaN where the transient is too violent
     to be computed in seconds.

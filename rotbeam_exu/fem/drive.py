@@ -6,13 +6,12 @@ rotating frame the root stands still and the beam carries the inertial forces of
     f = -c² θ'² M J² e - c θ'' M (J e + a) - 2 c θ' M J e' + s² θ'² M P e,
 
 with c = cos ψ and s = sin ψ of the setting angle: a rotation about the normal of the plane of
-bending by cθ, and what the rest of it adds, a centrifugal force along the clamp's line. Exact
-where, as in all elements here, mass matrix and elastic forces commute with a rotation
-exp(θJ) e + θ a: -J² projects on what turns, positions and slopes, and P on their share along the
-clamp's line; a is one for angles.
+bending by cθ, and a centrifugal force along the clamp's line. The force is exact if mass matrix and
+elastic forces commute with a rotation exp(θJ) e + θ a, as in all elements here. -J² projects on
+positions and slopes, which turn, P on their share along the clamp's line; a is one for angles.
 
-Sections that have an inertia of their own are so laminae in the plane of bending, where slopes
-carry it, and ½ρI(φ' + cθ')² where angles do: no more than the order of μ apart.
+Sections with an inertia of their own are laminae in the plane of bending if slopes carry it, and
+½ρI(φ' + cθ')² if angles do: the two differ by the order of μ.
 """
 
 from __future__ import annotations
@@ -124,7 +123,7 @@ def add_inertial_forces(
 ) -> None:
     """Load the beam with centrifugal, Euler and Coriolis forces (rotating frame).
 
-    The mass matrix is that of the chain alone, over all its coordinates, root first; `setting` is
+    The mass matrix is the chain's alone, over all its coordinates, root first; `setting` is
     the cosine c of the setting angle.
     """
     nodes = len(chain.nodes)

@@ -53,7 +53,7 @@ class Linearization:
     def of(
         cls, beam: AnyBlade, omega: float, element: str | Formulation, elements: int
     ) -> Linearization:
-        """Return that of a mesh at ω [rad/s], however coarse; refuse what has no equilibrium."""
+        """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium."""
         with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
             tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
@@ -171,8 +171,8 @@ def steady_stretch(
 ) -> float:
     """Tip displacement [m] along the beam in steady rotation without vibration.
 
-    To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67; the whole of it is
-    tan(kL)/k - L with k = ω √(ρ/E), larger by the factor 1 + (2/5)(kL)².
+    To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L, with k
+    = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
 
     Examples
     --------

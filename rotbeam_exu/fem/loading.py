@@ -1,9 +1,9 @@
 """Loads on a chain and its external damping, in either frame, and the power they bring.
 
-As in `analytic.exact.driven.loading` a load is a complex force in the frame of the clamp, its real
-part along the blade and its imaginary one across, times what it acts on: all that has mass, the
-length, or the tip. A ripple of the speed is no force but part of the clamp's rotation. External
-damping is -d ṙ per length with the velocity relative to the clamp,
+As in `analytic.exact.driven.loading` a load is a complex force in the frame of the clamp, with its
+real part along the blade. It acts per mass, per length, or on the tip. A ripple of the speed is no
+force but part of the clamp's rotation. External damping is -d ṙ per length with the velocity
+relative to the clamp,
 
     f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
 

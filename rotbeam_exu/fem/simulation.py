@@ -9,10 +9,11 @@ from functools import partial
 
 import numpy as np
 
-from analytic import AnyBlade, BeamState, SteadyRotation, planar_note
+from analytic import AnyBlade, BeamState, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import warn_if_rpm
 from analytic.exact.beam.state import stretched_state
+from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
 from analytic.motion import SpeedChange
 from analytic.warning import warn

@@ -1,22 +1,53 @@
-"""A beam or a blade from a TOML file."""
+"""A beam or a blade from a TOML file, and a run's motion and numerics where it holds them."""
 
 from __future__ import annotations
 
 import difflib
 import os
 import tomllib
-from dataclasses import fields
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
 from analytic.description import from_description
+from analytic.input_checks import positive, rotation_speed, whole_number
 from analytic.section_shapes import SectionShape
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
-_DAMPING = tuple(field.name for field in fields(Damping))
-_OUT_OF_PLANE = tuple(field.name for field in fields(OutOfPlane))
 _STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
+
+_MOTION: dict[str, Callable[[Any], Any]] = {
+    "omega": rotation_speed,
+    "ramp_time": lambda value: positive("ramp_time", value, "s"),
+}
+_NUMERICS: dict[str, Callable[[Any], Any]] = {
+    "element": lambda value: _text("element", value),
+    "elements": lambda value: whole_number("elements", value),
+    "step": lambda value: positive("step", value, "s"),
+    "duration": lambda value: positive("duration", value, "s"),
+    "frame": lambda value: _text("frame", value),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunFile:
+    """Content of a file about a run.
+
+    Attributes
+    ----------
+    beam : Beam or Blade
+        The paper's beam, where the file has none.
+    motion : dict
+        Of `omega` [rad/s] and `ramp_time` [s] those that the file holds.
+    numerics : dict
+        Of `element`, `elements`, `step` [s], `duration` [s] and `frame` those that it holds.
+    """
+
+    beam: AnyBlade
+    motion: Mapping[str, float] = field(default_factory=dict)
+    numerics: Mapping[str, Any] = field(default_factory=dict)
 
 
 def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
@@ -54,13 +85,54 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     2.9100 rad/s
     """
     source = Path(path)
-    document = read_toml(source)
+    document = _read_toml(source)
     for others in ("motion", "numerics"):  # of a run, which `load_run_file` reads
         document.pop(others, None)
-    return beam_from(document, source)
+    return _beam_from(document, source)
 
 
-def read_toml(source: Path) -> dict[str, Any]:
+def load_run_file(path: str | os.PathLike[str]) -> RunFile:
+    """Read [beam] or [blade], as `load_beam` does, and the tables [motion] and [numerics].
+
+    [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
+    duration [s] and frame. A file with one of these may do without a beam.
+
+    Raises
+    ------
+    ValueError
+        If `load_beam` refuses the file, or a key is unknown or has a value that is refused; the
+        sentence names the file and the key.
+    FileNotFoundError
+        If there is no such file.
+    """
+    source = Path(path)
+    document = _read_toml(source)
+    tables = {
+        name: _checked(document.pop(name), f"[{name}]", source, checks)
+        for name, checks in (("motion", _MOTION), ("numerics", _NUMERICS))
+        if name in document
+    }
+    beam = _beam_from(document, source) if document or not tables else Beam.reference()
+    return RunFile(beam=beam, **tables)
+
+
+def _checked(
+    table: Any, title: str, source: Path, checks: dict[str, Callable[[Any], Any]]
+) -> dict[str, Any]:
+    _require_keys(table, title, source, (), tuple(checks))
+    try:
+        return {name: checks[name](value) for name, value in table.items()}
+    except (OverflowError, TypeError, ValueError) as error:
+        raise ValueError(f"{source}: {title}: {error}") from error
+
+
+def _text(name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be a name in quotes, got {value!r}")
+    return value
+
+
+def _read_toml(source: Path) -> dict[str, Any]:
     """Return the tables of a TOML file, refusing what is none."""
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
@@ -73,7 +145,7 @@ def read_toml(source: Path) -> dict[str, Any]:
         raise ValueError(f"{source} is not valid TOML: {error}") from error
 
 
-def beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
+def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
     """Return the beam of a document, as `load_beam` does; `source` is named in its errors."""
     for name in document:
         if name not in ("beam", "blade"):
@@ -97,50 +169,36 @@ def beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
 def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
     by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
     wanted = _STIFFNESS if by_stiffness else _MATERIAL
-    require_keys(table, "[beam]", source, wanted, () if by_stiffness else ("shape",))
+    _require_keys(table, "[beam]", source, wanted, () if by_stiffness else ("shape",))
     if by_stiffness:
         return Beam.from_stiffness(**table)
     return _shaped(Beam(**{name: table[name] for name in wanted}), table.get("shape"))
 
 
 def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
-    require_keys(
+    _require_keys(
         table, "[blade]", source, ("length", "section"),
         ("hub_radius", "setting_angle", "point_mass", "damping"),
     )  # fmt: skip
-    section, masses = table["section"], table.get("point_mass", [])
-    damping = table.get("damping", {})
-    if not (isinstance(section, dict) and isinstance(masses, list) and isinstance(damping, dict)):
-        raise ValueError(
-            f"{source}: write [blade.section], [blade.damping] and, for each mass, "
-            "[[blade.point_mass]] as tables"
-        )
-    require_keys(
-        section, "[blade.section]", source, _STIFFNESS[1:],
+    _require_keys(
+        table["section"], "[blade.section]", source, _STIFFNESS[1:],
         ("rotary_inertia", "out_of_plane", "shape"),
     )  # fmt: skip
-    beyond, shape = section.get("out_of_plane"), section.get("shape")
-    if beyond is not None:
-        if not isinstance(beyond, dict):
-            raise ValueError(f"{source}: write [blade.section.out_of_plane] as a table")
+    section, parts = dict(table["section"]), dict(table)
+    shape, masses = section.pop("shape", None), parts.pop("point_mass", [])
+    if not isinstance(masses, list):
+        raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
+    if "out_of_plane" in section:
         title = "[blade.section.out_of_plane]"
-        require_keys(beyond, title, source, _OUT_OF_PLANE[:1], _OUT_OF_PLANE[1:])
+        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
         if shape is not None:
             raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
-    require_keys(damping, "[blade.damping]", source, (), _DAMPING)
-    for one in masses:
-        require_keys(one, "[[blade.point_mass]]", source, ("position", "mass"), ("inertia",))
-    profiles = {name: value for name, value in section.items() if name != "shape"}
-    profiles["out_of_plane"] = None if beyond is None else OutOfPlane(**beyond)
-    blade = Blade(
-        **{name: value for name, value in table.items() if name != "point_mass"}
-        | {
-            "section": Section(**profiles),
-            "point_masses": tuple(PointMass(**one) for one in masses),
-            "damping": Damping(**damping),
-        }
+    parts["section"] = Section(**section)
+    parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
+    parts["point_masses"] = tuple(
+        _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )
-    return _shaped(blade, shape)
+    return _shaped(Blade(**parts), shape)
 
 
 def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
@@ -152,14 +210,20 @@ def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
     return beam.with_shape(from_description(shape, SectionShape))
 
 
-def require_keys(
-    table: dict[str, Any],
-    title: str,
-    source: Path,
-    wanted: tuple[str, ...],
-    optional: tuple[str, ...] = (),
+def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:
+    """Return the value whose fields are the keys of a table."""
+    wanted = tuple(one.name for one in fields(cls) if one.default is MISSING)
+    optional = tuple(one.name for one in fields(cls) if one.name not in wanted)
+    _require_keys(table, title, source, wanted, optional)
+    return cls(**table)
+
+
+def _require_keys(
+    table: Any, title: str, source: Path, wanted: tuple[str, ...], optional: tuple[str, ...] = ()
 ) -> None:
-    """Refuse keys that are unknown, with a near one, and such as are missing."""
+    """Refuse what is no table, keys that are unknown, with a near one, and such as are missing."""
+    if not isinstance(table, dict):
+        raise ValueError(f"{source}: write {title} as a table")
     known = (*wanted, *optional)
     for key in table:
         if key not in known:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import hashlib
 import io
 import re
-import signal
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
-from types import FrameType
 from typing import Any
 
-from ..lazily import h5netcdf, h5py, xr
-from .round_trip import attributes, plain
+import numpy as np
+
+from ..lazily import h5netcdf, xr
 
 # HDF5 knows where its data end and ignores what follows, so every reader of netCDF still can. Its
 # own Fletcher-32 covers arrays of numbers only: of 200 bits flipped in attributes it missed 171.
@@ -27,9 +24,10 @@ def encode(data: xr.Dataset) -> bytes:
     Raises
     ------
     ValueError
-        If an attribute is none that netCDF has: a number, text, or a list of either.
+        If an attribute is none that netCDF has: a number, text, or a list of either; or if the file
+        would not give something back as it is.
     """
-    for name, value in attributes(data):
+    for name, value in _attributes(data):
         if not _storable(plain(value)):
             raise ValueError(
                 f"{name} is {value!r}, which netCDF cannot keep: give a number, text, or a list "
@@ -38,38 +36,16 @@ def encode(data: xr.Dataset) -> bytes:
     # In memory first: HDF5 does not survive a disk that fills while it writes.
     buffer = io.BytesIO()
     try:
-        with _interrupts_held(), h5netcdf.File(buffer, "w") as file:
+        with h5netcdf.File(buffer, "w") as file:
             # What another file's encoding said, a fill value for one, is not for this one.
             data.drop_encoding().dump_to_store(xr.backends.H5NetCDFStore(file))
     except Exception as error:  # each layer has exceptions of its own for what it cannot keep
         raise ValueError(str(error)) from error
     content = buffer.getvalue()
+    lost = _lost(data, decode(content)[0])
+    if lost:
+        raise ValueError(lost)
     return content + _SEAL % hashlib.sha256(content).hexdigest().encode()
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Let Ctrl-C and the like wait: h5netcdf, interrupted, leaves a file that cannot be closed."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    held: list[tuple[int, FrameType | None]] = []
-    numbers = [
-        signal.SIGINT,
-        signal.SIGTERM,
-        *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []),
-    ]
-    found = {number: signal.getsignal(number) for number in numbers}
-    former = {number: handler for number, handler in found.items() if callable(handler)}
-    for number in former:
-        signal.signal(number, lambda *arguments: held.append(arguments))
-    try:
-        yield
-    finally:
-        for number, handler in former.items():
-            signal.signal(number, handler)
-    for arguments in held[-1:]:
-        former[signal.Signals(arguments[0])](*arguments)
 
 
 def decode(raw: bytes) -> tuple[xr.Dataset, bool]:
@@ -78,7 +54,7 @@ def decode(raw: bytes) -> tuple[xr.Dataset, bool]:
     Raises
     ------
     ValueError
-        If the seal is broken, the file names others to read, or it is no netCDF.
+        If the seal is broken, or it is no netCDF.
     """
     seal = _SEALED.search(raw[-128:])
     if seal is not None:
@@ -86,8 +62,6 @@ def decode(raw: bytes) -> tuple[xr.Dataset, bool]:
         if hashlib.sha256(raw).hexdigest().encode() != seal[1]:
             raise ValueError("its digest says that it was damaged or changed after it was written")
     try:
-        with h5py.File(io.BytesIO(raw), "r") as file:
-            _refuse_other_files(file)
         # Units such as "seconds" are for people, not for numpy's timedelta64.
         data = xr.load_dataset(
             io.BytesIO(raw), engine="h5netcdf", decode_times=False, decode_timedelta=False
@@ -115,21 +89,56 @@ def _storable(value: object) -> bool:
     return isinstance(value, float)
 
 
-def _refuse_other_files(file: Any) -> None:
-    """Refuse external links and storage, and virtual datasets, which read whatever they name."""
-    waiting, seen = [file["/"]], set()
-    while waiting:
-        group = waiting.pop()
-        for name in group:
-            link = group.get(name, getlink=True)
-            if isinstance(link, h5py.SoftLink):
-                continue  # to a place in this file, which is met by itself
-            item = group[name] if isinstance(link, h5py.HardLink) else None
-            if item is None or (
-                isinstance(item, h5py.Dataset) and (item.external or item.is_virtual)
-            ):
-                raise ValueError(f"{group.name.rstrip('/')}/{name} names another file to read from")
-            address = h5py.h5o.get_info(item.id).addr
-            if isinstance(item, h5py.Group) and address not in seen:
-                seen.add(address)
-                waiting.append(item)
+def plain(value: Any) -> Any:
+    """Return Python's numbers, text and lists of them for NumPy's and xarray's."""
+    if isinstance(value, (np.ndarray, np.generic, xr.DataArray)):
+        return np.asarray(value).tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    return value
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two plain values are equal, NaN to itself."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(same, one, other))
+    return bool(one == other or (one != one and other != other))  # noqa: PLR0124
+
+
+def _attributes(data: xr.Dataset) -> Iterator[tuple[str, Any]]:
+    """Every attribute with its name in words, those of the variables after the Dataset's own."""
+    for name, value in data.attrs.items():
+        yield f"the attribute {name!r}", value
+    for variable, array in data.variables.items():
+        for name, value in array.attrs.items():
+            yield f"the attribute {name!r} of {variable!r}", value
+
+
+def _lost(given: xr.Dataset, kept: xr.Dataset) -> str | None:
+    """Return in words the first thing of `given` that `kept` does not hold, or None.
+
+    Text is text in whatever dtype, and lists, tuples and arrays are the same attribute.
+    """
+    theirs = dict(_attributes(kept))
+    for name, value in _attributes(given):
+        if name not in theirs or not same(plain(value), plain(theirs[name])):
+            return f"{name} would be lost or changed: rename it"
+    for variable, array in given.variables.items():
+        back = kept.variables.get(variable)
+        if back is None or (variable in given.coords) != (variable in kept.coords):
+            return f"{variable!r} would be lost: rename it"
+        if _kind(array) != _kind(back) or not array.equals(back):  # type: ignore[no-untyped-call]
+            return (
+                f"{variable!r}, of type {array.dtype}, would come back different: "
+                "give numbers, truth values or text, and no attributes that encode them"
+            )
+    return None
+
+
+def _kind(array: xr.Variable) -> str:
+    """Return NumPy's letter of the type, "U" for all text."""
+    kind = array.dtype.kind
+    text = kind in "OT" and all(isinstance(value, str) for value in array.to_numpy().flat)
+    return "U" if text else kind

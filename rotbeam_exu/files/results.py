@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 import os
 import secrets
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from analytic.warning import warn
 
 from ..lazily import xr
-from . import netcdf, table
-from .round_trip import difference, plain, same
+from . import netcdf
+from .netcdf import plain, same
 
 OUTCOMES = frozenset(
-    {"divergence_speed", "error", "failure", "residual", "settings", "solution", "verdict"}
-    | {"versions", "wall_time"}
+    {"divergence_speed", "error", "failure", "limit", "limit_converged", "residual", "sentence"}
+    | {"settings", "solution", "tongues", "verdict", "versions", "wall_time"}
 )
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 
@@ -53,22 +57,42 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     if target.suffix not in (".nc", ".csv"):
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
-    content = table.encode(run) if target.suffix == ".csv" else _restorable(run, target.name)
+    try:
+        content = _table(run) if target.suffix == ".csv" else netcdf.encode(run)
+    except (LookupError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot write {target.name!r}: {error}") from error
     with whole_file(target) as partial:
         partial.write_bytes(content)
     return target
 
 
-def _restorable(run: xr.Dataset, name: str) -> bytes:
-    """Return the netCDF file that gives a result back; refuse what none does."""
-    try:
-        content = netcdf.encode(run)
-        lost = difference(run, netcdf.decode(content)[0])
-    except (LookupError, TypeError, ValueError) as error:
-        raise ValueError(f"cannot write {name!r}: {error}") from error
-    if lost:
-        raise ValueError(f"cannot write {name!r}: {lost}")
-    return content
+def _table(data: xr.Dataset) -> bytes:
+    """Return a CSV table with every digit, one row per point of the grid in C order of the sizes.
+
+    What does not depend on a dimension repeats. Attributes are JSON in lines above.
+    """
+    out = io.StringIO()
+    for name, value in data.attrs.items():
+        entry = f"{name} = {json.dumps(plain(value), ensure_ascii=False, default=str)}"
+        out.writelines(f"# {line}\n" for line in entry.splitlines())
+    columns = [data[name] for name in dict.fromkeys([*data.sizes, *data.variables])]
+    csv.writer(out, lineterminator="\n").writerow(map(_title, columns))
+    # Text in quotes, for those who skip whatever follows a "#".
+    rows = csv.writer(out, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
+    rows.writerows(zip(*(_spread(column.variable, data) for column in columns), strict=True))
+    return out.getvalue().encode()
+
+
+def _title(array: xr.DataArray) -> str:
+    units = array.attrs.get("units", "")
+    return str(array.name) if units in ("", "1") else f"{array.name} [{units}]"
+
+
+def _spread(variable: xr.Variable, data: xr.Dataset) -> list[Any]:
+    """Return the values at every point of the whole grid: numbers, truth values, or text."""
+    whole: xr.Variable = variable.set_dims(dict(data.sizes))  # type: ignore[no-untyped-call]
+    values = whole.transpose(*data.sizes).to_numpy().ravel()
+    return list((values if values.dtype.kind in "fiub" else values.astype(str)).tolist())
 
 
 def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
@@ -93,8 +117,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     Raises
     ------
     ValueError
-        If the file is a table, cannot be read, was damaged or changed since it was written, or
-        names other files to read from.
+        If the file is a table, cannot be read, or was damaged or changed since it was written.
     FileNotFoundError
         If there is none.
 

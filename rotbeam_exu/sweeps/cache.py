@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
+import inspect
 import json
 import os
+import sys
 from collections.abc import Mapping
+from modulefinder import ModuleFinder
+from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 from analytic.warning import warn
 
-from ..files.results import read, save, whole_file, writable_folder
-from ..files.round_trip import plain
+from ..fem.elements import Formulation, formulation
+from ..files.results import read, save, writable_folder
 from ..lazily import xr
 from ..runs.versions import versions
 
-_FORMAT = 2
-_MARK = "rotbeam-cache.json"
+_OURS = ("analytic", "rotbeam_exu")
 
 
 class Cache:
@@ -31,8 +36,6 @@ class Cache:
 
     Raises
     ------
-    ValueError
-        If the folder was written by an incompatible version of this package.
     OSError
         If it cannot be written.
     """
@@ -43,20 +46,6 @@ class Cache:
         self._folder = writable_folder(folder)
         made_with = {k: v for k, v in versions().items() if k != "python"}
         self._made = {**made_with, **(made_by or {})}
-        mark = self._folder / _MARK
-        if mark.exists():
-            try:
-                found = json.loads(mark.read_text(encoding="utf-8"))["format"]
-            except (ValueError, KeyError, TypeError):
-                found = "unknown"
-            if found != _FORMAT:
-                raise ValueError(
-                    f"the cache folder {self._folder} has format {found}, this version writes "
-                    f"{_FORMAT}; choose another folder or remove that one"
-                )
-        else:
-            with whole_file(mark) as partial:
-                partial.write_text(json.dumps({"format": _FORMAT}), encoding="utf-8")
 
     def get(self, description: dict[str, Any]) -> xr.Dataset | None:
         """Return the result kept for a description, or None.
@@ -69,10 +58,9 @@ class Cache:
             return None
         try:
             result, sealed = read(path)
-            case, content = (result.attrs.pop(key, None) for key in ("case", "content"))
-            if case != name:
+            if result.attrs.pop("case", None) != name:
                 raise ValueError(f"{path} does not hold the case it is named after")
-            if not sealed or content != _digest(result):
+            if not sealed:
                 raise ValueError(f"{path} was changed after it was written")
         except ValueError as error:
             aside = path.with_suffix(".damaged")
@@ -86,7 +74,7 @@ class Cache:
         name = self._name(description)
         path = self._folder / f"{name}.nc"
         try:
-            save(result.assign_attrs(case=name, content=_digest(result)), path)
+            save(result.assign_attrs(case=name), path)
         except OSError as error:
             raise OSError(
                 f"cannot keep a finished case in {self._folder}: {error.strerror or error}; "
@@ -98,12 +86,63 @@ class Cache:
         return hashlib.sha256(content.encode()).hexdigest()[:32]
 
 
-def _digest(result: xr.Dataset) -> str:
-    """Digest of the content, apart from the file that holds it."""
-    digest = hashlib.sha256(json.dumps(plain(result.attrs), sort_keys=True).encode())
-    for name in sorted(map(str, result.variables)):
-        variable = result[name].variable
-        head = [name, variable.dims, variable.shape, variable.dtype.str, plain(variable.attrs)]
-        digest.update(json.dumps(head, sort_keys=True).encode())
-        digest.update(variable.to_numpy().tobytes())
-    return digest.hexdigest()
+def maker(element: str | Formulation) -> dict[str, str] | None:
+    """Return what besides its inputs makes the result of a case: the element's class and the code.
+
+    None if the files do not tell what the class does; see `code_of`.
+    """
+    cls = type(formulation(element))
+    code = code_of(cls)
+    return None if code is None else {"class": f"{cls.__module__}.{cls.__qualname__}", "code": code}
+
+
+def code_of(cls: type) -> str | None:
+    """Return a digest of both packages' files, and of those of a class and its bases.
+
+    The files of a class are those of its package; or its module, and what that imports from the
+    same folder. Any change of a file counts, that of a docstring too.
+
+    Returns
+    -------
+    str or None
+        None if the files do not tell what the class does: it is not on file, as in an interactive
+        session; made inside of a function, whose values it may use; or patched.
+    """
+    names = {base: base.__module__.partition(".")[0] for base in cls.__mro__}
+    bases = [base for base, name in names.items() if name not in sys.stdlib_module_names]
+    if not all(map(_told_by_its_files, bases)):
+        return None
+    files: dict[str, bytes] = {}
+    for name in {*_OURS, *(names[base] for base in bases)}:
+        files |= _files(name)
+    return hashlib.sha256(repr(sorted(files.items())).encode()).hexdigest()
+
+
+def _told_by_its_files(cls: type) -> bool:
+    if "<locals>" in cls.__qualname__:
+        return False
+    try:
+        inspect.getsource(cls)
+    except (OSError, TypeError):
+        return False
+    # A method from elsewhere was put there later; dataclass() makes some from a "<string>".
+    here = {inspect.getsourcefile(cls), dataclasses.__file__, "<string>"}
+    methods = [value for value in vars(cls).values() if isinstance(value, FunctionType)]
+    return all(method.__code__.co_filename in here for method in methods)
+
+
+def _files(name: str) -> dict[str, bytes]:
+    """Return the files of a package; or a module, and what it imports from its folder."""
+    module = sys.modules[name]
+    if hasattr(module, "__path__"):
+        folders = [Path(folder) for folder in module.__path__]
+        files = [file for folder in folders for file in folder.rglob("*.py")]
+        above = len(folders[0].parts) - 1
+    else:
+        own = Path(str(module.__file__))
+        finder = ModuleFinder([str(own.parent)], excludes=_OURS)
+        finder.run_script(str(own))
+        found = [vars(part)["__file__"] for part in finder.modules.values()]
+        files = [Path(file) for file in found if file]
+        above = len(own.parts) - 1
+    return {"/".join(file.parts[above:]): file.read_bytes() for file in files}

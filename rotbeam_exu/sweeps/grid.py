@@ -21,9 +21,8 @@ from ..fem.elements import Formulation, formulation
 from ..fem.frame import Frame
 from ..lazily import xr
 from ..runs.check import SimulationError
-from .cache import Cache
-from .collected import collect
-from .measured import maker, solve
+from .cache import Cache, maker
+from .measured import collect, solve
 from .workers import worker_pool
 
 OnError = Literal["raise", "record"]
@@ -137,8 +136,8 @@ def sweep(
     return collect(cases, results, history)
 
 
-def failures(result: xr.Dataset) -> dict[str, int]:
-    """Group the failed cases of a sweep by cause: the sentence up to its first number.
+def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
+    """Return (omega, ramp_time) [rad/s, s] of the failed cases of a sweep, by their sentence.
 
     Examples
     --------
@@ -149,18 +148,8 @@ def failures(result: xr.Dataset) -> dict[str, int]:
     >>> data = sweep(Beam.reference(), omegas=[2.0], ramp_times=[3.0], on_error="record", **coarse)
     >>> for sentence, cases in failures(data).items():
     ...     print(cases, sentence.split(" over ")[0])
-    1 the drift of the steady Jacobi energy E - ω L_z
+    [(2.0, 3.0)] the drift of the steady Jacobi energy E - ω L_z
     """
-    causes = Counter(
-        "".join(c if not c.isdigit() else "#" for c in sentence).split("#")[0].strip()
-        for sentence in result["failure"].to_numpy().ravel()
-        if sentence
-    )
-    return dict(causes.most_common())
-
-
-def failed_cases(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
-    """Return (omega, ramp_time) of the failed cases of a sweep, by their whole sentence."""
     found: dict[str, list[tuple[float, float]]] = {}
     omegas, times = (result[name].to_numpy().tolist() for name in ("omega", "ramp_time"))
     for (i, j), sentence in np.ndenumerate(result["failure"].to_numpy()):

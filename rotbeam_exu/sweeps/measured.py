@@ -1,20 +1,25 @@
-"""What a sweep knows of one case: the measured numbers, or why there are none."""
+"""Measured numbers of a case, or why there are none, and the table of them of a sweep."""
 
 from __future__ import annotations
 
+import json
 import math
 from functools import lru_cache
+from typing import Any
+
+import numpy as np
 
 from analytic import AnyBlade
 
+from ..datasets import OMEGA, dataset
 from ..fem.case import Case
-from ..fem.elements import Formulation, formulation
+from ..fem.elements import Formulation
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..lazily import xr
 from ..runs.check import SimulationError
 from ..runs.oscillation import NoOscillationError, steady_oscillation
-from .provenance import code_of
+from ..runs.versions import versions
 
 MEASURED = {
     "amplitude": ("1", "amplitude a = q/L, half peak to peak"),
@@ -27,16 +32,6 @@ MEASURED = {
     "omega_n": ("rad/s", "natural frequency ω_n of the mesh"),
 }
 """What is measured of a case: unit and long name."""
-
-
-def maker(element: str | Formulation) -> dict[str, str] | None:
-    """Return what besides its inputs makes the result of a case: the element's class and the code.
-
-    None if the files do not tell what the class does; see `provenance.code_of`.
-    """
-    cls = type(formulation(element))
-    code = code_of(cls)
-    return None if code is None else {"class": f"{cls.__module__}.{cls.__qualname__}", "code": code}
 
 
 def solve(case: Case) -> xr.Dataset:
@@ -80,3 +75,65 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 @lru_cache(maxsize=64)
 def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
     return float(Linearization.of(beam, omega, element, elements).frequencies(1)[0])
+
+
+def collect(
+    cases: dict[tuple[float, float], Case],
+    results: dict[tuple[float, float], xr.Dataset],
+    history: bool,
+) -> xr.Dataset:
+    """Return the table of a sweep, as `sweep` describes it, with what is known so far."""
+    omegas = list(dict.fromkeys(omega for omega, _ in cases))
+    ramp_times = list(dict.fromkeys(ramp_time for _, ramp_time in cases))
+    shape = (len(omegas), len(ramp_times))
+    dims = ("omega", "ramp_time")
+    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in MEASURED}
+    verdict = np.full(shape, "pending", dtype=object)
+    failure = np.full(shape, "", dtype=object)
+    for i, j in np.ndindex(shape):
+        result = results.get((omegas[i], ramp_times[j]))
+        if result is None:
+            continue
+        verdict[i, j], failure[i, j] = result.attrs["verdict"], result.attrs["failure"]
+        if not result.attrs["failure"]:
+            for name, column in columns.items():
+                column[i, j] = result.attrs[name]
+    first = next(iter(cases.values())).describe()
+    labels = {name: f"{long_name} [{unit}]" for name, (unit, long_name) in MEASURED.items()}
+    data = dataset(
+        {
+            **{name: (dims, column, labels[name]) for name, column in columns.items()},
+            "verdict": (dims, verdict.astype(str), "verdict"),
+            "failure": (dims, failure.astype(str), "why a case failed"),
+        },
+        {"omega": (omegas, OMEGA), "ramp_time": (ramp_times, "ramp time T [s]")},
+        {
+            **{k: v for k, v in first.items() if k not in dims},
+            "versions": json.dumps(versions()),
+        },
+    )
+    if history:
+        data = data.merge(_histories(omegas, ramp_times, results))
+    return data
+
+
+def _histories(
+    omegas: list[float],
+    ramp_times: list[float],
+    results: dict[tuple[float, float], xr.Dataset],
+) -> xr.Dataset:
+    """Return q over (omega, ramp_time, time), NaN where a case has none."""
+    known = {point: result["q"] for point, result in results.items() if "q" in result}
+    if not known:
+        return xr.Dataset()
+    # Samples of different cases need not coincide.
+    times = np.unique(np.concatenate([q["time"].to_numpy() for q in known.values()]))
+    values = np.full((len(omegas), len(ramp_times), times.size), np.nan)
+    for (omega, ramp_time), q in known.items():
+        at = np.searchsorted(times, q["time"].to_numpy())
+        values[omegas.index(omega), ramp_times.index(ramp_time), at] = q.to_numpy()
+    some = next(iter(known.values()))
+    return xr.Dataset(
+        {"q": (("omega", "ramp_time", "time"), values, some.attrs)},
+        coords={"time": ("time", times, some["time"].attrs)},
+    )

@@ -10,10 +10,10 @@ from typing import Any
 
 from analytic import (
     AnyBlade,
-    Backbone,
     Beam,
     Damping,
     Gravity,
+    Orbits,
     SpinUp,
     SteadyRotation,
     periodic_orbits,
@@ -105,7 +105,7 @@ class Case:
         return float(stated(self.rotation).get("ramp_time", 0.0))
 
     @cached_property
-    def orbit(self) -> Backbone:
+    def orbit(self) -> Orbits:
         """Exact orbit that its history starts on, at phase 0; ValueError if it starts at rest."""
         if self.motion is None or not self.amplitudes:
             raise ValueError(f"case {self.name} starts at rest, on no orbit")

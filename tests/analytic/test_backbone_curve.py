@@ -1,20 +1,20 @@
 """The exact backbone as a series: against orbits it was not made from, and where it must end."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from analytic import (
     AmplitudeNotReachedError,
     Theory,
+    backbone,
     backbone_curve,
     periodic_orbits,
     reduced_model,
 )
-from analytic.exact.free.branch import branch_of
 from analytic.exact.free.curve import care_for, fitted_curve
-from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
-from analytic.theory import BERNOULLI_EULER
 
 SPEEDS = (0.0, 4.0, 6.0, 8.0)
 ALL = "ignore:internal resonance:analytic.input_checks.RotbeamWarning"
@@ -129,6 +129,6 @@ def test_amplitudes_beyond_it_are_refused(curves):
 
 
 def test_so_few_coefficients_that_no_range_is_left(beam):
-    branch = branch_of(beam, 8.0, 1, resolved_model(beam, 1, BERNOULLI_EULER, 16), care_for(1e-9))
+    of = replace(backbone(beam, 8.0), care=care_for(1e-9))
     with pytest.raises(AmplitudeNotReachedError, match="ask for more of them"):
-        fitted_curve(branch, 0.6, 5, 1e-14)
+        fitted_curve(of, 0.6, 5, 1e-14)

@@ -5,12 +5,9 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import Beam, Damping, Theory, backbone_branch, periodic_orbits
-from analytic.exact.free.branch import branch_of
+from analytic import Beam, Damping, Theory, backbone, periodic_orbits
 from analytic.exact.free.internal_resonance import frequency_ratios
-from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
-from analytic.theory import BERNOULLI_EULER
 
 
 def orbits(beam, omega, amplitudes, *, functions=8, **options):
@@ -52,11 +49,11 @@ def test_across_a_resonance_its_harmonic_turns_around(around_a_tongue):
 
 
 def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
-    branch = branch_of(beam, 2.0, 1, resolved_model(beam, 1, BERNOULLI_EULER, 16))
-    small = [branch.path.at(a) for a in (0.05, 0.1, 0.15)]
-    modes, ratios = frequency_ratios(small, branch.modes, 1)
+    of = backbone(beam, 2.0)
+    small = [of.path.at(a) for a in (0.05, 0.1, 0.15)]
+    modes, ratios = frequency_ratios(small, of.modes, 1)
     assert modes == [2, 3, 4, 5]
-    linear = branch.modes[1:5] / branch.modes[0]
+    linear = of.modes[1:5] / of.modes[0]
     changes = (ratios - linear) / np.array([[0.05], [0.1], [0.15]]) ** 2
     # The next term is of the fourth power, and multipliers of fast modes are right to 1e-4.
     assert changes[0] == pytest.approx(changes[1], rel=0.05)
@@ -66,9 +63,8 @@ def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
 @pytest.fixture(scope="module")
 def branch():
     # The fold of twelve functions is this one to 1e-7.
-    return backbone_branch(
-        Beam.reference(), 2.0, up_to=0.68, theory=Theory(extension=False), functions=6
-    )
+    of = backbone(Beam.reference(), 2.0, theory=Theory(extension=False), functions=6)
+    return of.branch(up_to=0.68)
 
 
 def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
@@ -83,22 +79,15 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert tongue.max() > tongue[0]
     assert tongue[-1] < tongue.max() - 0.02
     assert "6:2 at 0.64" in str(branch)
-    # Narrow resonances that the tongue crosses are no branch points.
-    for i, place in enumerate(branch.branch_points):
-        amplitude, _ = branch.switched(i)
-        assert np.abs(amplitude - place.amplitude).min() < 0.05
-    with pytest.raises(IndexError, match="branch point 99 is none of"):
-        branch.switched(99)
     state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
     assert np.isfinite(state.v).all()
 
 
 def test_a_branch_without_a_felt_resonance_is_the_backbone(beam):
-    branch = backbone_branch(beam, 6.0, up_to=0.3)
+    branch = backbone(beam, 6.0).branch(up_to=0.3)
     assert not branch.folds
     assert np.all(branch.piece == 0)
     assert branch.stable.all()
-    assert branch.stability_changes.size == 0
     same = orbits(beam, 6.0, branch.amplitude, functions=16)
     assert branch.frequency == pytest.approx(same.frequency, rel=1e-11)
 
@@ -120,7 +109,7 @@ def test_branches_of_the_papers_beam_by_two_resolutions(
     beam, omega, up_to, resonances, folds, functions
 ):
     """As in the table of docs/theory/harmonic_balance.md."""
-    found = backbone_branch(beam, omega, up_to=0.9, functions=functions)
+    found = backbone(beam, omega, functions=functions).branch(up_to=0.9)
     met = {
         (r.harmonic, r.mode): r.amplitude
         for r in found.resonances
@@ -135,8 +124,8 @@ def test_branches_of_the_papers_beam_by_two_resolutions(
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda beam: backbone_branch(beam, 6.0, up_to=1.0), "up_to must be below 1"),
-        (lambda beam: backbone_branch(beam.with_damping(Damping(axial=0.1)), 6.0),
+        (lambda beam: backbone(beam, 6.0).branch(up_to=1.0), "up_to must be below 1"),
+        (lambda beam: backbone(beam.with_damping(Damping(axial=0.1)), 6.0),
          "no free periodic orbits"),
     ],
 )  # fmt: skip

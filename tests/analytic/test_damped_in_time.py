@@ -10,7 +10,7 @@ from analytic import (
     SpinUp,
     TipForce,
     damping_ratios,
-    gravity_response,
+    forced_response,
     linear_modes,
     spin_up_response,
 )
@@ -45,7 +45,7 @@ def test_in_time_the_beam_settles_on_its_response_to_gravity():
     """From rest through a spin-up, by an integrator that knows no Fourier series."""
     omega, gravity = 2.0 * SCALE, 1.791 * FORCE / BEAM.mass_per_length
     blade = by_mass(1.5)
-    settled = gravity_response(blade, [0.9 * omega, omega, 1.1 * omega], gravity)
+    settled = forced_response(blade, [0.9 * omega, omega, 1.1 * omega], Gravity(gravity))
     spin_up = SpinUp(omega=omega, ramp_time=6.0)
     # The transient falls by exp(-½ 1.5 SCALE t), to 1e-7 by then.
     period = 2.0 * np.pi / omega

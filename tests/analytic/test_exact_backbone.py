@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
+import analytic
 from analytic import (
     AmplitudeNotReachedError,
     Beam,
@@ -15,14 +16,11 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.free.branch import branch_of
-from analytic.exact.linear.modes import resolved_model
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
-from analytic.theory import BERNOULLI_EULER
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -136,7 +134,7 @@ def test_near_a_resonance_no_orbit_depends_on_the_functions():
                 blade, 8.0, [0.35, 0.4], theory=Theory(extension=False), functions=functions
             )
         except AmplitudeNotReachedError as beyond:
-            orbits = beyond.backbone
+            orbits = beyond.orbits
         assert orbits.frequency_error.max() < 1e-9
         found.append(orbits.frequency)
     assert found[0] == pytest.approx(found[1], rel=2e-9)
@@ -287,13 +285,13 @@ def test_amplitudes_in_any_order(beam):
 
 
 def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=30))
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
         periodic_orbits(beam, 4.0, [0.2], mode=3, theory=Theory(extension=False))
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
-    for module in ("methods.continuation", "exact.free.branch"):
+    for module in ("methods.continuation", "exact.free.path"):
         monkeypatch.setattr(f"analytic.{module}.MOST_FUNCTIONS", 7)
     with pytest.raises(RuntimeError, match="functions meet the equations of motion to .* only"):
         periodic_orbits(beam, 8.0, [0.5], functions=5)
@@ -325,8 +323,7 @@ def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch)
     monkeypatch.setattr(
         harmonic_balance, "jacobian", lambda orbit: factored.append(orbit) or at(orbit)
     )
-    model = resolved_model(beam, 1, BERNOULLI_EULER, 16)
-    path = branch_of(beam, 6.0, 1, model).path
+    path = analytic.backbone(beam, 6.0).path
     near, far = path.laid(0.2), path.laid(0.25)
     tangent = LastTangent()
     harmonic_balance.solve(near.scaled(0.2).with_harmonics(far.harmonics), 0.2, tangent)
@@ -339,8 +336,7 @@ def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch)
 
 
 def test_a_tangent_that_leads_astray_is_made_anew(beam):
-    model = resolved_model(beam, 1, BERNOULLI_EULER, 16)
-    orbit = branch_of(beam, 6.0, 1, model).path.laid(0.2)
+    orbit = analytic.backbone(beam, 6.0).path.laid(0.2)
     tangent = LastTangent()
     tangent.factor(orbit)
     lower, pivots = tangent.factors

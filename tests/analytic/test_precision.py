@@ -24,17 +24,15 @@ from analytic import (
     Theory,
     TipForce,
     Tube,
-    backbone_branch,
+    backbone,
     backbone_curve,
     campbell,
     damping_ratios,
     forced_response,
-    gravity_response,
     linear_modes,
     linear_response,
     paper_table,
     periodic_orbits,
-    planar_note,
     planar_stability,
     quiet_ramp_times,
     reduced_model,
@@ -43,6 +41,7 @@ from analytic import (
     stability_limit,
     unstretched_frequencies,
 )  # fmt: skip
+from analytic.exact.plane.planarity import planar_note
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
@@ -63,16 +62,16 @@ ANSWERS = {
     "backbone_curve": lambda n: backbone_curve(BEAM, n(6), n(0.25), tolerance=n(2**-14)).frequency(
         n(0.125)
     ),
-    "backbone_branch": lambda n: backbone_branch(
-        BEAM, n(6), n(0.125), theory=Theory(extension=False), functions=8
-    ).frequency,
+    "branch": lambda n: (
+        backbone(BEAM, n(6), theory=Theory(extension=False), functions=8).branch(n(0.125)).frequency
+    ),
     "reduced_model": lambda n: reduced_model(BEAM, n(6), "FrM").frequency(n(0.125)),
     "its exact frequency": lambda n: reduced_model(BEAM, n(6), "FrE").exact_frequency(n(0.125)),
     "forced_response": lambda n: forced_response(
         DAMPED, n(6), TipForce(amplitude=n(0.5)), [n(3.5), n(3.625)], functions=8
     ).amplitude,
-    "gravity_response": lambda n: gravity_response(
-        DAMPED, [n(6), n(6.25)], n(9.75), functions=8
+    "weight": lambda n: forced_response(
+        DAMPED, [n(6), n(6.25)], Gravity(n(9.75)), functions=8
     ).amplitude,
     "spin_up_response": lambda n: spin_up_response(
         BEAM, SpinUp(omega=n(2), ramp_time=n(3)), [n(1), n(2)], tolerance=n(2**-10)

@@ -134,7 +134,7 @@ def test_an_orbit_returns_and_keeps_its_integral(rotary_inertia):
         STUBBY, 3.0, [0.3], theory=Theory(rotary_inertia=rotary_inertia, shear=SHARE)
     )
     assert orbits.jacobi_drift[0] < 1e-10
-    orbit = orbits._orbits[0]
+    orbit = orbits.nondimensional[0]
     system, method, steps = orbit.system, radau(8), 40
     h = 2.0 * np.pi / orbit.frequency / steps
     start = [part[0] for part in orbit.coordinates(np.zeros(1))]

@@ -18,13 +18,11 @@ from analytic import (
     Tube,
     campbell,
     linear_modes,
-    periodic_orbits,
-    planar_note,
     planar_stability,
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.plane.orbit_growth import growth_rates
+from analytic.exact.plane.planarity import growth_rates, planar_note
 from analytic.methods.continuation import Care
 
 ROOT = Path(__file__).parents[2]
@@ -181,12 +179,11 @@ def test_the_limit_lies_between_the_amplitudes_that_tell(beam):
 
 def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
     blade = beam.with_section_out_of_plane(0.01, math.inf)
-    beyond, below = (periodic_orbits(blade, 2.0, a) for a in (0.45, 0.3))
-    assert "planar orbit of a = 0.4 leaves it by" in beyond.out_of_plane
-    assert "this one has a = 0.45" in beyond.out_of_plane
-    assert "plane" not in str(beyond), "printing computes nothing"
-    assert below.out_of_plane == ""
-    assert periodic_orbits(beam, 2.0, 0.45).out_of_plane == "", "nothing is known of this section"
+    beyond = planar_note(blade, 2.0, 0.45)
+    assert "planar orbit of a = 0.4 leaves it by" in beyond
+    assert "this one has a = 0.45" in beyond
+    assert planar_note(blade, 2.0, 0.3) == ""
+    assert planar_note(beam, 2.0, 0.45) == "", "nothing is known of this section"
     times = np.linspace(1.9, 6.0, 200)
     found = spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.9), times, tolerance=1e-3)
     assert np.ptp(found.q) > 2.0 * 0.3912 * beam.length
@@ -308,7 +305,7 @@ def test_what_is_refused(ask, sentence):
 
 
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=30))
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode=3)
 

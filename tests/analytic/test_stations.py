@@ -11,13 +11,13 @@ from scipy.optimize import brentq
 from analytic import (
     Blade,
     Damping,
+    Gravity,
     Section,
     SpinUp,
     Theory,
     TipForce,
     damping_ratios,
     forced_response,
-    gravity_response,
     linear_modes,
     periodic_orbits,
     reduced_model,
@@ -63,7 +63,7 @@ def answers(blade):
     yield "λ", 1.0 + orbits.lambda_omega
     yield "inextensible", periodic_orbits(blade, w, [0.2], theory=Theory(extension=False)).frequency
     yield "forced", forced_response(damped, w, TipForce(amplitude=0.05), [2.0, 2.5]).amplitude[0]
-    yield "gravity", gravity_response(damped, [0.5 * w, 0.6 * w], 0.1).amplitude[0]
+    yield "gravity", forced_response(damped, [0.5 * w, 0.6 * w], Gravity(0.1)).amplitude[0]
     yield "spin-up", spin_up_response(blade, motion, time, tolerance=1e-6).q[-1]
     yield "left", residual_amplitude(blade, motion, [1.5, 2.5])
 
@@ -169,7 +169,7 @@ def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):
 def test_a_real_blade_answers_to_every_kind_of_question(nrel):
     """Respond asked for more damping in vain; an orbit took a minute."""
     damped = nrel.with_damping(Damping(external=5.0))
-    sag = gravity_response(damped, [0.6, 1.0, 1.6])
+    sag = forced_response(damped, [0.6, 1.0, 1.6], Gravity())
     # Slow against 6.9 rad/s: nearly the static deflection, and stiffened the more by rotation.
     assert 0.005 < sag.amplitude[0] < 0.008
     assert forced_response(damped, 1.267, TipForce(amplitude=1000.0), [6.0, 8.0]).peaks

@@ -16,11 +16,11 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 
 def test_orbits_found_are_attached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     asked = [0.2, 0.6, 0.1]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
-    kept = caught.value.backbone
+    kept = caught.value.orbits
     whole = periodic_orbits(beam, 6.0, [0.2, 0.1])
     assert kept.amplitude.tolist() == [0.2, 0.1]
     np.testing.assert_array_equal(kept.frequency, whole.frequency)
@@ -28,16 +28,16 @@ def test_orbits_found_are_attached(beam, monkeypatch):
 
 
 def test_no_orbit_no_backbone(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.branch.THOROUGH", Care(harmonics=12))
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])
-    assert caught.value.backbone is None
+    assert caught.value.orbits is None
 
 
 def test_an_orbit_lost_in_round_off_does_not_cost_the_larger(beam):
     with pytest.raises(AmplitudeNotReachedError, match="take linear_modes") as caught:
         periodic_orbits(beam, 6.0, [1e-14, 0.1])
-    assert caught.value.backbone.amplitude.tolist() == [0.1]
+    assert caught.value.orbits.amplitude.tolist() == [0.1]
 
 
 def test_tiny_orbits_above_round_off_are_the_linear_mode(beam):

@@ -12,13 +12,13 @@ import pytest
 from analytic import (
     Blade,
     Damping,
+    Gravity,
     Rectangle,
     Section,
     SpinUp,
     TipForce,
     campbell,
     forced_response,
-    gravity_response,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -71,7 +71,7 @@ ON_A_REAL_BLADE = {
     "spin-up": lambda blade: spin_up_response(
         blade, SpinUp(omega=1.267, ramp_time=5.0), [10.0], tolerance=1e-6
     ),
-    "gravity": lambda blade: gravity_response(blade.with_damping(DAMPING), [0.6, 0.8]),
+    "gravity": lambda blade: forced_response(blade.with_damping(DAMPING), [0.6, 0.8], Gravity()),
     "tip force": lambda blade: forced_response(
         blade.with_damping(DAMPING), 1.267, TipForce(amplitude=1000.0), [6.0, 7.0]
     ),

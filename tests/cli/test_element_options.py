@@ -8,7 +8,7 @@ from rotbeam_exu import load
 from rotbeam_exu.cli import main
 
 SHORT = ("run", "--omega", "2", "--ramp-time", "1", "--elements", "2", "--duration", "8",
-         "--step", "0.01")  # fmt: skip
+         "--step", "0.01", "--no-figure")  # fmt: skip
 
 
 def test_options_reach_the_element_and_the_file(tmp_path, capsys):

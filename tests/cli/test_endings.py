@@ -77,23 +77,6 @@ def test_what_nohup_ignores_stays_ignored():
         signal.signal(signal.SIGHUP, before)
 
 
-def test_a_file_is_encoded_to_its_end(tmp_path):
-    """h5netcdf, stopped in the middle, leaves a file that cannot be closed."""
-    data = xr.Dataset({"q": ("time", [0.0, 1.0])}, {"time": [0.0, 1.0]})
-    write = xr.Dataset.dump_to_store
-
-    def stopped(self, store):
-        signal.raise_signal(signal.SIGTERM)
-        return write(self, store)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(xr.Dataset, "dump_to_store", stopped)
-        with endings.stopped_as_by_ctrl_c() as met, pytest.raises(KeyboardInterrupt):
-            save(data, tmp_path / "run.nc")
-    assert met == [signal.SIGTERM]
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.parametrize("picture", [0, 2])
 def test_ctrl_c_while_a_film_is_drawn(call, tmp_path, monkeypatch, picture):
     """In the first picture matplotlib's writer had nothing to finish, and said so instead."""

@@ -44,7 +44,7 @@ def test_without_a_terminal_each_finished_case_is_a_line_on_standard_error(swept
 
 def test_equal_sentences_are_printed_once_with_all_their_places(call, tmp_path, monkeypatch):
     sentences = {"the step is too large": [(2.0, 2.5), (6.0, 2.5)]}
-    monkeypatch.setattr(grid, "failed_cases", lambda _: sentences)
+    monkeypatch.setattr(grid, "failures", lambda _: sentences)
     code, out, _ = call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
     assert code == 1
     assert "failed at ω = 2 rad/s, T = 2.5 s; ω = 6 rad/s, T = 2.5 s: the step is too large" in out

@@ -72,12 +72,6 @@ def test_a_mistake_is_named_ahead_of_the_verdict(call, write, tmp_path):
     assert "converges to another limit" in out
 
 
-def test_one_case_alone(call, folder):
-    code, out, _ = call("judge", folder, "--case", "L")
-    assert code == 0
-    assert "S1" not in out
-
-
 def test_all_faults_and_nothing_else(call, folder):
     (folder / "S1" / "m016_h1e-3.csv").unlink()
     (folder / "L.csv").write_text("elements;speed;frequency\n8;0;2.9\n", "utf-8")
@@ -94,7 +88,6 @@ def test_all_faults_and_nothing_else(call, folder):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("--case", "S9"), "unknown case 'S9'; known are L, S1"),
         (("--report", "a.pdf"), "the ending must be .html"),
         (("--json", "a.txt"), "the ending must be .json"),
         (("--run",), "there is no option --run"),

@@ -56,7 +56,7 @@ def test_a_run_ends_well_in_any_locale(tmp_path, locale):
     "command",
     [
         ("backbone", "--omega", "6"),
-        ("compare-modes", "--points", "2", "--count", "1", "--orders", "1"),
+        ("campbell", "--points", "2", "--count", "1", "--orders", "1"),
         ("table", "5"),
         ("doctor",),
         ("run", "--help"),
@@ -85,7 +85,7 @@ def test_paths_in_errors_are_no_markup(call, tmp_path, name):
 
 def test_paths_in_results_are_no_markup(call, tmp_path):
     out = tmp_path / "a [red] [bold] :smile:"
-    short = ("--elements", "1", "--step", "0.01", "--duration", "8")
+    short = ("--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure")
     code, printed, _ = call("run", *short, "--out", out)
     assert code == 0
     assert f"{out}/cable-1-omega-6-ramp-3.nc" in printed

@@ -6,7 +6,7 @@ import pytest
 
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.cli import backbone as job
-from rotbeam_exu.cli.messages import Messages
+from rotbeam_exu.cli.endings import Messages
 
 
 def test_warnings_that_differ_in_numbers_or_in_the_model_are_one(capsys):

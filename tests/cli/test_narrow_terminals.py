@@ -11,7 +11,7 @@ from rotbeam_exu.verification.verify import LADDER
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
-    ("compare-modes", "--points", "3", "--count", "3", "--orders", "2", "--omega-max", "6"),
+    ("campbell", "--points", "3", "--count", "3", "--orders", "2", "--omega-max", "6"),
     ("table", "2"),
     ("table", "3"),
 ]

@@ -17,7 +17,7 @@ from rotbeam_exu.cli.output import print_columns
         ("sweep", "--jobs"),
         ("table",),
         ("animate", "--rate"),
-        ("compare-modes", "--points"),
+        ("campbell", "--points"),
         ("figure", "14", "--jobs"),
     ],
 )
@@ -41,8 +41,8 @@ def test_verify_asks_for_a_possible_error(call, error):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("compare-modes", "--count", "1000000000"), "at most 256 functions are taken"),
-        (("compare-modes", "--orders", "1000000000"), "orders must be at most 1000"),
+        (("campbell", "--count", "1000000000"), "at most 256 functions are taken"),
+        (("campbell", "--orders", "1000000000"), "orders must be at most 1000"),
         (
             ("backbone", "--omega", "6", "--exact", "--functions", "1000000"),
             "at most 256 functions",
@@ -51,7 +51,7 @@ def test_verify_asks_for_a_possible_error(call, error):
         (("run", "--duration", "1e12"), ""),
         (("run", "--elements", "9" * 250), ""),
         (("animate", "--rate", "9" * 250), ""),
-        (("compare-modes", "--points", "9" * 250), ""),
+        (("campbell", "--points", "9" * 250), ""),
     ],
 )
 def test_what_would_never_end_is_refused_before_it_starts(call, tmp_path, arguments, sentence):

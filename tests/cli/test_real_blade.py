@@ -13,9 +13,9 @@ MESH = ("--elements", "4", "--step", "0.01", "--duration", "10")
 WRITTEN = {
     "run": ("run", *MOTION, *MESH, "--no-figure"),
     "reference": ("reference", *MOTION, "--duration", "4", "--samples", "9", "--tolerance", "1e-5"),
-    "ramp": ("ramp", *SPEED, "--longest", "2", "--points", "3", "--finite-element-points", "0"),
+    "ramp": ("ramp", *SPEED, "--longest", "2", "--points", "1", "--finite-element-points", "0"),
     "tip force": ("respond", *SPEED, "--tip-force", "1000", "--damping-ratio", "0.005",
-                  "--from", "6.8", "--to", "7.2", "--points", "3", "--no-figure"),
+                  "--from", "7", "--to", "7.1", "--points", "2", "--no-figure"),
     "sweep": ("sweep", *MOTION, *MESH, "--jobs", "1"),
 }  # fmt: skip
 

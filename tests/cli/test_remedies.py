@@ -5,7 +5,6 @@ import re
 import pytest
 
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.sweeps.cache import Cache
 
 QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 
@@ -13,7 +12,7 @@ QUICK = {"--elements": "2", "--step": "0.01", "--duration": "8"}
 def run(call, tmp_path, **options):
     arguments = {**QUICK, **{f"--{k.replace('_', '-')}": str(v) for k, v in options.items()}}
     flat = [text for pair in arguments.items() for text in pair]
-    return call("run", "--out", tmp_path / "out", "--force", *flat)
+    return call("run", "--no-figure", "--out", tmp_path / "out", "--force", *flat)
 
 
 def test_a_speed_in_another_unit_is_given_in_radians(call, tmp_path):
@@ -78,7 +77,7 @@ def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(
 
 
 def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
-    short = ("run", "--elements", "1", "--duration", "8")
+    short = ("run", "--elements", "1", "--duration", "8", "--no-figure")
     assert call(*short, "--step", "0.01", "--out", tmp_path)[0] == 0
     code, _, error = call(*short, "--step", "0.02", "--out", tmp_path)
     assert code == 2
@@ -121,46 +120,8 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
 
 def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):
     (tmp_path / "taken").write_text("a file")
-    short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--out")
+    short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure", "--out")
     code, _, error = call(*short, tmp_path / "taken")
     assert code != 0
     assert "taken: File exists; choose another" in error
     assert call(*short, tmp_path / "free")[0] == 0
-
-
-@pytest.mark.slow  # seconds of waiting; a sweep by Dask is among the sweep's own tests
-def test_dask_asks_for_its_scheduler_and_then_for_one_that_answers(small_sweep):
-    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    dask = ("--executor", "dask")
-    code, _, error = small_sweep(*dask)
-    assert code == 2
-    assert "needs --scheduler ADDRESS" in error
-    code, _, error = small_sweep(*dask, "--scheduler", "tcp://127.0.0.1:1")
-    assert code != 0
-    assert "check its address and that it runs" in error
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None
-    ) as cluster:
-        assert small_sweep(*dask, "--scheduler", cluster.scheduler_address)[0] == 0
-
-
-@pytest.mark.slow
-def test_a_sweep_whose_dask_scheduler_ends_goes_on_with_the_next_one(small_sweep, monkeypatch):
-    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    cluster = distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None, protocol="tcp://"
-    )
-    dask = ("--executor", "dask", "--scheduler", cluster.scheduler_address)
-    kept = Cache.put
-
-    def ending(*arguments):
-        kept(*arguments)
-        cluster.close()
-
-    monkeypatch.setattr(Cache, "put", ending)
-    code, _, error = small_sweep(*dask)
-    assert code == 1
-    assert "with 1 of 2 cases to do; run again to resume from the cache" in error
-    assert "Traceback" not in error
-    monkeypatch.undo()
-    assert small_sweep()[0] == 0

@@ -4,10 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-import rotbeam_exu.cli.figure as figure_job
-from rotbeam_exu import figures, load
+from rotbeam_exu import figures, load, oscillation
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
@@ -18,7 +16,7 @@ BEAM = (
 
 def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
     assert call("run", *SHORT, "--out", tmp_path)[0] == 0
-    assert call("run", *SHORT, "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, "--no-figure", "--out", tmp_path)[0] == 0
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
     with monkeypatch.context() as patch:
@@ -41,7 +39,8 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             assert "--force" in error
             assert len(error.strip().splitlines()) == 1
     assert all(path.read_bytes() == text for path, text in before.items())
-    assert call("run", *SHORT, "--frame", "rotating", "--out", tmp_path, "--force")[0] == 0
+    other = ("--frame", "rotating", "--no-figure", "--force")
+    assert call("run", *SHORT, *other, "--out", tmp_path)[0] == 0
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
@@ -67,7 +66,7 @@ def test_a_failed_run_is_kept_and_marked(call, tmp_path):
         assert run.attrs["verdict"].startswith("failed: ")
         assert run.attrs["duration"] == duration
     # And where nothing failed, nothing is in the way.
-    good = ("--step", "0.01", "--duration", "10")
+    good = ("--step", "0.01", "--duration", "10", "--no-figure")
     assert call("run", "--elements", "2", "--ramp-time", "2.5", *good, "--out", tmp_path)[0] == 0
 
 
@@ -89,14 +88,13 @@ def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
 
 
 def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
-    def stopped(*_, progress, **__):
-        progress(2, 4)
+    def stopped(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(grid, "sweep", stopped)
     code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
-    assert f"interrupted; 2 of 4 spin-ups are kept in the cache {tmp_path}/c" in error
+    assert f"interrupted; finished spin-ups are kept in the cache {tmp_path}/c" in error
 
     def later(_):
         raise KeyboardInterrupt
@@ -106,7 +104,8 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     assert code == 130
     assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
 
-    monkeypatch.setattr(figure_job, "_made", lambda *_, **__: later(0))
+    fourteen = replace(figures.PAPER_FIGURES[14], data=stopped)
+    monkeypatch.setitem(figures.PAPER_FIGURES, 14, fourteen)
     code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error

@@ -88,7 +88,8 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
 def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
     config = tmp_path / "blade.toml"
     config.write_text(f"{BLADE}\n[blade.damping]\nbending = 0.02\n")
-    drive = ("--omega", "3", "--tip-force", "0.01", "--from", "2", "--to", "2.5", "--points", "2")
+    drive = ("--omega", "3", "--tip-force", "0.01", "--from", "2", "--to", "2.5", "--points", "2",
+             "--no-figure")  # fmt: skip
     found = {}
     for name, options in (("own", ()), ("other", ("--external-damping", "0.3"))):
         out = tmp_path / name
@@ -124,7 +125,8 @@ def test_bad_input_is_one_sentence(call, tmp_path, arguments, sentence):
 
 
 def test_without_damping_a_zero_lets_through_what_meets_no_resonance(call, tmp_path):
-    quiet = ("--omega", "6", "--tip-force", "0.1", "--points", "2", "--out", tmp_path)
+    quiet = ("--omega", "6", "--tip-force", "0.1", "--points", "2", "--no-figure",
+             "--out", tmp_path)  # fmt: skip
     assert "0 for none" in call("respond", *quiet, "--from", "1", "--to", "2")[2]
     none = (*quiet, "--damping-ratio", "0")
     assert call("respond", *none, "--from", "1", "--to", "2")[0] == 0
@@ -146,22 +148,12 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
 
 
 def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
-    lone = (
-        "respond",
-        "--gravity",
-        "--from",
-        "4.5",
-        "--to",
-        "5",
-        "--points",
-        "2",
-        "--out",
-        tmp_path,
-    )
+    lone = ("respond", "--tip-force", "0.01", "--omega", "6", "--from", "4.5", "--to", "5",
+            "--points", "2", "--no-figure", "--out", tmp_path)  # fmt: skip
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     assert call(*lone, "--external-damping", "0.5")[0] == 0
     monkeypatch.setattr(
-        job.analytic, "gravity_response", lambda *_, **__: pytest.fail("computed first")
+        job.analytic, "forced_response", lambda *_, **__: pytest.fail("computed first")
     )
     code, _, error = call(*lone, "--external-damping", "0.6")
     assert code == 2

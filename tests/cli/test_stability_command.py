@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import analytic
 from analytic import Rectangle, planar_stability
 from rotbeam_exu import load
 from rotbeam_exu.runs.attributes import beam_of
@@ -60,16 +61,22 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam):
     assert {"sum resonance", ""} == set(table["kind"])
 
 
-def test_a_section_out_of_a_file(call, tmp_path):
+def test_a_section_out_of_a_file(call, tmp_path, monkeypatch):
     file = tmp_path / "blade.toml"
     file.write_text(BLADE + STIFF)
-    code, out, _ = call(
-        "stability", "--omega", "2", "--amplitude", "0.1", "--config", file, "--out", tmp_path
-    )
+    command = ("stability", "--omega", "2", "--amplitude", "0.1", "--config", file)
+    code, out, _ = call(*command, "--out", tmp_path)
     assert code == 0
     assert "stay in their plane, up to a = 0.1." in out
     growth = load(tmp_path / "stability-given-omega-2-mode-1.nc")["growth_rate"].to_numpy()
     assert np.array_equal(growth, [0.0])
+
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    # What it found is no input: the same may be asked again, and is computed.
+    monkeypatch.setattr(analytic, "planar_stability", stopped)
+    assert call(*command, "--out", tmp_path)[0] == 130
 
 
 @pytest.mark.parametrize(

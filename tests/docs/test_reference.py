@@ -10,7 +10,7 @@ import rotbeam_exu
 
 PLAIN = {
     "records that the example of what makes them shows": (
-        "analytic.Crossing analytic.LinearResponse analytic.Resonance analytic.ResponsePoint "
+        "analytic.Crossing analytic.LinearResponse analytic.Resonance analytic.SpecialPoint "
         "analytic.StabilityLimit analytic.Tongue rotbeam_exu.GrowthRate "
         "rotbeam_exu.fem.RotatingBeam"
     ),

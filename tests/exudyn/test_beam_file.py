@@ -110,7 +110,7 @@ def test_no_rotary_inertia_is_other_than_none_told(tmp_path):
         ),
         ("bending = 1e-3", "bending = -1.0", "bending must not be negative, .* it gives none"),
         ("[blade.damping]", "[blade.dampings]", "'dampings' in .blade.; did you mean 'damping'"),
-        ("[blade.damping]", "[[blade.damping]]", "write .blade.section., .blade.damping. and"),
+        ("[blade.damping]", "[[blade.damping]]", "write .blade.damping. as a table"),
     ],
 )
 def test_a_bad_damping_is_one_sentence(tmp_path, old, new, sentence):

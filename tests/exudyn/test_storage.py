@@ -284,34 +284,6 @@ def test_every_reader_of_netcdf_reads_what_is_saved(small, tmp_path):
         assert load(path)["q"][0] == 9.0
 
 
-def external_storage(file, other):
-    file.create_dataset("q", (4,), "f8", external=[(str(other), 0, 32)])
-
-
-def external_link(file, other):
-    file["q"] = h5py.ExternalLink(str(other), "/q")
-
-
-def link_in_a_group(file, other):
-    file.create_group("deep/deeper")["q"] = h5py.ExternalLink(str(other), "/q")
-
-
-def virtual(file, other):
-    layout = h5py.VirtualLayout((4,), "f8")
-    layout[:] = h5py.VirtualSource(str(other), "q", (4,))
-    file.create_virtual_dataset("q", layout)
-
-
-@pytest.mark.parametrize("name", [external_storage, external_link, link_in_a_group, virtual])
-def test_a_file_that_names_another_is_refused(tmp_path, name):
-    with h5py.File(tmp_path / "other.nc", "w") as file:
-        file["q"] = np.arange(4.0)
-    with h5py.File(tmp_path / "run.nc", "w") as file:
-        name(file, tmp_path / "other.nc")
-    with pytest.raises(ValueError, match=r"run\.nc .*/q names another file to read from"):
-        load(tmp_path / "run.nc")
-
-
 def test_a_table_is_not_loaded_and_both_remedies_work(small, tmp_path):
     path = save(small, tmp_path / "small.csv")
     with pytest.raises(

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import Beam, Damping, Gravity, SpeedRipple, forced_response, gravity_response
+from analytic import Beam, Damping, Gravity, SpeedRipple, forced_response
 from rotbeam_exu import dataset_of, figures
 
 BEAM = Beam.reference()
@@ -74,7 +74,7 @@ def test_several_curves_share_axes_and_say_what_sets_them_apart(curves):
 
 def test_under_gravity_there_is_no_backbone_and_no_single_speed():
     damped = BEAM.with_damping(Damping(external=0.5))
-    data = dataset_of(gravity_response(damped, [4.5, 5.0]))
+    data = dataset_of(forced_response(damped, [4.5, 5.0], Gravity()))
     ax = figures.forced_response(data)
     assert ax.get_xlabel() == "rotation speed ω [rad/s]"
     assert [text.get_text() for text in ax.get_legend().get_texts()] == [
@@ -86,6 +86,6 @@ def test_under_gravity_there_is_no_backbone_and_no_single_speed():
 
 def test_a_least_amplitude_is_a_dip():
     damped = BEAM.with_damping(Damping(external=1.5 * BEAM.mass_per_length * BEAM.frequency_scale))
-    data = dataset_of(gravity_response(damped, [1.4, 2.0]))
+    data = dataset_of(forced_response(damped, [1.4, 2.0], Gravity()))
     marks = [mark for mark in data["mark"].to_numpy() if mark]
     assert marks == ["start", "peak", "dip", "end"]

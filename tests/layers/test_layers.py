@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
-        {"input_checks", "quadrature", "methods", "plotting"},
+        {"input_checks", "quadrature", "settled", "methods", "plotting"},
         {"profiles", "motion", "damping"},
         {"line", "section"},
         {"point_mass"},
@@ -148,7 +148,7 @@ def test_the_reference_lists_what_is_built_on_first():
         ("analytic.reduced.lagrangian", "analytic.reduced.model"),
         ("analytic.reduced.model", "analytic.reduced.tables"),
         ("analytic.methods.system", "analytic.exact.beam.continuum"),
-        ("analytic.exact.beam.continuum", "analytic.exact.free.periodic"),
+        ("analytic.exact.beam.continuum", "analytic.exact.free.backbone"),
     ):
         assert theory.index(first) < theory.index(then)
 

@@ -217,7 +217,7 @@ class OutOfPlaneMotion:
 
     Attributes
     ----------
-    orbit : PeriodicOrbit
+    orbit : Orbit
     space : Space
     """
 

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...input_checks import finite_number, points_of_beam
-from ...methods.driven import DrivenOrbit
+from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER
 from .continuum import Continuum
 from .discretization import blade_continuum
-from .steady import BeamOrbit, steady_rotation
+from .steady import steady_rotation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +62,7 @@ def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
 
 def orbit_state(
     beam: AnyBlade,
-    orbit: BeamOrbit | DrivenOrbit[Any],
+    orbit: Orbit[Any],
     x: ArrayLike,
     phase: float,
 ) -> BeamState:

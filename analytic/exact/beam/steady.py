@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_steady_state
-from ...methods.periodic_orbit import PeriodicOrbit
+from ...methods.orbit import Orbit
 from ...methods.system import Tangent
 from .continuum import Continuum
 from .discretization import finer_model
@@ -73,6 +73,7 @@ class SteadyBeam(BeamCoordinates):
     """
 
     rate: float
+    driven: ClassVar[bool] = False
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
@@ -101,7 +102,7 @@ class SteadyBeam(BeamCoordinates):
         return self.model.kinetic_energy(q, q_dot)
 
 
-BeamOrbit = PeriodicOrbit[SteadyBeam]
+BeamOrbit = Orbit[SteadyBeam]
 """A periodic orbit of the beam."""
 
 

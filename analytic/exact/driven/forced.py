@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...beam import AnyBlade, require_planar, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
-from ...loads import Gravity, HarmonicLoad
-from ...methods.driven import DrivenOrbit
-from ...methods.response_curve import ResponseNotFollowedError, response_curve
+from ...loads import Load
+from ...methods.newton import NoOrbitError
+from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import steady_rate
@@ -28,9 +28,9 @@ _LARGEST = 0.95  # |q|/L to which a response is followed
 @one_thread
 def forced_response(
     beam: AnyBlade,
-    omega: float,
-    load: HarmonicLoad,
-    frequencies: Sequence[float] | FloatArray,
+    omega: float | Sequence[float] | FloatArray,
+    load: Load,
+    frequencies: Sequence[float] | FloatArray | None = None,
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
@@ -43,17 +43,20 @@ def forced_response(
     leave out changes the amplitude by about 1e-6. Curves that are not connected to the response at
     the first frequency (isolas) are not found.
 
+    Gravity goes around once a turn, for the plane of rotation stands vertical: its frequency is ω,
+    which varies along the curve.
+
     Parameters
     ----------
     beam : Beam or Blade
         With damping: see `Blade.with_damping`.
-    omega : float
-        Rotation speed ω [rad/s].
-    load : SpeedRipple, TipForce or DistributedForce
+    omega : float or sequence of float
+        Rotation speed ω [rad/s]; under gravity speeds, ascending, in place of the frequencies.
+    load : SpeedRipple, TipForce, DistributedForce or Gravity
         Without a frequency.
     frequencies : sequence of float
         Drive frequencies ν [rad/s], ascending: the first and the last are the ends of the curve,
-        those between are among its points, wherever it passes them.
+        those between are among its points, wherever it passes them. None under gravity.
     theory : Theory
         Extension, shear and rotary inertia.
     functions, harmonics : int
@@ -68,87 +71,57 @@ def forced_response(
 
     Examples
     --------
-    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> from analytic import Beam, Damping, Gravity, TipForce, forced_response
     >>> blade = Beam.reference().with_damping(Damping(external=0.1))
     >>> push = TipForce(amplitude=0.5)
     >>> found = forced_response(blade, 6.0, push, frequencies=[3.4, 3.7, 4.0], functions=8)
     >>> for peak in found.peaks:
     ...     print(f"{peak.amplitude:.4f} L at {peak.frequency:.4f} rad/s")
     0.0769 L at 3.7123 rad/s
+    >>> blade = Beam.reference().with_damping(Damping(external=0.3))
+    >>> found = forced_response(blade, [4.5, 5.0, 5.5], Gravity(), functions=8)
+    >>> print(found.amplitude[found.at(5.0)].round(4))
+    [0.1355]
     """
-    if isinstance(load, Gravity):
-        raise TypeError("gravity goes around once a turn, at ω itself: take gravity_response")
+    require_planar(beam)
     unit = unit_load(beam, load)
-    if not isinstance(load, HarmonicLoad):
+    if load.varied is None:
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "
             "leave it out of the load, and give it among the frequencies"
         )
-    omega, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
-    warn_if_rpm(beam, omega)
-    if not any(beam.unit.damping):
-        _require_no_resonance(beam, omega, asked)
-    model = resolved_model(beam, 1, theory, functions)
-    system = DrivenBeam(model, steady_rate(beam, omega, model), unit)
-    return _followed(beam, load, theory, system, asked, harmonics)
-
-
-@one_thread
-def gravity_response(
-    beam: AnyBlade,
-    omegas: Sequence[float] | FloatArray,
-    gravity: float = 9.81,
-    *,
-    theory: Theory = BERNOULLI_EULER,
-    functions: int = 10,
-    harmonics: int = 4,
-) -> ForcedResponse:
-    """Return the periodic response of the damped blade to its weight, over the rotation speed.
-
-    The plane of rotation stands vertical, so that the weight goes around once a turn: the drive's
-    frequency is ω.
-
-    Parameters
-    ----------
-    beam : Beam or Blade
-        With damping.
-    omegas : sequence of float
-        Rotation speeds [rad/s], ascending and above 0, as `frequencies` of `forced_response`.
-    gravity : float
-        g [m/s²].
-    theory, functions, harmonics
-        As for `forced_response`.
-
-    Raises
-    ------
-    ValueError, ResponseNotReachedError
-        As `forced_response` does.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Damping, gravity_response
-    >>> blade = Beam.reference().with_damping(Damping(external=0.3))
-    >>> found = gravity_response(blade, omegas=[4.5, 5.0, 5.5], functions=8)
-    >>> print(found.amplitude[found.at(5.0)].round(4))
-    [0.1355]
-    """
-    load, asked = Gravity(gravity), _ascending("omegas", omegas)
-    for omega in asked.tolist():
-        rotation_speed(omega, "omegas")
-    model = resolved_model(beam, 1, theory, functions)
-    steady_rate(beam, float(asked[-1]), model)
-    if not any(beam.unit.damping):
-        slow, fast = (linear_modes(beam, w, 1).frequencies[0] / w for w in asked[[0, -1]].tolist())
-        if math.floor(slow) > math.floor(fast):
+    if load.varied == "speed":
+        if frequencies is not None:
             raise ValueError(
-                f"without damping the response has no end at resonance, and the first mode meets "
-                f"{math.floor(slow)} times the speed in between: take "
-                "beam.with_damping(Damping(...))"
+                f"{load.called} goes around once a turn, at ω itself: give the speeds as omega, "
+                "and no frequencies"
             )
-    system = DrivenBeam(model, None, unit_load(beam, load))
-    return _followed(beam, load, theory, system, asked, harmonics)
+        asked = _ascending("omega", omega)
+        highest = rotation_speed(float(asked[-1]))
+    else:
+        highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
+        warn_if_rpm(beam, highest)
+    model = resolved_model(beam, 1, theory, functions)
+    rate = steady_rate(beam, highest, model)
+    if not any(beam.unit.damping):
+        _require_no_resonance(beam, None if load.varied == "speed" else highest, theory, asked)
+    system = DrivenBeam(model, None if load.varied == "speed" else rate, unit)
+    least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
+    try:
+        found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least)
+    except NoOrbitError as failed:
+        response, last = None, f" at {asked[0]:g} rad/s"
+        if failed.last:
+            response = _packed(beam, load, theory, failed.last)
+            nu, a = response.frequency[-1], response.amplitude[-1]
+            last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
+        remedy = failed.remedy or "take more damping or a smaller load"
+        raise ResponseNotReachedError(
+            f"the response to {load} was not found{last}: {failed}; {remedy}", response
+        ) from None
+    return _packed(beam, load, theory, found)
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -161,65 +134,46 @@ def _ascending(name: str, values: Any) -> FloatArray:
     return asked
 
 
-def _require_no_resonance(beam: AnyBlade, omega: float, asked: FloatArray) -> None:
-    for mode, frequency in enumerate(linear_modes(beam, omega).frequencies, start=1):
+def _require_no_resonance(
+    beam: AnyBlade, omega: float | None, theory: Theory, asked: FloatArray
+) -> None:
+    """Refuse frequencies that hold a mode's, or speeds of which one meets a multiple of them."""
+    no_end, remedy = (
+        "without damping the response has no end at resonance, and",
+        ("take beam.with_damping(Damping(...))"),
+    )
+    if omega is None:
+        slow, fast = (
+            math.floor(linear_modes(beam, w, 1, theory=theory).frequencies[0] / w)
+            for w in asked[[0, -1]].tolist()
+        )
+        if slow > fast:
+            raise ValueError(
+                f"{no_end} the first mode meets {slow} times the speed in between: {remedy}"
+            )
+        return
+    for mode, frequency in enumerate(linear_modes(beam, omega, theory=theory).frequencies, start=1):
         if asked[0] <= frequency <= asked[-1]:
             raise ValueError(
-                f"without damping the response has no end at resonance, and mode {mode} is at "
-                f"{frequency:.6g} rad/s: take beam.with_damping(Damping(...)), or periodic_orbits "
+                f"{no_end} mode {mode} is at {frequency:.6g} rad/s: {remedy}, or periodic_orbits "
                 "for the backbone on which it ends"
             )
 
 
-def _followed(
-    beam: AnyBlade,
-    load: HarmonicLoad | Gravity,
-    theory: Theory,
-    system: DrivenBeam,
-    asked: FloatArray,
-    harmonics: int,
-) -> ForcedResponse:
-    least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
-    parameters = asked / beam.frequency_scale
-    try:
-        orbits, failed = response_curve(system, parameters, _LARGEST, least), None
-    except ResponseNotFollowedError as reason:
-        orbits, failed = reason.orbits, reason
-    response = _packed(beam, load, theory, orbits) if orbits else None
-    if failed is not None:
-        last = f" at {asked[0]:g} rad/s"
-        if response is not None:
-            nu, a = response.frequency[-1], response.amplitude[-1]
-            last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        remedy = failed.remedy or "take more damping or a smaller load"
-        raise ResponseNotReachedError(
-            f"the response to {load} was not found{last}: {failed}; {remedy}", response
-        )
-    assert response is not None
-    return response
-
-
-def _packed(
-    beam: AnyBlade,
-    load: HarmonicLoad | Gravity,
-    theory: Theory,
-    orbits: list[DrivenOrbit[DrivenBeam]],
-) -> ForcedResponse:
+def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
+    orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
-    harmonics = np.zeros((len(orbits), count + 1), dtype=np.complex128)
-    for row, orbit in zip(harmonics, orbits, strict=True):
-        parts, H = orbit.gauge_harmonics, orbit.harmonics
-        row[: H + 1] = parts[: H + 1]
-        row[1 : H + 1] -= 1j * parts[H + 1 :]
+    harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     per_second = beam.frequency_scale
     return ForcedResponse(
         beam=beam,
         load=load,
         theory=theory,
-        omega=per_second * np.array([o.system.speed(o.parameter) for o in orbits]),
+        omega=per_second * np.array([o.system.speed(o.frequency) for o in orbits]),
         frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        harmonics=harmonics,
+        harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),
-        _orbits=tuple(orbits),
+        marks=marks,
+        nondimensional=orbits,
     )

@@ -3,42 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, undamped
+from ...beam import undamped
 from ...input_checks import finite_array, finite_number
-from ...loads import Gravity, HarmonicLoad
-from ...methods.driven import DrivenOrbit
-from ...methods.floquet import Multipliers, floquet_multipliers
+from ...loads import Load
 from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
-from ..beam.state import BeamState, orbit_state
-from ..free.backbone import Backbone
-from ..free.periodic import periodic_orbits
-from .loading import DrivenBeam
+from ..free.backbone import Backbone, backbone
+from ..free.branch import Branch, SpecialPoint
 
 if TYPE_CHECKING:
     from ...plotting import Axes
-
-
-class ResponsePoint(NamedTuple):
-    """A point of a response curve.
-
-    Attributes
-    ----------
-    frequency : float
-        ν [rad/s].
-    amplitude : float
-        Peak |q|/L.
-    """
-
-    frequency: float
-    amplitude: float
 
 
 class ResponseNotReachedError(RuntimeError):
@@ -50,7 +30,7 @@ class ResponseNotReachedError(RuntimeError):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ForcedResponse:
+class ForcedResponse(Branch):
     """Periodic response under one load, in order along the curve; made by `forced_response`.
 
     The phase φ = νt of everything is the drive's: the load is greatest at φ = 0. Under gravity φ is
@@ -71,6 +51,10 @@ class ForcedResponse:
         q/L = Re Σ h_k exp(ikφ); h_0 is the mean.
     residual : ndarray (points,)
         Largest residual of the equations of motion, relative to the motion.
+    marks : tuple of str
+        Mark of each point: "asked" for; "fold" where the curve turns around and the response jumps;
+        "peak" where the amplitude is greatest or least; "branch point" where another curve crosses;
+        or "".
 
     Examples
     --------
@@ -83,15 +67,14 @@ class ForcedResponse:
     >>> axes = found.plot()
     """
 
-    beam: AnyBlade
-    load: HarmonicLoad | Gravity
+    _covered: ClassVar[int] = 4
+    _tolerance: ClassVar[float] = 1e-9
+
+    load: Load
     theory: Theory
     omega: FloatArray
-    frequency: FloatArray
-    amplitude: FloatArray
     harmonics: ComplexArray = field(repr=False)
     residual: FloatArray = field(repr=False)
-    _orbits: tuple[DrivenOrbit[DrivenBeam], ...] = field(repr=False)
 
     @property
     def phase(self) -> FloatArray:
@@ -102,28 +85,7 @@ class ForcedResponse:
         return np.asarray(-np.angle(self.harmonics[:, 1]))
 
     @property
-    def marks(self) -> tuple[str, ...]:
-        """What is special about each point, (points,).
-
-        "asked" for, a "fold" where the curve turns around, a "peak" where the amplitude is greatest
-        or least, a "branch point" where another curve crosses; else empty.
-        """
-        return tuple(orbit.mark for orbit in self._orbits)
-
-    def _marked(self, mark: str) -> tuple[ResponsePoint, ...]:
-        return tuple(
-            ResponsePoint(float(self.frequency[i]), float(self.amplitude[i]))
-            for i, here in enumerate(self.marks)
-            if here == mark
-        )
-
-    @property
-    def folds(self) -> tuple[ResponsePoint, ...]:
-        """Where the curve turns around and the response jumps, in order along the curve."""
-        return self._marked("fold")
-
-    @property
-    def peaks(self) -> tuple[ResponsePoint, ...]:
+    def peaks(self) -> tuple[SpecialPoint, ...]:
         """Where the amplitude is greatest or least, in order along the curve."""
         return self._marked("peak")
 
@@ -139,50 +101,20 @@ class ForcedResponse:
             )
         return found
 
-    @cached_property
-    def _stability(self) -> tuple[Multipliers, ...]:
-        return tuple(floquet_multipliers(orbit, modes=4) for orbit in self._orbits)
-
-    @property
-    def multipliers(self) -> ComplexArray:
-        """Floquet multipliers (points, 8) of the lowest four modes; computed when asked for."""
-        return np.array([found.lowest for found in self._stability])
-
-    @property
-    def stable(self) -> NDArray[np.bool_]:
-        """Whether a small disturbance in the plane dies out, (points,).
-
-        No Floquet multiplier of the lowest four modes lies outside the unit circle.
-        """
-        return np.array([found.stable(tolerance=1e-9) for found in self._stability])
-
     def response(self, phase: ArrayLike, i: int) -> FloatArray:
         """Return q/L of point `i` at the phases φ [rad]."""
         phases = finite_array("phase", phase, "rad")
-        return self._orbits[i].gauge(phases.ravel()).reshape(phases.shape)
+        return self._orbit(i).gauge(phases.ravel()).reshape(phases.shape)
 
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
-        """Return the state of point `i` at the material points `x` [m], to start a code from.
-
-        In the frame of the clamp, as `Backbone.state` gives it.
-        """
-        return orbit_state(self.beam, self._orbits[i], x, phase)
-
-    @cached_property
+    @property
     def backbone(self) -> Backbone:
-        """The undamped free orbits of the first mode, up to the largest amplitude here."""
-        if isinstance(self.load, Gravity):
+        """The backbone of the first mode of the undamped blade, on which the response leans."""
+        if self.load.varied == "speed":
             raise ValueError(
-                "gravity goes around with the speed, and each speed has its own backbone: take "
-                "periodic_orbits at one of them"
+                f"{self.load.called} goes around with the speed, and each speed has its own "
+                "backbone: take periodic_orbits at one of them"
             )
-        highest = float(self.amplitude.max())
-        return periodic_orbits(
-            undamped(self.beam),
-            float(self.omega[0]),
-            np.linspace(0.0, highest, 13)[1:],
-            theory=self.theory,
-        )
+        return backbone(undamped(self.beam), float(self.omega[0]), theory=self.theory)
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
@@ -205,11 +137,8 @@ class ForcedResponse:
         fold = np.array(self.marks) == "fold"
         line = {"label": str(self.load), **line}
         draw_response(ax, self.frequency, self.amplitude, self.stable, fold, **line)
-        gravity = isinstance(self.load, Gravity)
-        ax.set(
-            xlabel="rotation speed ω [rad/s]" if gravity else "drive frequency ν [rad/s]",
-            ylabel="peak |q|/L",
-        )
+        swept = "rotation speed ω" if self.load.varied == "speed" else "drive frequency ν"
+        ax.set(xlabel=f"{swept} [rad/s]", ylabel="peak |q|/L")
         ax.set_ylim(bottom=0.0)
         ax.legend()
         return ax

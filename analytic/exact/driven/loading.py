@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -59,43 +59,40 @@ def pushes(
 
 @dataclass(frozen=True, eq=False)
 class DrivenBeam(BeamCoordinates):
-    """The beam under one load in steady rotation; a `methods.DrivenSystem`.
+    """The beam under one load in steady rotation; a `methods.System`.
 
-    The parameter is the drive's frequency ν. Under gravity, which goes around once a turn, it is
-    the speed as well.
+    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well.
 
     Attributes
     ----------
     rate : float or None
-        w̄; None where it is the parameter.
+        w̄; None where it is ν.
     load : Load
         Without dimensions.
     """
 
     rate: float | None
     load: Load
+    driven: ClassVar[bool] = True
+    odd: ClassVar[None] = None
 
-    def frequency(self, parameter: float) -> float:
-        """Return ν itself."""
-        return parameter
-
-    def speed(self, parameter: float) -> float:
+    def speed(self, frequency: float) -> float:
         """Return w̄."""
-        return parameter if self.rate is None else self.rate
+        return frequency if self.rate is None else self.rate
 
-    def rest(self, parameter: float) -> FloatArray:
+    def rest(self, frequency: float) -> FloatArray:
         """Return the straight beam that the rotation stretches, (n,)."""
-        return self.model.steady_state(self.speed(parameter))
+        return self.model.steady_state(self.speed(frequency))
 
     def _drive(
-        self, phase: FloatArray, parameter: float
+        self, phase: FloatArray, frequency: float
     ) -> tuple[FloatArray, FloatArray, ComplexArray | None]:
         """Return w, ẇ and the push at the phases."""
         load = self.load
-        rate = self.speed(parameter) + load.rate(phase)
+        rate = self.speed(frequency) + load.rate(phase)
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self.rate is None else np.full_like(phase, np.nan)
-        return rate, load.acceleration(phase, parameter), pushes(self.model, [(load, phase)], angle)
+        return rate, load.acceleration(phase, frequency), pushes(self.model, [(load, phase)], angle)
 
     def residual(
         self,
@@ -103,10 +100,10 @@ class DrivenBeam(BeamCoordinates):
         q_dot: FloatArray,
         q_ddot: FloatArray,
         phase: FloatArray,
-        parameter: float,
+        frequency: float,
     ) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, parameter))
+        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, frequency))
 
     def tangent(
         self,
@@ -114,7 +111,7 @@ class DrivenBeam(BeamCoordinates):
         q_dot: FloatArray,
         q_ddot: FloatArray,
         phase: FloatArray,
-        parameter: float,
+        frequency: float,
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, parameter))
+        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))

@@ -22,7 +22,7 @@ from ...threads import one_thread
 from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rate
-from ..plane.orbit_growth import planar_note
+from ..plane.planarity import planar_note
 from ..space.continuum import SpaceContinuum
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .transient import Motion, grid_of, integrated
@@ -34,7 +34,6 @@ _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _MOST_STEPS = 100_000  # of one solution; some minutes
-_MOST_POSITIONS = 20_000_000  # times by points; 1 GB
 _ROUND_OFF = 1e-13  # of the tip's position over the length
 
 
@@ -182,7 +181,7 @@ def spin_up_response(
     rotation = rippled(spin_up, loads)
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
-    _require_feasible(beam, spin_up, time, along, digits)
+    _require_feasible(beam, spin_up, float(time[-1]), digits)
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
         functions = math.ceil(_A_DIGIT * digits)
@@ -292,21 +291,13 @@ def _what_to_try(error: float, size: float, end: float) -> str:
     )
 
 
-def _require_feasible(
-    beam: AnyBlade, spin_up: SpeedChange, time: FloatArray, along: FloatArray, digits: float
-) -> None:
-    """Refuse what would take more time or memory than there is, before it starts."""
-    end = float(time[-1])
+def _require_feasible(beam: AnyBlade, spin_up: SpeedChange, end: float, digits: float) -> None:
+    """Refuse what would take too many steps, before it starts."""
     steps = sum(_steps(beam, spin_up, end, digits, level=1)[1])  # two solutions are the least
     if steps > _MOST_STEPS:
         raise ValueError(
             f"times up to {end:g} s take {steps:.3g} steps, more than the {_MOST_STEPS:.3g} "
             f"at most; ask for times up to {0.9 * end * _MOST_STEPS / steps:.3g} s"
-        )
-    if time.size * along.size > _MOST_POSITIONS:
-        raise ValueError(
-            f"{time.size} times by {along.size} points are more positions than the "
-            f"{_MOST_POSITIONS} that are kept; ask for fewer points, or none"
         )
 
 

@@ -1,31 +1,29 @@
-"""The exact backbone: what the periodic orbits of the exact beam at one speed answer."""
+"""The exact backbone: the free orbits that grow out of one mode at one speed."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from ...arrays import FloatArray
+from ...beam import AnyBlade, require_undamped, warn_if_rpm
+from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
+from ...theory import BERNOULLI_EULER, Theory
+from ...threads import one_thread
+from ..linear.modes import resolved_model
+from .branches import BackboneBranch, followed_branch
+from .curve import BackboneCurve, settled_curve
+from .orbits import Orbits, orbits_of
+from .path import ModePath
 
-from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
-from ...input_checks import finite_array, finite_number, finite_values, points_of_beam, whole_number
-from ...methods.floquet import Multipliers, floquet_multipliers
-from ...plotting import axes_or_new, backbone_drawn
-from ..beam.state import BeamState, orbit_state
-from ..beam.steady import BeamOrbit
-
-if TYPE_CHECKING:
-    from ...plotting import Axes
+_MOST_COEFFICIENTS = 1000  # an orbit for each
 
 
-@dataclass(frozen=True, kw_only=True)
-class Backbone:
-    """Periodic orbits of the exact beam at one speed; made by `periodic_orbits`.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Backbone(ModePath):
+    """Free orbits of the exact beam that grow out of one mode at one speed; made by `backbone`.
 
-    Time and phase start where the beam is straight and q rises, in every method.
+    It computes when it is asked, and keeps the path of orbits that it has laid.
 
     Attributes
     ----------
@@ -34,178 +32,204 @@ class Backbone:
         Rotation speed ω [rad/s].
     mode : int
         The mode from which the orbits grow, from 1.
-    omega_n : float
-        Its linear frequency ω_n [rad/s].
-    amplitude : ndarray (orbits,)
-        Peak |q|/L.
-    frequency : ndarray (orbits,)
-        ω_NL [rad/s].
-    lambda_omega : float
-        λ_ω of ω_NL = ω_n (1 - λ_ω a²) as a → 0.
-    lambda_omega_error : float
-        What the extrapolation to a = 0 changed: an upper estimate of its error.
-    harmonics : ndarray (orbits, H)
-        Sine coefficients 1 to H of q/L.
-    frequency_error : ndarray (orbits,)
-        Relative change of ω_NL under one more refinement; above 1e-9 only where refinement ended.
-    residual : ndarray (orbits,)
-        Largest residual of the equations of motion in the energy norm, relative to the bending.
-    jacobi_drift : ndarray (orbits,)
-        Change of the Jacobi integral along the orbit, relative to the largest kinetic energy.
+    theory : Theory
+        Extension, shear and rotary inertia.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone
+    >>> of = backbone(Beam.reference(), omega=6.0)
+    >>> print(f"{of.omega_n:.5f} rad/s, at a = 0.3 {of.orbits(0.3).frequency[0]:.5f} rad/s")
+    3.73040 rad/s, at a = 0.3 3.72357 rad/s
+    >>> print(f"λ_ω = {of.curve(up_to=0.4).lambda_omega:.5f}")
+    λ_ω = 0.01967
+    """
+
+    @one_thread
+    def orbits(self, amplitudes: float | Sequence[float] | FloatArray) -> Orbits:
+        """Return the orbits of peak tip deflections |q|/L, as `periodic_orbits` does."""
+        return orbits_of(self, amplitudes)
+
+    @one_thread
+    def curve(
+        self, up_to: float = 0.6, *, coefficients: int = 10, tolerance: float = 1e-8
+    ) -> BackboneCurve:
+        """Return the backbone as a series in a², as `backbone_curve` does."""
+        up_to = peak_deflection("up_to", up_to)
+        count = whole_number("coefficients", coefficients, least=5, most=_MOST_COEFFICIENTS)
+        if positive("tolerance", tolerance) < 1e-10:
+            raise ValueError(
+                f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"
+            )
+        return settled_curve(self, up_to, count, tolerance)
+
+    @one_thread
+    def branch(self, up_to: float = 0.9) -> BackboneBranch:
+        """Return the backbone up to an amplitude, with its internal resonances.
+
+        The main path is that of `orbits`, on up to 120 harmonics. Where a harmonic that is felt
+        meets another mode, the orbits are followed by arclength from either side, through the
+        folds that the resonance makes and a way into its tongue, on which the other mode takes
+        over.
+
+        Parameters
+        ----------
+        up_to : float
+            Largest peak |q|/L, below 1. Where the path ends before, it ends in a fold.
+
+        Raises
+        ------
+        AmplitudeNotReachedError
+            If no orbit grows out of the mode.
+
+        Examples
+        --------
+        >>> from analytic import Beam, Theory, backbone
+        >>> of = backbone(Beam.reference(), omega=4.0, theory=Theory(extension=False))
+        >>> for one in of.branch(up_to=0.15).resonances:
+        ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
+        harmonic 16 meets mode 3 at a = 0.1269
+        """
+        return followed_branch(self, peak_deflection("up_to", up_to))
+
+
+def backbone(
+    beam: AnyBlade,
+    omega: float,
+    mode: int = 1,
+    *,
+    theory: Theory = BERNOULLI_EULER,
+    functions: int = 16,
+) -> Backbone:
+    """Return the backbone of a mode: its orbits, their curve, and what branches off.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+        Without damping.
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        In-plane mode from which the orbits grow, from 1.
+    theory : Theory
+        Extension, shear and rotary inertia.
+    functions : int
+        Least number of functions for the tangent's angle; they grow where an orbit needs more.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range, or the mode beyond what the functions resolve.
+
+    Examples
+    --------
+    >>> from analytic import Beam, backbone
+    >>> print(backbone(Beam.reference(), omega=6.0).orbits([0.1, 0.2]).frequency.round(5))
+    [3.72966 3.72742]
+    """
+    omega, mode = rotation_speed(omega), whole_number("mode", mode)
+    warn_if_rpm(beam, omega)
+    require_undamped(beam, "a damped blade has no free periodic orbits")
+    model = resolved_model(beam, mode, theory, functions)
+    return Backbone(beam=beam, omega=omega, mode=mode, theory=theory, model=model)
+
+
+def periodic_orbits(
+    beam: AnyBlade,
+    omega: float,
+    amplitudes: float | Sequence[float] | FloatArray,
+    mode: int = 1,
+    *,
+    theory: Theory = BERNOULLI_EULER,
+    functions: int = 16,
+) -> Orbits:
+    """Return the periodic orbits of the exact beam that grow out of one mode.
+
+    Geometrically exact, undamped beam in steady rotation; harmonic balance in time on Legendre
+    polynomials in space, continued in amplitude. The number of harmonics grows until the Jacobi
+    integral is constant to 2e-11, that of functions until half as many again change the frequency
+    by at most 1e-9. Near an internal resonance several orbits may have one amplitude: there the
+    branch is laid again on more functions, until it leads to the same orbit. `frequency_error`
+    tells what is left.
+
+    Parameters
+    ----------
+    beam, omega, mode, theory, functions
+        As for `backbone`.
+    amplitudes : float or sequence of float
+        Peak tip deflections |q|/L, above 0 and below 1, in any order.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range, or the mode beyond what the functions resolve.
+    AmplitudeNotReachedError
+        If an amplitude is not reached with a small residual; its `.orbits` are those below.
+
+    Warns
+    -----
+    RotbeamWarning
+        Where a harmonic of an orbit comes within 2 % of another mode's frequency.
 
     Examples
     --------
     >>> from analytic import Beam, periodic_orbits
-    >>> amplitudes = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5]
-    >>> found = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=amplitudes)
-    >>> print(f"{found.frequency[-1]:.5f} rad/s, third harmonic {found.harmonics[-1, 2]:.5f} L")
-    3.71003 rad/s, third harmonic 0.00814 L
-    >>> axes = found.plot()
+    >>> found = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.1, 0.2, 0.3])
+    >>> print(found.frequency.round(5))
+    [3.72966 3.72742 3.72357]
+    >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
+    ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
+    return backbone(beam, omega, mode, theory=theory, functions=functions).orbits(amplitudes)
 
-    beam: AnyBlade
-    omega: float
-    mode: int
-    omega_n: float
-    amplitude: FloatArray
-    frequency: FloatArray
-    lambda_omega: float
-    lambda_omega_error: float
-    harmonics: FloatArray = field(repr=False)
-    frequency_error: FloatArray = field(repr=False)
-    residual: FloatArray = field(repr=False)
-    jacobi_drift: FloatArray = field(repr=False)
-    _orbits: tuple[BeamOrbit, ...] = field(repr=False)
 
-    @property
-    def first_harmonic(self) -> FloatArray:
-        """First harmonic of q/L, (orbits,)."""
-        return self.harmonics[:, 0]
+def backbone_curve(
+    beam: AnyBlade,
+    omega: float,
+    up_to: float = 0.6,
+    mode: int = 1,
+    *,
+    coefficients: int = 10,
+    tolerance: float = 1e-8,
+    theory: Theory = BERNOULLI_EULER,
+    functions: int = 16,
+) -> BackboneCurve:
+    """Return the exact backbone of a mode as a Chebyshev series in a².
 
-    @cached_property
-    def peak_time(self) -> FloatArray:
-        """Time at which q is greatest [s], (orbits,); there the reduced models start theirs."""
-        return np.array([orbit.peak_phase for orbit in self._orbits]) / self.frequency
+    Through `coefficients` - 1 orbits and the linear mode, on the extrema of Chebyshev's polynomials
+    in a². Where the series does not converge to the tolerance, near an internal resonance, or the
+    orbits end, its range is made shorter, and `holds_up_to` says how far it goes. Resonances so
+    narrow that no orbit shows them are passed unseen: `Backbone.branch` lists all.
 
-    @property
-    def nondimensional(self) -> tuple[BeamOrbit, ...]:
-        """The orbits as `analytic.methods` have them, in time t √(EI/mL³)."""
-        return self._orbits
+    Parameters
+    ----------
+    beam, omega, mode, theory, functions
+        As for `backbone`.
+    up_to : float
+        Largest peak |q|/L asked for, below 1.
+    coefficients : int
+        Of the series; at least 5.
+    tolerance : float
+        Of ω_NL/ω_n and of the first harmonic over the peak; at least 1e-10.
 
-    def _orbit(self, i: int) -> BeamOrbit:
-        count = len(self._orbits)
-        if not -count <= i < count:
-            raise IndexError(f"orbit {i} is none of the {count} of this backbone, 0 to {count - 1}")
-        return self._orbits[i]
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+    AmplitudeNotReachedError
+        If no orbit grows out of the mode, or no range of a tenth of what is asked for is held.
 
-    def response(self, t: ArrayLike, i: int, phase: float = 0.0) -> FloatArray:
-        """Return q/L of orbit `i` at the times `t` [s], starting at `phase` [rad]."""
-        orbit, times = self._orbit(i), finite_array("t", t, "s")
-        phases = self.frequency[i] * times.ravel() + finite_number("phase", phase, "rad")
-        return orbit.gauge(phases).reshape(times.shape)
+    Warns
+    -----
+    RotbeamWarning
+        If the series holds less far than asked, with the nearest internal resonance.
 
-    def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
-        """Return x = q/L and dx/dτ, τ = t √(EI/mL³), each (n,), once around orbit `i`.
-
-        Equally spaced in time; the last point is the first.
-        """
-        n = whole_number("n", n, least=2)
-        orbit = self._orbit(i)
-        q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n))
-        return orbit.system.gauge(q), orbit.system.gauge_rate(q, q_dot)
-
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
-        """Return the state of orbit `i` at the material points `x` [m], to start a code from.
-
-        Points beyond the beam, from 0 to L, are refused.
-        """
-        return orbit_state(self.beam, self._orbit(i), x, phase)
-
-    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
-
-        Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
-        deflected beam, as one draws it.
-        """
-        orbit, length = self._orbit(i), self.beam.length
-        at = points_of_beam("x", x, length)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        z = length * orbit.system.model.integrated(orbit.system.model.slope(q), at)
-        return z.real, z.imag
-
-    @cached_property
-    def _stability(self) -> tuple[Multipliers, ...]:
-        return tuple(floquet_multipliers(orbit) for orbit in self._orbits)
-
-    @property
-    def multipliers(self) -> ComplexArray:
-        """Floquet multipliers (orbits, 8) of the lowest four modes; the first two are 1.
-
-        Computed when first asked for.
-        """
-        return np.array([found.lowest for found in self._stability])
-
-    @property
-    def stable(self) -> NDArray[np.bool_]:
-        """Whether the orbits are stable against small disturbances in the plane, (orbits,).
-
-        No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
-        says: those that the integration over a period resolves. Of motion out of the plane
-        `out_of_plane` and `planar_stability` tell.
-        """
-        return np.array([found.stable() for found in self._stability])
-
-    @property
-    def stable_modes(self) -> NDArray[np.int_]:
-        """How many modes `stable` covers, the lowest, (orbits,)."""
-        return np.array([found.modes for found in self._stability])
-
-    @cached_property
-    def out_of_plane(self) -> str:
-        """One sentence if the largest orbit leaves the plane of rotation, "" if not.
-
-        "" too of a blade whose section out of the plane is unknown; computed when first asked for.
-        """
-        from ..plane.orbit_growth import planar_note  # noqa: PLC0415  (a study, when it is asked for)
-
-        return planar_note(self.beam, self.omega, float(self.amplitude.max()), self.mode)
-
-    def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
-        """Draw the peak amplitude over the frequency, from ω_n on, and return the axes.
-
-        Dots are the orbits; between them is a cubic in a², which leaves ω_n by λ_ω.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Drawn on these; otherwise on a new figure.
-        **line
-            As for matplotlib's `Axes.plot`, such as color and label; a marker is the orbits'.
-
-        Examples
-        --------
-        >>> from analytic import Beam, periodic_orbits
-        >>> ax = periodic_orbits(Beam.reference(), 6.0, [0.1, 0.2, 0.3]).plot()
-        """
-        ax = axes_or_new(ax)
-        mode = "" if self.mode == 1 else f", mode {self.mode}"
-        frequency = np.append(self.omega_n, self.frequency)
-        amplitude = np.append(0.0, self.amplitude)
-        marker = line.pop("marker", ".")
-        (curve,) = ax.plot(
-            *backbone_drawn(frequency, amplitude, -self.lambda_omega * self.omega_n),
-            **{"label": f"ω = {self.omega:g} rad/s{mode}", **line},
-        )
-        ax.plot(frequency, amplitude, ls="none", marker=marker, color=curve.get_color())
-        ax.set(xlabel="frequency $ω_{NL}$ [rad/s]", ylabel="peak |q|/L")
-        ax.set_ylim(bottom=0.0, auto=None)  # a second backbone may be higher
-        ax.legend()
-        return ax
-
-    def __str__(self) -> str:
-        return (
-            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
-            f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
-            f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
-            f"which refinement changes by at most {self.frequency_error.max():.0e}"
-        )
+    Examples
+    --------
+    >>> from analytic import Beam, backbone_curve
+    >>> curve = backbone_curve(Beam.reference(), omega=6.0)
+    >>> round(float(curve.frequency(0.3)), 6), round(curve.lambda_omega, 6)
+    (3.723567, 0.019669)
+    """
+    of = backbone(beam, omega, mode, theory=theory, functions=functions)
+    return of.curve(up_to, coefficients=coefficients, tolerance=tolerance)

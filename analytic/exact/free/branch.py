@@ -1,95 +1,157 @@
-"""What grows out of one linear mode: the branch of its periodic orbits."""
+"""A branch of periodic orbits of the exact blade, with what is special about some."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
 
-from ...arrays import FloatArray
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
-from ...methods.continuation import (
-    MOST_FUNCTIONS,
-    THOROUGH,
-    Care,
-    Path,
-    linear_orbit,
-    meets_the_equations,
-)
-from ...methods.harmonic_balance import LastTangent, NoOrbitError, solve
-from ..beam.continuum import Continuum
-from ..beam.steady import SteadyBeam, steady_rotation
-from ..linear.modes import solve_modes
-
-_LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
+from ...input_checks import finite_values, points_of_beam, whole_number
+from ...methods.floquet import Multipliers, floquet_multipliers
+from ...methods.orbit import Orbit
+from ..beam.state import BeamState, orbit_state
 
 
 class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `backbone` is the Backbone of those that were, or None."""
+    """An amplitude was not reached; `orbits` are the Orbits of those that were, or None."""
 
-    def __init__(self, message: str, backbone: Any = None) -> None:
+    def __init__(self, message: str, orbits: Any = None) -> None:
         super().__init__(message)
-        self.backbone = backbone
+        self.orbits = orbits
+
+
+class SpecialPoint(NamedTuple):
+    """A point of a branch that is special.
+
+    Attributes
+    ----------
+    frequency : float
+        [rad/s].
+    amplitude : float
+        Peak |q|/L.
+    """
+
+    frequency: float
+    amplitude: float
 
 
 @dataclass(frozen=True, kw_only=True)
-class Branch:
-    """What grows out of one linear mode.
+class OrbitSet:
+    """Periodic orbits of one blade; base of `Orbits`, `BackboneBranch` and `ForcedResponse`.
 
     Attributes
     ----------
     beam : Beam or Blade
-    omega : float
-    mode : int
-    modes : ndarray
-        Nondimensional frequencies that the functions resolve.
-    path : Path
-        The orbits, laid as far as they were asked for.
+    frequency : ndarray (orbits,)
+        [rad/s].
+    amplitude : ndarray (orbits,)
+        Peak |q|/L.
+    nondimensional : tuple of Orbit
+        The orbits as `analytic.methods` have them, in time t √(EI/mL³).
     """
 
+    _covered: ClassVar[int] = 6
+    _tolerance: ClassVar[float] = 1e-6
+
     beam: AnyBlade
-    omega: float
-    mode: int
-    modes: FloatArray
-    path: Path[SteadyBeam]
+    frequency: FloatArray
+    amplitude: FloatArray
+    nondimensional: tuple[Orbit[Any], ...] = field(repr=False)
+
+    def _orbit(self, i: int) -> Orbit[Any]:
+        count = len(self.nondimensional)
+        if not -count <= i < count:
+            raise IndexError(f"orbit {i} is none of the {count} that there are, 0 to {count - 1}")
+        return self.nondimensional[i]
+
+    def orbit(self, i: int, n: int = 200) -> tuple[FloatArray, FloatArray]:
+        """Return x = q/L and dx/dτ, τ = t √(EI/mL³), each (n,), once around orbit `i`.
+
+        Equally spaced in time; the last point is the first.
+        """
+        n = whole_number("n", n, least=2)
+        orbit = self._orbit(i)
+        q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n))
+        return orbit.system.gauge(q), orbit.system.gauge_rate(q, q_dot)
+
+    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
+        """Return the state of orbit `i` at the material points `x` [m], to start a code from.
+
+        In the frame of the clamp. Points beyond the beam, from 0 to L, are refused.
+        """
+        return orbit_state(self.beam, self._orbit(i), x, phase)
+
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
+
+        Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
+        deflected beam, as one draws it.
+        """
+        orbit, length = self._orbit(i), self.beam.length
+        at = points_of_beam("x", x, length)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        z = length * orbit.system.model.integrated(orbit.system.model.slope(q), at)
+        return z.real, z.imag
+
+    @cached_property
+    def _stability(self) -> tuple[Multipliers, ...]:
+        return tuple(floquet_multipliers(one, self._covered) for one in self.nondimensional)
 
     @property
-    def name(self) -> str:
-        """What it is called in a sentence."""
-        return f"mode {self.mode} at omega = {self.omega:g} rad/s"
+    def multipliers(self) -> ComplexArray:
+        """Floquet multipliers (orbits, 8) of the lowest four modes; of free orbits two are 1.
+
+        Computed when first asked for.
+        """
+        return np.array([found.lowest for found in self._stability])
+
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether small disturbances in the plane do not grow, (orbits,).
+
+        No Floquet multiplier lies outside the unit circle, of as many modes as `stable_modes`
+        says: those that the integration over a period resolves. Of motion out of the plane
+        `planar_stability` tells.
+        """
+        return np.array([found.stable(self._tolerance) for found in self._stability])
+
+    @property
+    def stable_modes(self) -> NDArray[np.int_]:
+        """Number of modes that `stable` covers, the lowest, (orbits,)."""
+        return np.array([found.modes for found in self._stability])
 
 
-def branch_of(
-    beam: AnyBlade, omega: float, mode: int, model: Continuum, care: Care | None = None
-) -> Branch:
-    """Return the branch of a mode, with as many functions as its smallest orbits need."""
-    steady, small = steady_rotation(beam, omega, model), 0.02 / mode**2
-    while True:
-        modes = solve_modes(steady)
-        shape, linear = modes.coordinates[mode - 1], float(modes.frequencies[mode - 1])
-        try:
-            tangent = LastTangent()
-            seed = solve(linear_orbit(steady, shape, linear, small), small, tangent)
-            double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
-        except NoOrbitError as failed:
-            reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
-        else:
-            if meets_the_equations(double):
-                resolved = modes.frequencies[: steady.functions // 2]
-                path = Path(
-                    seed=seed,
-                    double=double,
-                    longest=_LONGEST_STEP,
-                    care=care or THOROUGH,
-                    tangent=tangent,
-                )
-                return Branch(beam=beam, omega=omega, mode=mode, modes=resolved, path=path)
-            reason = (
-                f"{steady.functions} functions meet the equations of motion to "
-                f"{double.residual:.1e} only; rotate slower"
-            )
-        steady = steady.refined()
-        if steady.functions > MOST_FUNCTIONS:
-            raise AmplitudeNotReachedError(
-                f"no periodic orbit grows out of mode {mode} at omega = {omega:g} rad/s even at "
-                f"a = {small:g}: {reason}"
-            )
+@dataclass(frozen=True, kw_only=True)
+class Branch(OrbitSet):
+    """Periodic orbits in order along a curve, with marks at the special ones.
+
+    Attributes
+    ----------
+    marks : tuple of str
+        Mark of each point: "fold" where the curve turns around, "branch point" where another curve
+        crosses, "peak" where the amplitude of a response is greatest or least, "asked" for; or "".
+    """
+
+    marks: tuple[str, ...] = field(repr=False)
+
+    def _marked(self, mark: str) -> tuple[SpecialPoint, ...]:
+        return tuple(
+            SpecialPoint(float(self.frequency[i]), float(self.amplitude[i]))
+            for i, here in enumerate(self.marks)
+            if here == mark
+        )
+
+    @property
+    def folds(self) -> tuple[SpecialPoint, ...]:
+        """Where the curve turns around, in order along it."""
+        return self._marked("fold")
+
+    @property
+    def branch_points(self) -> tuple[SpecialPoint, ...]:
+        """Where another curve crosses, in order along the curve."""
+        return self._marked("branch point")

@@ -1,54 +1,42 @@
-"""The backbone as a branch: with its folds, internal resonances and the tongues they make."""
+"""The backbone as a branch: its folds, its internal resonances, and the tongues they make."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ...arrays import FloatArray
-from ...beam import AnyBlade, require_undamped, warn_if_rpm
-from ...input_checks import peak_deflection, rotation_speed, whole_number
-from ...methods.continuation import Care
-from ...methods.floquet import Multipliers, floquet_multipliers
-from ...methods.harmonic_balance import NoOrbitError
-from ...theory import BERNOULLI_EULER, Theory
-from ...threads import one_thread
-from ..beam.state import BeamState, orbit_state
+from ...methods.arclength import corrected
+from ...methods.continuation import Care, refined
+from ...methods.newton import NoOrbitError
+from ...methods.orbit_curve import At, Marked, OrbitCurve
 from ..beam.steady import BeamOrbit
-from ..linear.modes import resolved_model
-from .branch import Branch, branch_of
+from .branch import Branch
 from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
-from .tongues import Crossing, follow, leave, tongue
+from .path import ModePath
 
 _GRID, _FINE_GRID = 0.05, 0.02  # of |q|/L between the orbits of the main path, below and above
 _FINE_FROM = 0.8  # where frequency ratios change fast
 _CARE = Care(harmonics=120, halvings=8)  # above 0.8 orbits lie between tongues
 _END_POINTS = 60  # by arclength, where steps in amplitude find no orbit
 _SAME = 1e-3  # amplitudes that are no farther apart tell nothing of how a ratio changes
-
-
-class Fold(NamedTuple):
-    """Where a branch turns around.
-
-    Attributes
-    ----------
-    amplitude : float
-        Peak |q|/L, greatest or least there.
-    frequency : float
-        [rad/s].
-    """
-
-    amplitude: float
-    frequency: float
+_STEP, _LONGEST = 0.02, 0.2  # of the arclength in a tongue
+_TONGUE_POINTS = 14
+_FREQUENCY_SCALE = 0.05  # relative change of Ω that counts as much as a unit of the coordinates
+_ROUGHLY = 1e-4  # drift of the invariant up to which a fold is still told, beyond all harmonics
+_FELT = 1e-3  # size of a harmonic, over the first, whose resonance is looked into
+_TAKES_OVER = 3.0  # growth of that harmonic by which a tongue is told from the path
 
 
 @dataclass(frozen=True, kw_only=True)
-class BackboneBranch:
-    """Free orbits of one mode, with the tongues of internal resonances; by `backbone_branch`.
+class BackboneBranch(Branch):
+    """Free orbits of one mode, with the tongues of internal resonances; by `Backbone.branch`.
+
+    Its folds are where the amplitude turns around.
 
     Attributes
     ----------
@@ -65,68 +53,20 @@ class BackboneBranch:
     resonances : tuple of Resonance
         Where a harmonic of the orbits on the main path meets another mode, by the Floquet exponents
         about them, ascending.
-    folds : tuple of Fold
-        Where amplitude turns around.
-    branch_points : tuple of Fold
-        Where another branch crosses a piece that was followed by arclength; `switched` follows it.
 
     Examples
     --------
-    >>> from analytic import Beam, backbone_branch
-    >>> found = backbone_branch(Beam.reference(), omega=6.0, up_to=0.1)
+    >>> from analytic import Beam, Theory, backbone
+    >>> theory = Theory(extension=False)
+    >>> found = backbone(Beam.reference(), omega=6.0, theory=theory).branch(up_to=0.1)
     >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
     3.73001 rad/s at 0.10 L
     """
 
-    beam: AnyBlade
     omega: float
     mode: int
-    amplitude: FloatArray
-    frequency: FloatArray
     piece: NDArray[np.int_]
     resonances: tuple[Resonance, ...]
-    folds: tuple[Fold, ...]
-    branch_points: tuple[Fold, ...]
-    _crossings: tuple[Crossing, ...] = field(repr=False)
-    _orbits: tuple[BeamOrbit, ...] = field(repr=False)
-
-    @cached_property
-    def _stability(self) -> tuple[Multipliers, ...]:
-        return tuple(floquet_multipliers(orbit) for orbit in self._orbits)
-
-    @property
-    def stable(self) -> NDArray[np.bool_]:
-        """Whether each orbit is stable in the plane, (points,), as `Backbone.stable` says."""
-        return np.array([found.stable() for found in self._stability])
-
-    @property
-    def stability_changes(self) -> FloatArray:
-        """Amplitudes on the main path between an orbit that is stable and one that is not."""
-        main = self.piece == 0
-        changes = np.flatnonzero(np.diff(self.stable[main].astype(int)))
-        a = self.amplitude[main]
-        return np.asarray(0.5 * (a[changes] + a[changes + 1]))
-
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
-        """Return the state of orbit `i` at the material points `x` [m], to start a code from."""
-        return orbit_state(self.beam, self._orbits[i], x, phase)
-
-    def switched(self, i: int) -> tuple[FloatArray, FloatArray]:
-        """Return amplitude and frequency [rad/s] along the branch that crosses at branch point `i`.
-
-        Each (points,), from one side of the crossing to the other, as far as it is resolved.
-        """
-        count = len(self._crossings)
-        if not 0 <= i < count:
-            raise IndexError(f"branch point {i} is none of the {count} that there are")
-        here = self._crossings[i]
-        sides = [leave(here, sign) for sign in (-1.0, 1.0)]
-        orbits = [*sides[0][::-1], *sides[1]]
-        per_second = self.beam.frequency_scale
-        return (
-            np.array([orbit.amplitude for orbit in orbits]),
-            np.array([orbit.frequency for orbit in orbits]) * per_second,
-        )
 
     def __str__(self) -> str:
         met = ", ".join(f"{r.harmonic}:{r.mode} at {r.amplitude:.3f}" for r in self.resonances)
@@ -139,93 +79,40 @@ class BackboneBranch:
         )
 
 
-@one_thread
-def backbone_branch(
-    beam: AnyBlade,
-    omega: float,
-    up_to: float = 0.9,
-    mode: int = 1,
-    *,
-    theory: Theory = BERNOULLI_EULER,
-    functions: int = 16,
-) -> BackboneBranch:
-    """Return the backbone of a mode up to an amplitude, with its internal resonances.
-
-    The main path is that of `periodic_orbits`, on up to 120 harmonics. Where a harmonic that is
-    felt meets another mode, the orbits are followed by arclength from either side, through the
-    folds that the resonance makes and a way into its tongue, on which the other mode takes over.
-
-    Parameters
-    ----------
-    beam : Beam or Blade
-        Without damping.
-    omega : float
-        Rotation speed ω [rad/s].
-    up_to : float
-        Largest peak |q|/L, below 1. Where the path ends before, it ends in a fold.
-    mode, theory, functions
-        As for `periodic_orbits`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is refused.
-    AmplitudeNotReachedError
-        If no orbit grows out of the mode.
-
-    Examples
-    --------
-    >>> from analytic import Beam, backbone_branch
-    >>> found = backbone_branch(Beam.reference(), omega=4.0, up_to=0.15)
-    >>> for one in found.resonances:
-    ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
-    harmonic 16 meets mode 3 at a = 0.1269
-    """
-    omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    up_to = peak_deflection("up_to", up_to)
-    warn_if_rpm(beam, omega)
-    require_undamped(beam, "a damped blade has no free periodic orbits")
-    branch = branch_of(beam, omega, mode, resolved_model(beam, mode, theory, functions), _CARE)
-    main = _main_path(branch, up_to)
-    end = None
+def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
+    """Return the branch of a backbone, as `Backbone.branch` says."""
+    of = replace(of, care=_CARE)
+    main, end = _main_path(of, up_to), None
     if main[-1].amplitude < up_to - 1e-9:
-        end = follow(main[-2], main[-1], lambda orbit: False, up_to=up_to, points=_END_POINTS)
-    if end is not None and end.fold is None:
-        main, end = [*main, *end.orbits[1:]], None
-    per_second = beam.frequency_scale
+        end = _followed(main[-2], main[-1], lambda orbit: False, up_to=up_to, points=_END_POINTS)
+    if end is not None and not _folds(end):
+        main, end = [*main, *(orbit for orbit, _ in end[1:])], None
+    per_second = of.beam.frequency_scale
     met = []
-    for one in resonances_along(main, branch.modes, mode, per_second):
-        near, place = pinned(branch.path.at, main, one)
+    for one in resonances_along(main, of.modes, of.mode, per_second):
+        near, place = pinned(of.path.at, main, one)
         main = sorted([*main, *near], key=lambda orbit: orbit.amplitude)
         met.append(one._replace(amplitude=place, frequency=frequency_at(main, place) * per_second))
     met.sort(key=lambda one: one.amplitude)
-    followed = [tongue(main, met, one, below) for one in met for below in (True, False)]
-    off = [piece for piece in [*followed, end] if piece is not None]
-    pieces = [main, *(piece.orbits for piece in off)]
-    orbits = [orbit for piece in pieces for orbit in piece]
-    crossings = [crossing for piece in off for crossing in piece.crossings]
-
-    def places(at: list[BeamOrbit]) -> tuple[Fold, ...]:
-        return tuple(Fold(orbit.amplitude, orbit.frequency * per_second) for orbit in at)
-
+    tongues = [_tongue(main, met, one, below) for one in met for below in (True, False)]
+    pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
+    orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
-        beam=beam,
-        omega=omega,
-        mode=mode,
+        beam=of.beam,
+        omega=of.omega,
+        mode=of.mode,
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
+        marks=marks,
         piece=np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces]),
         resonances=tuple(met),
-        folds=places([piece.fold for piece in off if piece.fold is not None]),
-        branch_points=places([one.curve.orbit(one.z) for one in crossings]),
-        _crossings=tuple(crossings),
-        _orbits=tuple(orbits),
+        nondimensional=orbits,
     )
 
 
-def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:
+def _main_path(of: ModePath, up_to: float) -> list[BeamOrbit]:
     """Return the orbits on a grid of amplitudes, and the last that there is."""
-    path, found = branch.path, []
+    path, found = of.path, []
     coarse, fine = np.arange(_GRID, _FINE_FROM, _GRID), np.arange(_FINE_FROM, 1.0, _FINE_GRID)
     grid = np.concatenate((coarse, fine))
     for a in [*grid[grid < up_to - 1e-9].tolist(), up_to]:
@@ -243,3 +130,86 @@ def _main_path(branch: Branch, up_to: float) -> list[BeamOrbit]:
         for o, last in zip(both, [None, *both], strict=False)
         if last is None or o.amplitude - last.amplitude > _SAME
     ]
+
+
+def _tongue(
+    main: list[BeamOrbit], met: list[Resonance], resonance: Resonance, below: bool
+) -> list[Marked] | None:
+    """Return the orbits off the main path into the tongue of a resonance, from one side."""
+    near = [o for o in main if (o.amplitude < resonance.amplitude) == below]
+    beyond = [o for o in main if (o.amplitude >= resonance.amplitude) == below]
+    if len(near) < 2 or not beyond:
+        return None
+    k = resonance.harmonic
+    before, last, other = (
+        (near[-2], near[-1], beyond[0]) if below else (near[1], near[0], beyond[-1])
+    )
+    if k > min(last.harmonics, other.harmonics) or _share(last, k) < _FELT:
+        return None
+    low, high = sorted((before.amplitude, last.amplitude))
+    felt = [one for one in met if one.harmonic <= last.harmonics]
+    felt = [one for one in felt if _share(last, one.harmonic) >= 10.0 * _FELT]
+    if any(low < one.amplitude < high for one in felt):
+        return None  # another resonance is nearer, and two sides of it give no direction
+
+    def goes_on(orbit: BeamOrbit) -> bool:
+        """Whether the path has crossed the resonance without a tongue."""
+        passed = (orbit.amplitude > other.amplitude) == below
+        return passed and _share(orbit, k) < _TAKES_OVER * _share(other, k)
+
+    return _followed(before, last, goes_on)
+
+
+def _share(orbit: BeamOrbit, k: int) -> float:
+    """Return the size of harmonic k over that of the first."""
+    sizes = np.linalg.norm(orbit.sines, axis=1)
+    return float(sizes[k - 1] / sizes[0])
+
+
+def _followed(
+    before: BeamOrbit,
+    last: BeamOrbit,
+    goes_on: Callable[[BeamOrbit], bool],
+    *,
+    up_to: float = 1.0,
+    points: int = _TONGUE_POINTS,
+) -> list[Marked] | None:
+    """Return the orbits that follow two by arclength; None if the path just goes on.
+
+    So many points at most, and not beyond the amplitude `up_to`.
+    """
+    scale = _FREQUENCY_SCALE * last.frequency
+    curve = OrbitCurve(last, last.frequency, scale, _better_resolved)
+    start = curve.unknowns(last)
+    piece: list[Marked] = [(last, "")]
+    # As far as it is resolved.
+    with suppress(NoOrbitError):
+        at = At(curve, corrected(curve, start, start - curve.unknowns(before)))
+        for here, there in islice(at.followed(_STEP, _LONGEST), points - 1):
+            if goes_on(there.orbit):
+                return None
+            if not _folds(piece):
+                if (peak := here.peak(there)) is not None:
+                    piece.append((here.curve.orbit(peak.z), "fold"))
+            elif (met := here.crossing(there)) is not None:
+                # Short of the fold the sign of the determinant only tells that a narrow tongue was
+                # stepped over.
+                piece.append((here.curve.orbit(met), "branch point"))
+            piece.append((there.orbit, ""))
+            if there.orbit.amplitude >= up_to:
+                break
+    return piece if sum(mark == "" for _, mark in piece) > 2 else None
+
+
+def _folds(piece: list[Marked]) -> bool:
+    return any(mark == "fold" for _, mark in piece)
+
+
+def _better_resolved(orbit: BeamOrbit) -> BeamOrbit | None:
+    """Return the orbit on more harmonics or functions, None if it needs none."""
+    try:
+        return refined(orbit)
+    except NoOrbitError:
+        if orbit.invariant_drift < _ROUGHLY:
+            return None
+        raise

@@ -8,114 +8,186 @@ converges geometrically: with ten of them ω_NL/ω_n keeps 1e-10 where no resona
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import Chebyshev
+from numpy.polynomial import Chebyshev, Polynomial
+from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_undamped, warn_if_rpm
-from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
+from ...beam import AnyBlade
+from ...input_checks import finite_array, float_array
 from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
-from ...methods.harmonic_balance import NoOrbitError, frequency_change
-from ...theory import BERNOULLI_EULER, Theory
-from ...threads import one_thread
+from ...methods.harmonic_balance import frequency_change
+from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.discretization import finer_model
 from ..beam.steady import BeamOrbit
-from ..linear.modes import resolved_model
-from .backbone_series import BackboneCurve
-from .branch import AmplitudeNotReachedError, Branch, branch_of
+from .branch import AmplitudeNotReachedError
 from .internal_resonance import nearest_resonance
+from .path import ModePath
 
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
 _LARGEST_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
 _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
-_MOST_COEFFICIENTS = 1000  # an orbit for each
 _APART = 0.08  # orbits at which resonances are looked for
+_SHARE = 1.0 / 3.0  # of a curve's error, which coefficients left out may have
+_BLOCK = 32768  # amplitudes that stay in the cache while powers are summed
 
 
-@one_thread
-def backbone_curve(
-    beam: AnyBlade,
-    omega: float,
-    up_to: float = 0.6,
-    mode: int = 1,
-    *,
-    coefficients: int = 10,
-    tolerance: float = 1e-8,
-    theory: Theory = BERNOULLI_EULER,
-    functions: int = 16,
-) -> BackboneCurve:
-    """Return the exact backbone of a mode as a Chebyshev series in a².
+@dataclass(frozen=True, kw_only=True)
+class BackboneCurve:
+    """The exact backbone at one speed as a series; made by `backbone_curve`.
 
-    Through `coefficients` - 1 orbits and the linear mode, on the extrema of Chebyshev's polynomials
-    in a². Where the series does not converge to the tolerance, near an internal resonance, or the
-    orbits end, its range is made shorter, and `holds_up_to` says how far it goes. Resonances so
-    narrow that no orbit shows them are passed unseen: `backbone_branch` lists all.
-
-    Parameters
+    Attributes
     ----------
     beam : Beam or Blade
-        Without damping.
     omega : float
         Rotation speed ω [rad/s].
-    up_to : float
-        Largest peak |q|/L asked for, below 1.
-    mode, theory, functions
-        As for `periodic_orbits`.
-    coefficients : int
-        Of the series; at least 5.
-    tolerance : float
-        Of ω_NL/ω_n and of the first harmonic over the peak; at least 1e-10.
-
-    Raises
-    ------
-    ValueError
-        If an argument is refused.
-    AmplitudeNotReachedError
-        If no orbit grows out of the mode, or no range of a tenth of what is asked for is held.
-
-    Warns
-    -----
-    RotbeamWarning
-        If the series holds less far than asked, with the nearest internal resonance.
+    mode : int
+        From 1.
+    omega_n : float
+        ω_n [rad/s].
+    holds_up_to : float
+        Largest peak |q|/L.
+    error : float
+        Of ω_NL/ω_n, and of the first harmonic over the peak: what the tail of the series leaves, or
+        orbits that it was not made from show, whichever is the most.
+    series, first : Chebyshev
+        Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
 
     Examples
     --------
     >>> from analytic import Beam, backbone_curve
-    >>> curve = backbone_curve(Beam.reference(), omega=6.0)
-    >>> round(float(curve.frequency(0.3)), 6), round(curve.lambda_omega, 6)
-    (3.723567, 0.019669)
+    >>> curve = backbone_curve(Beam.reference(), omega=6.0, up_to=0.4)
+    >>> print(f"ω_NL/ω_n = 1 - {curve.lambda_omega:.5f} a² + …, within {curve.holds_up_to:.2f}")
+    ω_NL/ω_n = 1 - 0.01967 a² + …, within 0.40
+    >>> print((curve.frequency([0.1, 0.2, 0.4])).round(6))
+    [3.729665 3.727422 3.717892]
     """
-    omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    up_to = peak_deflection("up_to", up_to)
-    count = whole_number("coefficients", coefficients, least=5, most=_MOST_COEFFICIENTS)
-    if positive("tolerance", tolerance) < 1e-10:
-        raise ValueError(
-            f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"
+
+    beam: AnyBlade
+    omega: float
+    mode: int
+    omega_n: float
+    holds_up_to: float
+    error: float
+    series: Chebyshev = field(repr=False)
+    first: Chebyshev = field(repr=False)
+
+    @cached_property
+    def _powers(self) -> FloatArray:
+        return in_powers(_shortened(self.series, _SHARE * self.error))
+
+    @cached_property
+    def _first_powers(self) -> FloatArray:
+        return in_powers(_shortened(self.first, _SHARE * self.error))
+
+    @property
+    def lambda_omega(self) -> float:
+        """λ_ω of ω_NL = ω_n (1 - λ_ω a² - κ a⁴ - ...) [-], a the peak."""
+        return -float(in_powers(self.series)[1])
+
+    @property
+    def kappa(self) -> float:
+        """κ of the same [-], the fifth order of the extensible beam."""
+        return -float(in_powers(self.series)[2])
+
+    def frequency(self, a: ArrayLike) -> FloatArray:
+        """Return ω_NL [rad/s] at the peaks `a`, of their shape.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is negative, or above `holds_up_to`.
+        """
+        return in_square(self.omega_n * self._powers, self._within(a))
+
+    def first_harmonic(self, a: ArrayLike) -> FloatArray:
+        """Return the first harmonic of q/L at the peaks `a`, of their shape; refuses as above."""
+        amplitude = self._within(a)
+        return amplitude * in_square(self._first_powers, amplitude)
+
+    def _within(self, a: ArrayLike) -> FloatArray:
+        amplitude = float_array("amplitude", a)
+        low, high = _extent(amplitude)
+        if not (low >= 0.0 and high <= self.holds_up_to * (1.0 + 1e-12)):
+            finite_array("amplitude", amplitude)
+            raise ValueError(
+                f"the curve at omega = {self.omega:g} rad/s holds for amplitudes from 0 up to "
+                f"{self.holds_up_to:.6g}, got {low if low < 0.0 else high:g}: they are the peak of "
+                f"|q|/L; beyond, take periodic_orbits or backbone(...).branch"
+            )
+        return amplitude
+
+    def __str__(self) -> str:
+        return (
+            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s up to a = "
+            f"{self.holds_up_to:.4g}: ω_n = {self.omega_n:.8f} rad/s, λ_ω = "
+            f"{self.lambda_omega:.6f}, κ = {self.kappa:.5f}, error {self.error:.0e}"
         )
-    warn_if_rpm(beam, omega)
-    require_undamped(beam, "a damped blade has no free periodic orbits")
-    model = resolved_model(beam, mode, theory, functions)
+
+
+def _extent(a: FloatArray) -> tuple[float, float]:
+    """Return the least and the greatest of the numbers and 0, not a number where one is not."""
+    flat = np.ravel(a)
+    blocks = [flat[start : start + _BLOCK] for start in range(0, flat.size, _BLOCK)]
+    return (
+        float(np.min([block.min() for block in blocks], initial=0.0)),
+        float(np.max([block.max() for block in blocks], initial=0.0)),
+    )
+
+
+def _shortened(series: Chebyshev, error: float) -> Chebyshev:
+    """Return the series without the last coefficients, as many as sum up to less than `error`."""
+    left_out = np.cumsum(np.abs(series.coef[::-1]))
+    return series.cutdeg(series.degree() - int(np.sum(left_out < error)))
+
+
+def in_powers(series: Chebyshev) -> FloatArray:
+    """Return the coefficients of the powers of a²."""
+    return np.asarray(series.convert(kind=Polynomial, domain=[-1.0, 1.0], window=[-1.0, 1.0]).coef)
+
+
+def in_square(coefficients: FloatArray, a: FloatArray) -> FloatArray:
+    """Return Σ c_k a^2k, of the shape of `a`: by Horner's rule, in blocks that fit the cache."""
+    flat, powers = np.ravel(a), [*coefficients.tolist(), 0.0][: max(2, len(coefficients))]
+    result, squares = np.empty_like(flat), np.empty(min(flat.size, _BLOCK))
+    for start in range(0, flat.size, _BLOCK):
+        part = flat[start : start + _BLOCK]
+        square, value = squares[: part.size], result[start : start + _BLOCK]
+        np.multiply(part, part, out=square)
+        np.multiply(square, powers[-1], out=value)
+        for power in powers[-2:0:-1]:
+            value += power
+            value *= square
+        value += powers[0]
+    # A scalar for a scalar, as NumPy's own functions have it.
+    return result.reshape(np.shape(a))[()]
+
+
+def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
+    """Return the series of a backbone, on as many functions as it needs."""
+    model = of.model
     while True:
-        branch = branch_of(beam, omega, mode, model, care_for(tolerance))
-        curve = fitted_curve(branch, up_to, count, tolerance)
-        largest = [o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to][-1]
+        of = replace(of, model=model, care=care_for(tolerance))
+        curve = fitted_curve(of, up_to, count, tolerance)
+        largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
         model = finer_model(largest.system.model)
-        change = frequency_change(largest, branch.path.tangent)
+        change = frequency_change(largest, of.path.tangent)
         if change <= tolerance or model.bending > MOST_FUNCTIONS:
             break
     curve = replace(curve, error=max(curve.error, change))
     if curve.holds_up_to < up_to:
-        below = _apart([o for o in branch.path.nodes if o.amplitude <= curve.holds_up_to])
+        below = _apart([o for o in of.path.nodes if o.amplitude <= curve.holds_up_to])
         warn(
-            f"the backbone at omega = {omega:g} rad/s has a series of {count} coefficients that "
+            f"the backbone at omega = {of.omega:g} rad/s has a series of {count} coefficients that "
             f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
-            f"{nearest_resonance(below, branch.modes, mode)}; ask for more coefficients, or take "
-            f"backbone_branch"
+            f"{nearest_resonance(below, of.modes, of.mode)}; ask for more coefficients, or take "
+            f"backbone(...).branch"
         )
     return curve
 
@@ -126,21 +198,21 @@ def care_for(tolerance: float) -> Care:
     return Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1)
 
 
-def fitted_curve(branch: Branch, up_to: float, count: int, tolerance: float) -> BackboneCurve:
-    """Return the series of a branch, on as much of the range as it holds for."""
-    linear, top = float(branch.modes[branch.mode - 1]), up_to
+def fitted_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
+    """Return the series of a backbone, on as much of the range as it holds for."""
+    top = up_to
     while top > _SHORTEST * up_to:
         try:
-            fitted = _fitted(branch, top, count)
+            fitted = _fitted(of, top, count)
         except NoOrbitError:
-            top = _SHORTER * min(top, branch.path.nodes[-1].amplitude)
+            top = _SHORTER * min(top, of.path.nodes[-1].amplitude)
             continue
         if fitted.error <= tolerance:
             return BackboneCurve(
-                beam=branch.beam,
-                omega=branch.omega,
-                mode=branch.mode,
-                omega_n=linear * branch.beam.frequency_scale,
+                beam=of.beam,
+                omega=of.omega,
+                mode=of.mode,
+                omega_n=of.omega_n,
                 holds_up_to=top,
                 error=fitted.error,
                 series=fitted.series,
@@ -148,8 +220,8 @@ def fitted_curve(branch: Branch, up_to: float, count: int, tolerance: float) -> 
             )
         top = _converging(fitted, top, 0.5 * tolerance)
     raise AmplitudeNotReachedError(
-        f"{count} coefficients do not resolve the backbone of {branch.name} to {tolerance:g} even "
-        f"up to a = {top:.3g}: ask for more of them, or take backbone_branch"
+        f"{count} coefficients do not resolve the backbone of {of.name} to {tolerance:g} even "
+        f"up to a = {top:.3g}: ask for more of them, or take backbone(...).branch"
     )
 
 
@@ -170,14 +242,14 @@ class _Fitted(NamedTuple):
     error: float
 
 
-def _fitted(branch: Branch, top: float, count: int) -> _Fitted:
+def _fitted(of: ModePath, top: float, count: int) -> _Fitted:
     angle = 0.5 * np.pi / (count - 1)
     at, between = (top * np.sin(angle * (np.arange(count) + half)) for half in (0.0, 0.5))
     # The highest that it was not made from, where it is worst, one amid, and a low one.
     checked = np.sort(between[[count - 2, count // 2, 1]])
     # Laid in one row, so that a tangent serves its neighbours.
     asked = np.sort(np.concatenate((at[1:], checked)))
-    found = _of_orbits(branch, asked)
+    found = _of_orbits(of, asked)
     made, shown = (found[np.isin(asked, which)] for which in (at, checked))
     values = np.vstack(([1.0, 1.0], made))
     series, first = (
@@ -188,11 +260,11 @@ def _fitted(branch: Branch, top: float, count: int) -> _Fitted:
     return _Fitted(series, first, error)
 
 
-def _of_orbits(branch: Branch, amplitudes: FloatArray) -> FloatArray:
+def _of_orbits(of: ModePath, amplitudes: FloatArray) -> FloatArray:
     """Return ω_NL/ω_n and the first harmonic over the peak of orbits, (orbits, 2)."""
-    linear = float(branch.modes[branch.mode - 1])
-    orbits = [branch.path.laid(a) for a in amplitudes.tolist()]
-    return np.array([[o.frequency / linear, o.gauge_harmonics[0] / o.amplitude] for o in orbits])
+    linear = float(of.modes[of.mode - 1])
+    orbits = [of.path.laid(a) for a in amplitudes.tolist()]
+    return np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
 
 
 def _rate(series: Chebyshev) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...methods.floquet import floquet_multipliers
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.steady import BeamOrbit
 
@@ -137,7 +137,7 @@ def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
     for last, orbit in pairwise(orbits):
         if k > min(last.harmonics, orbit.harmonics):
             continue
-        before, after = (o.gauge_harmonics[k - 1] / o.gauge_harmonics[0] for o in (last, orbit))
+        before, after = (o.gauge_sines[k - 1] / o.gauge_sines[0] for o in (last, orbit))
         if before * after < 0.0 and min(abs(before), abs(after)) > _FELT:
             share = (1.0 / before) / (1.0 / before - 1.0 / after)
             return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
@@ -173,7 +173,7 @@ def pinned(
             found.append(at(inside))
         except NoOrbitError:
             break
-        if found[-1].gauge_harmonics[k - 1] * below.gauge_harmonics[k - 1] > 0.0:
+        if found[-1].gauge_sines[k - 1] * below.gauge_sines[k - 1] > 0.0:
             below = found[-1]
         else:
             above = found[-1]
@@ -237,5 +237,5 @@ def warn_of_resonances(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                "tell; backbone_branch follows what branches there"
+                "tell; backbone(...).branch follows what branches there"
             )

@@ -12,6 +12,7 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...methods.gyroscopic import reciprocal_modes
+from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
@@ -204,21 +205,20 @@ def _settled_modes(
 
     Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     """
-    steady = steady_rotation(beam, omega, model)
-    modes = solve_modes(steady)
-    while True:
-        finer = steady.refined()
-        confirmed = solve_modes(finer)
-        change = np.abs(modes.frequencies[:count] / confirmed.frequencies[:count] - 1.0).max()
-        if change <= _SETTLED:
-            return steady.model, modes
-        if finer.functions > MOST_FUNCTIONS:
-            raise ValueError(
-                f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = "
-                f"{steady.rate:.4g}, have not settled to {_SETTLED:g} with {steady.functions} "
-                f"functions: half as many again change them by {change:.1e}; rotate slower"
-            )
-        steady, modes = finer, confirmed
+    first = steady_rotation(beam, omega, model)
+    (steady, modes), _, change = settled(
+        lambda steady: (steady, solve_modes(steady)),
+        refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
+        _SETTLED,
+        lambda found: np.log(found[1].frequencies[:count]),
+    )
+    if change > _SETTLED:
+        raise ValueError(
+            f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = "
+            f"{steady.rate:.4g}, have not settled to {_SETTLED:g} with {steady.functions} "
+            f"functions: half as many again change them by {change:.1e}; rotate slower"
+        )
+    return steady.model, modes
 
 
 def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:

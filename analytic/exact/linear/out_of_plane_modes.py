@@ -14,6 +14,7 @@ from ...blade import Blade
 from ...input_checks import points_of_beam
 from ...lazily import linalg
 from ...profiles import in_units
+from ...settled import refined, settled
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER
 from ..beam.discretization import blade_continuum
@@ -109,19 +110,17 @@ def torsion_modes(beam: AnyBlade, omega: float, count: int, functions: int) -> T
     functions = max(functions, 2 * count)
     model = blade_continuum(beam, BERNOULLI_EULER, functions, functions // 2)
     steady = steady_rotation(beam, omega, model)
-    before = _torsion(steady, beam, functions)
-    while True:
-        functions = 3 * len(before[1]) // 2
-        found = _torsion(steady, beam, functions)
-        ratio = found[0][:count] / before[0][:count] - 1.0
-        if np.abs(ratio).max() <= _SETTLED:
-            break
-        if functions > _MOST_FUNCTIONS:
-            raise ValueError(
-                f"{count} torsional frequencies have not settled to {_SETTLED:g} with {functions} "
-                "functions: ask for fewer"
-            )
-        before = found
+    _, found, change = settled(
+        lambda size: _torsion(steady, beam, size),
+        refined(functions, lambda size: 3 * size // 2, lambda most: most > _MOST_FUNCTIONS),
+        _SETTLED,
+        lambda found: np.log(found[0][:count]),
+    )
+    if change > _SETTLED:
+        raise ValueError(
+            f"{count} torsional frequencies have not settled to {_SETTLED:g} with "
+            f"{len(found[1])} functions: ask for fewer"
+        )
     return TorsionModes(
         beam=beam,
         omega=omega,

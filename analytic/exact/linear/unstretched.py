@@ -24,6 +24,7 @@ from ...input_checks import rotation_speed, whole_number
 from ...lazily import linalg
 from ...methods.gyroscopic import reciprocal_modes
 from ...profiles import evaluated
+from ...settled import refined, settled
 from ...shape_functions import shape_functions
 from ...threads import one_thread
 from ...unit_blade import UnitBlade
@@ -72,19 +73,21 @@ def unstretched_frequencies(beam: AnyBlade, omega: float, count: int = 3) -> Flo
     require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
-    w_bar, functions = omega / beam.frequency_scale, max(_FEWEST, 2 * count)
-    found = _frequencies(beam.unit, beam.slenderness, w_bar, functions)[:count]
-    while functions < _MOST:
-        functions = min(2 * functions, _MOST)
-        before, found = found, _frequencies(beam.unit, beam.slenderness, w_bar, functions)[:count]
-        change = np.abs(before / found - 1.0).max()
-        if change <= _SETTLED:
-            return found * beam.frequency_scale
-    raise ValueError(
-        f"the frequencies at omega = {omega:g} rad/s have not settled to {_SETTLED:g} with "
-        f"{_MOST} functions: the last doubling changes them by {change:.1e}; rotate "
-        f"slower, or take linear_modes"
+    w_bar = omega / beam.frequency_scale
+    first = min(max(_FEWEST, 2 * count), _MOST // 2)
+    _, found, change = settled(
+        lambda functions: _frequencies(beam.unit, beam.slenderness, w_bar, functions)[:count],
+        refined(first, lambda functions: min(2 * functions, _MOST), lambda most: most == _MOST),
+        _SETTLED,
+        lambda found: np.log(found),  # noqa: PLW0108  (its type is told)
     )
+    if change > _SETTLED:
+        raise ValueError(
+            f"the frequencies at omega = {omega:g} rad/s have not settled to {_SETTLED:g} with "
+            f"{_MOST} functions: the last doubling changes them by {change:.1e}; rotate "
+            f"slower, or take linear_modes"
+        )
+    return found * beam.frequency_scale
 
 
 def _frequencies(blade: UnitBlade, slenderness: float, w_bar: float, count: int) -> FloatArray:

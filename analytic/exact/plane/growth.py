@@ -1,4 +1,4 @@
-"""What grows out of the plane over one period of a planar orbit, at a resolution and its double."""
+"""Growth out of the plane over one period of a planar orbit, at a resolution and its double."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
 from ...lazily import linalg
 from ...methods.floquet import reversible_monodromy
+from ...settled import settled
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import BeamOrbit, SteadyBeam
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
 STEPS = 24
-_FEWEST, _MOST = 12, 27  # functions
+_SIZES = (12, 18, 27)  # functions
 _SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 _FASTEST = 20.0  # growth over a period that is not looked at more closely
@@ -28,7 +29,7 @@ _SHARE = 0.15  # of the energy, from which a mode is named
 
 
 class Growth(NamedTuple):
-    """What grows out of the plane over one period.
+    """Growth out of the plane over one period: the fastest motion.
 
     Attributes
     ----------
@@ -59,15 +60,15 @@ class Growth(NamedTuple):
         return self.per_radian * frequency
 
 
-def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, steps: int = STEPS) -> tuple[Growth, bool]:
+def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
     Or two thirds as many, where half as many do not.
     """
     functions = settled_functions(blade, orbit.system)
-    rough = grown(blade, orbit, functions, steps)
+    rough = grown(blade, orbit, functions, STEPS)
     for finer in (2, 3):
-        fine = grown(blade, orbit, finer * functions, finer * steps)
+        fine = grown(blade, orbit, finer * functions, finer * STEPS)
         if not (rough.unstable or fine.unstable):
             return fine, True
         close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
@@ -118,17 +119,17 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     ValueError
         If they do not settle, for the blade turns too fast.
     """
-    before, functions = None, _FEWEST
-    while functions <= _MOST:
-        space = _space(blade, functions)
-        flap = _steady_modes(space, with_points_for(planar, space.functions))[0][:4]
-        if before is not None and np.abs(flap / before - 1.0).max() < _SETTLED:
-            return functions - functions // 3
-        before, functions = flap, 3 * space.functions // 2
-    raise ValueError(
-        f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_MOST} functions "
-        "do not resolve: rotate slower"
-    )
+
+    def flap(space: Space) -> FloatArray:
+        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[0][:4])
+
+    space, _, change = settled(lambda count: _space(blade, count), iter(_SIZES), _SETTLED, flap)
+    if change > _SETTLED:
+        raise ValueError(
+            f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_SIZES[-1]} "
+            "functions do not resolve: rotate slower"
+        )
+    return space.functions
 
 
 def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import groupby
 
 from ...beam import AnyBlade, require_undamped
 from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
-from ...methods.harmonic_balance import NoOrbitError
+from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.space import require_out_of_plane
 from .growth import Growth
-from .orbit_growth import LEAST_GROWTH, SMALLEST, GrowthAt, growths
+from .planarity import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
@@ -166,45 +165,42 @@ def stability_limit(
     require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     growth, largest = positive("growth", growth), peak_deflection("largest", largest)
-    return _limit(blade, omega, mode, growth, largest, theory)
+    return _limit(planar_orbits(blade, omega, mode, theory), growth, largest)
 
 
-@lru_cache(maxsize=256)
-def _limit(
-    blade: AnyBlade, omega: float, mode: int, least: float, largest: float, theory: Theory
-) -> StabilityLimit:
-    growth = growths(blade, omega, mode, theory)
-    seen = _scanned(growth, least, largest)
+def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit:
+    seen = _scanned(orbits, least, largest)
     searched = max(seen)
     amplitude, what, agreed = math.inf, None, True
-    if growth(searched, 2).per_radian >= least:
-        seen = _seen_finely(growth, seen, least)
+    if orbits.growth(searched, 2).per_radian >= least:
+        seen = _seen_finely(orbits, seen, least)
         low, high = _last_step(seen, least)
-        amplitude = _bisected(growth, low, high, least) if low else high
-        what = growth(amplitude, 2)
+        amplitude = _bisected(orbits, low, high, least) if low else high
+        what = orbits.growth(amplitude, 2)
         seen = {a: one for a, one in seen.items() if a < amplitude}
         beyond = min((1.0 + _CONVERGED) * amplitude, searched)
         below = [a for a in seen if seen[a].per_radian < least and a > _NEAR * amplitude]
-        agreed = growth(beyond, 3).per_radian >= least
-        agreed = agreed and growth(below[-1], 3).per_radian < least if below else False
+        agreed = orbits.growth(beyond, 3).per_radian >= least
+        agreed = agreed and orbits.growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
-        blade=blade, omega=omega, mode=mode, growth=least, amplitude=amplitude, searched=searched,
+        blade=orbits.beam, omega=orbits.omega, mode=orbits.mode,
+        growth=least, amplitude=amplitude, searched=searched,
         kind=what.kind if what else "", modes=what.modes if what else (),
         tongues=_tongues(seen), converged=agreed,
     )  # fmt: skip
 
 
-def _scanned(growth: GrowthAt, least: float, largest: float) -> dict[float, Growth]:
+def _scanned(orbits: PlanarOrbits, least: float, largest: float) -> dict[float, Growth]:
     """Return what grows at amplitudes up to the largest that exists, at the first resolution."""
     seen: dict[float, Growth] = {}
     a = min(SMALLEST, largest)
-    while a >= _NOTHING and (now := growth(a, 1)).unstable:
+    while a >= _NOTHING and (now := orbits.growth(a)).unstable:
         seen[a] = now
         a /= 1.0 + _LONG
     a = min(SMALLEST, largest)
     while True:
         try:
-            seen[a] = growth(a, 1)
+            seen[a] = orbits.growth(a)
         except NoOrbitError:
             if not seen:
                 raise
@@ -216,7 +212,9 @@ def _scanned(growth: GrowthAt, least: float, largest: float) -> dict[float, Grow
     return dict(sorted(seen.items()))
 
 
-def _seen_finely(growth: GrowthAt, seen: dict[float, Growth], least: float) -> dict[float, Growth]:
+def _seen_finely(
+    orbits: PlanarOrbits, seen: dict[float, Growth], least: float
+) -> dict[float, Growth]:
     """Return the same with finer steps at twice the resolution near where growth begins to stay.
 
     The first resolution finds the limit to a per cent or so.
@@ -225,7 +223,7 @@ def _seen_finely(growth: GrowthAt, seen: dict[float, Growth], least: float) -> d
     fine: dict[float, Growth] = {}
     a = _NEAR * rough
     while a < largest and (a < (1.0 + _STEP) * rough or fine[max(fine)].per_radian < least):
-        fine[a] = growth(a, 2)
+        fine[a] = orbits.growth(a, 2)
         a *= 1.0 + _FINE
     others = {b: one for b, one in seen.items() if not min(fine) <= b <= max(fine)}
     return dict(sorted({**others, **fine}.items()))
@@ -239,10 +237,10 @@ def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
     return (amplitudes[last] if last >= 0 else 0.0), amplitudes[last + 1]
 
 
-def _bisected(growth: GrowthAt, low: float, high: float, least: float) -> float:
+def _bisected(orbits: PlanarOrbits, low: float, high: float, least: float) -> float:
     while high > (1.0 + _BISECTED) * low:
         middle = 0.5 * (low + high)
-        grows = growth(middle, 2).per_radian >= least
+        grows = orbits.growth(middle, 2).per_radian >= least
         low, high = (low, middle) if grows else (middle, high)
     return high
 

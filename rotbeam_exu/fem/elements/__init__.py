@@ -1,4 +1,4 @@
-"""The beam formulations by the names a user gives them, those of the plane and those in space."""
+"""The beam formulations by the names a user gives them, in the plane and in space."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
     Raises
     ------
     ValueError
-        Naming what it is that the blade has, and which formulations take it.
+        It names the property of the blade, and the formulations that take it.
     """
     require_frame(beam, frame)
     if frame not in model.frames:

@@ -39,15 +39,14 @@ _FORMS = _FORMS.reshape(6, 6, 6)
 class Ancf3(Sheared, SectionSlopeNodes):
     """García-Vallejo, Mikkola and Escalona's element (2007), in its plane form; Eqs. 2-12.
 
-    Nodes carry r and the section's slope r_y = ∂r/∂y (Eq. 2, whose three slopes are those of the
-    nodes i, j and k: the print repeats i). Strains are Green-Lagrange's (Eq. 10), of a section
-    h × b that has the beam's A and I, integrated exactly over the section and at two Gauss points
-    along the element. The mass matrix (Eq. 9) is exact and holds the section's rotary inertia.
-    A blade has its own section at these points: with taper or without, frequencies converge to
-    fourth order. Where it tells no rotary inertia it has that of a homogeneous section; at a
-    setting angle sections are laminae in the plane of bending.
-    The clamp holds r = 0 besides r_y (Eq. 14): 16 elements have 132 - 4 = 128 degrees of freedom,
-    where the paper counts 130.
+    Nodes carry r and the section's slope r_y = ∂r/∂y (Eq. 2, with the slopes of the nodes i, j and
+    k: the print repeats i). Strains are Green-Lagrange's (Eq. 10), of a section h × b that has the
+    beam's A and I, integrated exactly over the section and at two Gauss points along the element.
+    The mass matrix (Eq. 9) is exact and holds the section's rotary inertia. A blade has its own
+    section at these points: with taper or without, frequencies converge to fourth order. Where it
+    tells no rotary inertia it has that of a homogeneous section; at a setting angle sections are
+    laminae in the plane of bending. The clamp holds r = 0 besides r_y (Eq. 14): 16 elements have
+    132 - 4 = 128 degrees of freedom, where the paper counts 130.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ from .polynomials import shapes
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
 _GAUSS = tuple(zip(*gauss_points(2), strict=True))
-"""Where Exudyn integrates axial force and bending moment, and the weights, as measured."""
+"""Points and weights where Exudyn integrates axial force and bending moment, as measured."""
 
 
 class _Cables(Formulation, abstract=True):

@@ -15,7 +15,7 @@ from ..lazily import exudyn, items
 
 
 class Assembly:
-    """Where the coordinates of equal elements, in a row of nodes, stand in the whole.
+    """Places of the coordinates of equal elements, in a row of nodes, among all coordinates.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The base of beam formulations: what one must offer to be driven, solved and judged."""
+"""The base of beam formulations: all that driving, solving and judging them needs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .point_masses import TurningNode, spins
 
 @dataclass(frozen=True, kw_only=True)
 class Chain:
-    """A beam laid along the x axis in an Exudyn system.
+    """A beam along the x axis in an Exudyn system.
 
     Parameters
     ----------
@@ -57,10 +57,9 @@ class Formulation(Described, abstract=True):
 
     A formulation is a frozen dataclass whose fields are its options; its class and its options
     say how to make it again. It inherits from a kind of node (`node_kinds`), and defines `lay` and
-    `axial_strain`. The coordinates of a node are those that Exudyn integrates, reference
-    values included, here as arrays of shape (..., nodes, n). A rotation by θ about the axis takes
-    them, and mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions and
-    slopes, a adds to angles.
+    `axial_strain`. The coordinates of a node are Exudyn's, reference values included, as arrays of
+    shape (..., nodes, n). A rotation by θ about the axis takes them, and mass matrix and elastic
+    forces with them, to exp(θJ) e + θ a: J turns positions and slopes, a adds to angles.
     """
 
     name: ClassVar[str]
@@ -69,7 +68,7 @@ class Formulation(Described, abstract=True):
     """One line that names the formulation."""
 
     takes_blades: ClassVar[bool] = False
-    """Whether it lays any `Blade`, not the uniform beam alone."""
+    """Whether it models any `Blade`, not the uniform beam alone."""
     takes_viscosity: ClassVar[bool] = False
     """Whether it has bending and axial damping."""
     leaves_plane: ClassVar[bool] = False
@@ -99,7 +98,7 @@ class Formulation(Described, abstract=True):
 
     @property
     def meshes(self) -> tuple[int, ...]:
-        """Numbers of elements on which it is judged; none of half, the same and twice as many."""
+        """Numbers of elements on which it is judged; if none, half, the same and twice as many."""
         return ()
 
     @property
@@ -188,9 +187,9 @@ class Formulation(Described, abstract=True):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the kinetic energy T and the angular momentum L_z = ∂T/∂w about the axis.
 
-        Both are (samples,). The velocity in the plane of bending has a rotation by c w in it;
-        normal to the plane a point moves by s w times its distance x along the clamp's line, with
-        c = cos ψ and s = sin ψ.
+        Both are (samples,). With c = cos ψ and s = sin ψ, the velocity in the plane of bending
+        contains a rotation by c w. Normal to it a point moves by s w times its distance x along the
+        clamp's line.
 
         Parameters
         ----------

@@ -1,11 +1,11 @@
 """Linear elasticity in floating frames: one for the whole beam, or substructures in a row.
 
 A substructure is a Bernoulli-Euler beam of cubic finite elements, cells, whose strain energy
-½ u·K u is quadratic in displacements u seen from a frame that floats with it. As positions r and
-slopes r' of its nodes are the coordinates, r = r_0 + R(α) (X + u) is interpolated as an ANCF
-element does: kinetic energy is exact with a constant mass matrix, rigid connection of neighbors
-is sharing a node, and all local modes are in. Only the strains are linear, in each frame. Its
-angle α is that of the tangent at the first node, or of the chord from the first to the last.
+½ u·K u is quadratic in displacements u seen from a frame that floats with it. Positions r and
+slopes r' of its nodes are the coordinates, so r = r_0 + R(α) (X + u) is interpolated as in an ANCF
+element. The kinetic energy is then exact with a constant mass matrix, neighbors connect rigidly by
+sharing a node, and all local modes are in. Only the strains are linear, in each frame. Its angle α
+is the angle of the tangent at the first node, or of the chord from the first to the last.
 """
 
 from __future__ import annotations

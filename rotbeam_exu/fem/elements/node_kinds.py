@@ -1,4 +1,4 @@
-"""Kinds of nodes: how coordinates turn, what the clamp holds of them, what a state makes them.
+"""Kinds of nodes: how coordinates turn, which of them the clamp holds, and their values in a state.
 
 The clamp turns about z, the normal of the plane, and in space holds what would leave the plane.
 """

@@ -28,7 +28,7 @@ def lagrange(xi: FloatArray, degree: int, order: int = 0) -> FloatArray:
 
 
 def scales(length: float) -> FloatArray:
-    """Return what the shape functions of a cell of `length` are times those of a unit one, (4,)."""
+    """Return the factors from a unit cell's shape functions to a cell's of `length`, (4,)."""
     return np.array([1.0, length, 1.0, length])
 
 

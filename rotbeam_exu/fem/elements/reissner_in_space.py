@@ -42,7 +42,7 @@ class FrameNodes(Formulation, abstract=True):
     fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1, 2)
 
     def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """Give p = (cos θ/2, 0, 0, sin θ/2), of which |p| = 1 holds one."""
+        """Give p = (cos θ/2, 0, 0, sin θ/2); |p| = 1 holds one of them."""
         gradient = np.zeros((3, 7))
         gradient[0, 4] = gradient[1, 5] = 1.0
         gradient[2, 3], gradient[2, 6] = -math.sin(0.5 * angle), math.cos(0.5 * angle)
@@ -147,7 +147,7 @@ class SpaceExact(Sheared, FrameNodes):
         self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
         velocities: FloatArray, rate: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
-        """Return those of velocities and turning rates linear over the elements."""
+        """Return both for velocities and turning rates linear over the elements."""
         mesh = Mesh(blade=beam, elements=coordinates.shape[-2] - 1)
         m, inertia = mesh.sections.mass_per_length[:, None], _inertia(mesh)
         r, v = coordinates[..., :3], velocities[..., :3]
@@ -200,7 +200,7 @@ def _inertia(mesh: Mesh) -> FloatArray:
 def _strains(length: float, coordinates: FloatArray) -> FloatArray:
     """Return the six strains (..., elements, 6): stretch, shears, torsion, curvatures.
 
-    The logarithm in SE(3) of the motion from one node to the other, less that of the straight
+    The logarithm in SE(3) of the motion from one node to the other, relative to the straight
     element, over its length.
     """
     r, turn = coordinates[..., :3], directors(coordinates[..., 3:])

@@ -1,15 +1,14 @@
 """What `rotbeam run` says of its own error: mesh and step apart, against the exact beam."""
 
-import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits
-from rotbeam_exu.cli.assessment import assess
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Ancf3, Exact
+from rotbeam_exu.verification.assessment import assess
 
 OMEGA = 6.0
 
@@ -85,18 +84,3 @@ def test_an_orbit_that_cannot_be_had_is_a_line_and_no_failure():
     titles = dict(found.lines())
     assert titles["exact ω_NL"].startswith("cannot be had: ")
     assert found.warnings(4, 1e-3) == []
-
-
-def test_the_summary_of_a_run(call, tmp_path):
-    code, out, err = call(
-        "run", "--elements", "8", "--step", "0.01", "--duration", "8", "--out", tmp_path
-    )
-    assert code == 0
-    assert re.search(r"^verdict +checks passed$", out, re.MULTILINE)
-    assert "the estimator's, without mesh and step" in out
-    assert "exact ω_n             3.730401 rad/s (Bernoulli-Euler)" in out
-    shown = re.search(r"error of the run's (\S+), beyond that of ω_n (\S+): the step", out)
-    # Second order: a hundred times the 1.9e-5 of steps of 1 ms, and a little of the mesh.
-    assert float(shown[2]) == pytest.approx(-1.9e-3, rel=0.1)
-    assert "warning: the error of the mesh" in err
-    assert "warning: the error of the step, and the mesh in the swing," in err

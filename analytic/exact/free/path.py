@@ -1,0 +1,88 @@
+"""The path of free orbits that grow out of one linear mode."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade
+from ...methods.continuation import (
+    MOST_FUNCTIONS,
+    THOROUGH,
+    Care,
+    Path,
+    linear_orbit,
+    meets_the_equations,
+)
+from ...methods.harmonic_balance import LastTangent, solve
+from ...methods.newton import NoOrbitError
+from ...theory import BERNOULLI_EULER, Theory
+from ..beam.continuum import Continuum
+from ..beam.steady import SteadyBeam, steady_rotation
+from ..linear.modes import solve_modes
+from .branch import AmplitudeNotReachedError
+
+_LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ModePath:
+    """Free orbits out of one mode, laid as far as they were asked for; base of `Backbone`."""
+
+    beam: AnyBlade
+    omega: float
+    mode: int = 1
+    theory: Theory = BERNOULLI_EULER
+    model: Continuum = field(repr=False)
+    care: Care | None = field(default=None, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Its name in a sentence."""
+        return f"mode {self.mode} at omega = {self.omega:g} rad/s"
+
+    @property
+    def omega_n(self) -> float:
+        """Linear frequency ω_n [rad/s]."""
+        return float(self.modes[self.mode - 1]) * self.beam.frequency_scale
+
+    @property
+    def modes(self) -> FloatArray:
+        """Nondimensional frequencies that the functions resolve."""
+        return self._begun[0]
+
+    @property
+    def path(self) -> Path[SteadyBeam]:
+        """Orbits by their amplitude, laid as far as they were asked for."""
+        return self._begun[1]
+
+    @cached_property
+    def _begun(self) -> tuple[FloatArray, Path[SteadyBeam]]:
+        """The modes and the path, with as many functions as its smallest orbits need."""
+        steady = steady_rotation(self.beam, self.omega, self.model)
+        small = 0.02 / self.mode**2
+        while True:
+            modes, tangent = solve_modes(steady), LastTangent()
+            shape, linear = modes.coordinates[self.mode - 1], modes.frequencies[self.mode - 1]
+            try:
+                seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)
+                double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
+            except NoOrbitError as failed:
+                reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
+            else:
+                if meets_the_equations(double):
+                    path = Path(
+                        seed=seed, double=double, longest=_LONGEST_STEP,
+                        care=self.care or THOROUGH, tangent=tangent,
+                    )  # fmt: skip
+                    return modes.frequencies[: steady.functions // 2], path
+                reason = (
+                    f"{steady.functions} functions meet the equations of motion to "
+                    f"{double.residual:.1e} only; rotate slower"
+                )
+            steady = steady.refined()
+            if steady.functions > MOST_FUNCTIONS:
+                raise AmplitudeNotReachedError(
+                    f"no periodic orbit grows out of {self.name} even at a = {small:g}: {reason}"
+                )

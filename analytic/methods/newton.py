@@ -1,0 +1,147 @@
+"""Newton's method with a factored tangent that serves as long as it contracts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..lazily import linalg
+
+Vector = Callable[[FloatArray], FloatArray]
+
+
+class NoOrbitError(Exception):
+    """No orbit was found, or no way on; the message says why.
+
+    Attributes
+    ----------
+    last : Orbit, list or None
+        The last orbit found, or all along a curve.
+    remedy : str
+        What to try, where the usual remedies do not help.
+    """
+
+    def __init__(self, message: str, last: Any = None, remedy: str = "") -> None:
+        super().__init__(message)
+        self.last, self.remedy = last, remedy
+
+
+class Root(NamedTuple):
+    """Solution (N,) of N equations, the last factors of their tangent, and the steps it took."""
+
+    z: FloatArray
+    factors: Any
+    steps: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Newton:
+    """Newton's method, with its tolerances.
+
+    Attributes
+    ----------
+    converged : float
+        Size of a change that is left out.
+    slow : float
+        A contraction worse than this pays for a new tangent.
+    steps, tangents : int
+        The most that are taken.
+    stagnates : float
+        Size of changes that round-off no longer lets contract.
+    largest : float
+        Size of a change that leads nowhere.
+    broyden : bool
+        Improve the steps of an old tangent by what those before tell of it.
+    """
+
+    converged: float
+    slow: float
+    steps: int
+    tangents: int = 100
+    stagnates: float = 0.0
+    largest: float = np.inf
+    broyden: bool = False
+
+    def root(
+        self,
+        z: FloatArray,
+        residual: Vector,
+        linearized: Callable[[FloatArray], tuple[Any, FloatArray]],
+        *,
+        size: Callable[[FloatArray, FloatArray], float] = lambda z, change: length(change),
+        factors: Any = None,
+    ) -> Root | None:
+        """Return the root near `z`, None if none is found.
+
+        Parameters
+        ----------
+        z : ndarray (N,)
+        residual : callable
+            Of z, (N,).
+        linearized : callable
+            Of z: the factors of the tangent, as `factored` returns them, and the residual.
+        size : callable
+            Of z and a change: what is small where it has converged.
+        factors : optional
+            Those of a tangent near by, tried first.
+        """
+        last, own, tangents, steps = np.inf, False, 0, list[FloatArray]()
+        for count in range(1, self.steps + 1):
+            if factors is None:
+                tangents += 1
+                if tangents > self.tangents:
+                    return None
+                (factors, defect), own, steps = linearized(z), True, []
+            else:
+                defect = residual(z)
+            if not np.all(np.isfinite(defect)):
+                return None
+            change = -solved(factors, defect)
+            if self.broyden:
+                change = _improved(change, steps)
+                steps.append(change)
+            z = z + change
+            now = size(z, change)
+            contraction = now / last if np.isfinite(last) else 1.0
+            stagnates = own and now < self.stagnates and contraction > self.slow
+            if stagnates or now * min(1.0, contraction) < self.converged:
+                return Root(z, factors, count)
+            if not now <= self.largest:
+                return None
+            if contraction > self.slow and np.isfinite(last):
+                factors = None
+            last = now
+        return None
+
+
+def length(vector: FloatArray) -> float:
+    """Return the length of a vector; many times faster than numpy's norm."""
+    return float(np.sqrt(vector @ vector))
+
+
+def factored(matrix: FloatArray) -> Any:
+    """Return the LU factors of a matrix, which is overwritten where its order allows."""
+    return linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
+
+
+def solved(factors: Any, vector: FloatArray) -> FloatArray:
+    """Return the solution of the factored equations."""
+    # As `linalg.lu_solve`, whose checks take longer than it does.
+    return np.asarray(linalg.lapack.dgetrs(*factors, vector)[0])
+
+
+def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:
+    """Return a step by a factored tangent, improved by what the `steps` since then tell of it.
+
+    Broyden's method, in the form that keeps steps instead of matrices (Kelley 1995, Sec. 7.3).
+    """
+    if not steps:
+        return step
+    for last, following in pairwise(steps):
+        step = step + following * (last @ step) / (last @ last)
+    return np.asarray(step / (1.0 - (steps[-1] @ step) / (steps[-1] @ steps[-1])))

@@ -1,0 +1,44 @@
+"""Refinement until it changes nothing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+SizeT = TypeVar("SizeT")
+FoundT = TypeVar("FoundT")
+
+
+def settled(
+    solve: Callable[[SizeT], FoundT],
+    sizes: Iterator[SizeT],
+    tolerance: float,
+    of: Callable[[FoundT], ArrayLike],
+) -> tuple[FoundT, FoundT, float]:
+    """Return a result, the finer one that confirms it, and the largest change of their numbers.
+
+    They are the first two in a row whose numbers `of` a result agree to the tolerance, or the last
+    two of all sizes: the caller refuses what has not settled. Relative changes are those of
+    logarithms.
+    """
+    found, change = solve(next(sizes)), math.inf
+    for size in sizes:
+        before, found = found, solve(size)
+        change = float(np.max(np.abs(np.subtract(of(found), of(before)))))
+        if change <= tolerance:
+            break
+    return before, found, change
+
+
+def refined(
+    size: SizeT, finer: Callable[[SizeT], SizeT], last: Callable[[SizeT], bool]
+) -> Iterator[SizeT]:
+    """Yield a size and ever finer ones, until one is the last."""
+    yield size
+    while not last(size):
+        size = finer(size)
+        yield size
