@@ -10,7 +10,7 @@ import pytest
 from analytic import Beam, Blade, Circle, Ellipse, OutOfPlane, Rectangle, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section_shapes import Gyration, SectionShape
-from rotbeam_exu.cli.sections import SectionOptions
+from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()
 UNIT = Blade(

@@ -73,7 +73,7 @@ THEORY = {
     "respond --tip-force 1e-3 --omega 6 --damping-ratio 0.1 --from 3 --to 3.1 --points 2 "
     "--no-figure -o out": "written",
     "animate --duration 0.1 --rate 10 -o out/film.gif": "written",
-    "figure 8 -o out": "written",
+    "figure 13 -o out": "written",
     "kit out/kit": "files in",
     "judge out/kit/sample --report out/page.html": "outcome",
 }

@@ -14,13 +14,12 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import comparison
 
 GOLDEN = Path(__file__).parent / "golden"
+AMPLITUDES = (0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6)  # of the thirty in the golden data
 
 
 @pytest.fixture(scope="module")
 def lines(beam):
-    return comparison.backbones.backbones(
-        beam, (2.0, 4.0, 6.0, 8.0), np.linspace(0.02, 0.6, 30).round(3).tolist()
-    )
+    return comparison.backbones.backbones(beam, (2.0, 4.0, 6.0, 8.0), AMPLITUDES)
 
 
 @pytest.fixture(scope="session")
@@ -74,6 +73,7 @@ def test_to_leading_order_frm_beats_fre_by_two_orders(beam, omega):
 
 def test_backbones_agree_with_the_golden_data(lines):
     kept = golden("figure_14-backbone")
+    kept = kept[kept["a"].isin(AMPLITUDES)]
     found = lines[["backbone", "as_printed"]].to_dataframe().reset_index()
     assert kept["model"].tolist() == found["model"].tolist()
     assert np.array_equal(kept["omega [rad/s]"], found["omega"])

@@ -31,7 +31,7 @@ def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
     )
     q = run["q"].to_numpy() / beam.length
     start, after = q[0], q[(q.size - 1) // 4]
-    # Asked: 1e-3 of the amplitude, 1e-5 of the frequency. Mesh and step leave 4e-6 of the frequency.
+    # Asked: 1e-3 of the amplitude, 1e-5 of the frequency. Mesh and step leave 4e-6 of it.
     assert abs(after - start) < 1e-3 * amplitude
     assert steady_oscillation(run).frequency == pytest.approx(backbone.frequency[0], rel=1e-5)
     # And not only then: the whole orbit agrees.

@@ -70,7 +70,7 @@ def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damp
     exact = damping_ratios(blade, omega, 1)[0]
     start = periodic_orbits(beam, omega, [0.005])
     run = simulate(
-        blade, SteadyRotation(omega=omega), element=element, elements=8, duration=8.0, step=8e-3,
+        blade, SteadyRotation(omega=omega), element=element, elements=16, duration=8.0, step=4e-3,
         frame=frame, initial_state=lambda x: start.state(0, x),
     )  # fmt: skip
     frequency = linear_modes(beam, omega, 1).frequencies[0]

@@ -20,7 +20,7 @@ def test_a_quarter_of_a_period(beam, model, close):
     orbit = periodic_orbits(beam, 6.0, [0.1])
     period = 2.0 * np.pi / orbit.frequency[0]
     run = simulate(
-        beam, SteadyRotation(omega=6.0), element=model, elements=8, step=period / 2000,
+        beam, SteadyRotation(omega=6.0), element=model, elements=8, step=period / 4000,
         duration=period / 4, frame="rotating", initial_state=lambda x: orbit.state(0, x, phase=1.0),
     )  # fmt: skip
     time = run["time"].to_numpy()
