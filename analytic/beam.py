@@ -245,9 +245,9 @@ def undamped(beam: AnyBlade) -> AnyBlade:
     return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
 
 
-def require_undamped(beam: AnyBlade, what: str) -> None:
+def require_undamped(beam: AnyBlade, what: str, *, planar: bool = True) -> None:
     """Refuse a damped blade where `what` has no damping."""
-    require_planar(beam)
+    (require_planar if planar else require_blade)(beam)
     if any(beam.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "

@@ -13,6 +13,7 @@ from typing import Any
 from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
+from analytic.line import Line
 from analytic.section_shapes import SectionShape
 
 _MATERIAL = tuple(field.name for field in fields(Beam))
@@ -59,9 +60,10 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
-    lengths [m]; each [[blade.point_mass]] position, mass and inertia; [blade.damping]
-    bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not of point
-    masses, each zero where it is not given.
+    lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
+    [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m];
+    [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
+    and not of point masses, each zero where it is not given.
 
     Raises
     ------
@@ -178,7 +180,7 @@ def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
 def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
     _require_keys(
         table, "[blade]", source, ("length", "section"),
-        ("hub_radius", "setting_angle", "point_mass", "damping"),
+        ("hub_radius", "setting_angle", "point_mass", "damping", "line"),
     )  # fmt: skip
     _require_keys(
         table["section"], "[blade.section]", source, _STIFFNESS[1:],
@@ -195,6 +197,7 @@ def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
             raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
     parts["section"] = Section(**section)
     parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
+    parts["line"] = _part(Line, table.get("line", {}), "[blade.line]", source)
     parts["point_masses"] = tuple(
         _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam, Damping, Ellipse, Rectangle
+from analytic import Beam, Blade, Damping, Ellipse, Rectangle, Section
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.runs.attributes import beam_attributes, beam_of
 
@@ -150,3 +150,29 @@ def test_any_file_is_a_beam_or_a_sentence(tmp_path_factory, content):
     else:
         refused = f"{path}: {beam!r}"
     assert str(path) in refused
+
+
+def test_a_twisted_and_coned_blade(tmp_path):
+    """As the same made by hand; a key that is none is named."""
+    path = tmp_path / "blade.toml"
+    text = (
+        "[blade]\nlength = 8.0\n[blade.section]\naxial_stiffness = 5e6\nbending_stiffness = 566.0\n"
+        "mass_per_length = 0.2\n[blade.section.out_of_plane]\nbending_ratio = 0.1\n"
+        "torsion_ratio = 0.2\n[blade.line]\ntwist = [[0.0, 0.3], [4.0, 0.1], [8.0, 0.0]]\n"
+        "precone = 0.04\nmass_offset = [0.01, 0.0]\n"
+        "[[blade.point_mass]]\nposition = 8.0\nmass = 0.1\noffset = [0.02, 0.0]\n"
+    )
+    path.write_text(text)
+    section = Section(axial_stiffness=5e6, bending_stiffness=566.0, mass_per_length=0.2)
+    by_hand = (
+        Blade(length=8.0, section=section)
+        .with_section_out_of_plane(0.1, 0.2)
+        .with_twist(((0.0, 0.3), (4.0, 0.1), (8.0, 0.0)))
+        .with_precone(0.04)
+        .with_offsets(mass=(0.01, 0.0))
+        .with_tip_mass(0.1, offset=(0.02, 0.0))
+    )
+    assert load_beam(path) == by_hand
+    path.write_text(text.replace("precone", "cone"))
+    with pytest.raises(ValueError, match=r"unknown key 'cone' in \[blade.line\]; did you mean 'pr"):
+        load_beam(path)

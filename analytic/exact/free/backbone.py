@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal, cast
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -11,12 +12,17 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
+from ..space.continuum import SpaceContinuum
+from ..space.modes import reversible_modes, space_modes_on
+from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
-from .orbits import Orbits, orbits_of
+from .orbits import Orbits, SpaceOrbits, orbits_of
 from .path import ModePath
 
 _MOST_COEFFICIENTS = 1000  # an orbit for each
+_DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
+_NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -93,6 +99,57 @@ class Backbone(ModePath):
         return followed_branch(self, peak_deflection("up_to", up_to))
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SpaceBackbone(Backbone):
+    """Free orbits of a blade in space that grow out of one mode; made by `backbone`.
+
+    Of blades that time reversal maps onto themselves by a half turn: with any twist and setting
+    angle, without precone, prebend, sweep and offsets.
+
+    Attributes
+    ----------
+    gauge : {"lag", "flap"} or None
+        Place of the tip whose peak is the amplitude; None for the larger of both in the mode.
+    """
+
+    gauge: Literal["lag", "flap"] | None = None
+
+    def orbits(self, amplitudes: float | Sequence[float] | FloatArray) -> SpaceOrbits:
+        """Return the orbits of peaks of the gauge over L, as `periodic_orbits` does."""
+        return cast(SpaceOrbits, orbits_of(self, amplitudes, SpaceOrbits))
+
+    def softening(self) -> tuple[float, float]:
+        """Return λ_ω, extrapolated from three small orbits, and what the third changed.
+
+        Near a pole, as where lag meets twice the flap, it changes fast with the amplitude.
+        """
+        small = self.path.seed.amplitude
+        third = self.path.at(3.0 * small)
+        first, second, last = self._softenings(self.path.seed, self.path.double, third)
+        value = 1.5 * first - 0.6 * second + 0.1 * last
+        return value, abs(value - (4.0 * first - second) / 3.0)
+
+    def finer(self, model: SpaceContinuum) -> SpaceContinuum:
+        """Return a model on half as many functions again."""
+        return model.refined()
+
+    def _rotation(self) -> SpaceBlade:
+        steady = space_rotation(self.beam, self.omega, self.model)
+        if not self.model.functions.blade.half_turn:
+            raise ValueError(
+                "motions of this blade have no time reversal by a half turn, which its free orbits "
+                "are found with: leave precone, prebend, sweep and offsets out"
+            )
+        gauge = self.gauge
+        if gauge is None:
+            shares = space_modes_on(self.model, self.beam, self.omega, self.mode).shares
+            gauge = "flap" if shares[-1, 0] > shares[-1, 1] else "lag"
+        return replace(steady, direction=_DIRECTIONS[gauge])
+
+    def _solved(self, steady: SpaceBlade) -> tuple[FloatArray, FloatArray]:
+        return reversible_modes(steady)
+
+
 def backbone(
     beam: AnyBlade,
     omega: float,
@@ -100,6 +157,7 @@ def backbone(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
+    gauge: Literal["lag", "flap"] | None = None,
 ) -> Backbone:
     """Return the backbone of a mode: its orbits, their curve, and what branches off.
 
@@ -114,7 +172,11 @@ def backbone(
     theory : Theory
         Extension, shear and rotary inertia.
     functions : int
-        Least number of functions for the tangent's angle; they grow where an orbit needs more.
+        Least number of functions for the tangent's angle, half as many for each curvature in
+        space; they grow where an orbit needs more.
+    gauge : {"lag", "flap"}, optional
+        Place of the tip whose peak is the amplitude, of a blade in space: by default that of which
+        the mode has more. "flap" takes a planar blade into space, if its section is known.
 
     Raises
     ------
@@ -129,7 +191,15 @@ def backbone(
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     warn_if_rpm(beam, omega)
-    require_undamped(beam, "a damped blade has no free periodic orbits")
+    if gauge not in (None, *_DIRECTIONS):
+        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+    if lives_in_space(beam) or gauge == "flap":
+        require_undamped(beam, _NO_FREE_ORBITS, planar=False)
+        in_space = space_continuum(beam, theory, max(functions // 2, 2 * mode + 2))
+        return SpaceBackbone(
+            beam=beam, omega=omega, mode=mode, theory=theory, model=in_space, gauge=gauge
+        )
+    require_undamped(beam, _NO_FREE_ORBITS)
     model = resolved_model(beam, mode, theory, functions)
     return Backbone(beam=beam, omega=omega, mode=mode, theory=theory, model=model)
 
@@ -142,6 +212,7 @@ def periodic_orbits(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
+    gauge: Literal["lag", "flap"] | None = None,
 ) -> Orbits:
     """Return the periodic orbits of the exact beam that grow out of one mode.
 
@@ -154,7 +225,7 @@ def periodic_orbits(
 
     Parameters
     ----------
-    beam, omega, mode, theory, functions
+    beam, omega, mode, theory, functions, gauge
         As for `backbone`.
     amplitudes : float or sequence of float
         Peak tip deflections |q|/L, above 0 and below 1, in any order.
@@ -180,7 +251,8 @@ def periodic_orbits(
     >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
     ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
-    return backbone(beam, omega, mode, theory=theory, functions=functions).orbits(amplitudes)
+    of = backbone(beam, omega, mode, theory=theory, functions=functions, gauge=gauge)
+    return of.orbits(amplitudes)
 
 
 def backbone_curve(

@@ -95,7 +95,7 @@ class OrbitSet:
         orbit, length = self._orbit(i), self.beam.length
         at = points_of_beam("x", x, length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        z = length * orbit.system.model.integrated(orbit.system.model.slope(q), at)
+        z = length * orbit.system.model.axis(q, at)
         return z.real, z.imag
 
     @cached_property

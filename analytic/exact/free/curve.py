@@ -23,7 +23,6 @@ from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...warning import warn
-from ..beam.discretization import finer_model
 from ..beam.steady import BeamOrbit
 from .branch import AmplitudeNotReachedError
 from .internal_resonance import nearest_resonance
@@ -176,7 +175,7 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
         of = replace(of, model=model, care=care_for(tolerance))
         curve = fitted_curve(of, up_to, count, tolerance)
         largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
-        model = finer_model(largest.system.model)
+        model = of.finer(largest.system.model)
         change = frequency_change(largest, of.path.tangent)
         if change <= tolerance or model.bending > MOST_FUNCTIONS:
             break

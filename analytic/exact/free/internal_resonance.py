@@ -182,7 +182,7 @@ def pinned(
 
 def _drives(orbit: BeamOrbit, k: int) -> bool:
     """Return whether the orbit has harmonic k at all: without Coriolis forces no even ones."""
-    coupled = orbit.system.rate * orbit.system.model.blade.setting
+    coupled = orbit.system.rate * orbit.system.model.setting
     return k % 2 == 1 or abs(coupled) > 1e-9
 
 

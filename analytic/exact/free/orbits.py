@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
-from ...input_checks import finite_array, finite_number, finite_values
+from ...input_checks import finite_array, finite_number, finite_values, points_of_beam
 from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
-from ..beam.discretization import finer_model
+from ..beam.state import BeamState
 from ..beam.steady import BeamOrbit
 from .branch import AmplitudeNotReachedError, OrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
@@ -136,7 +136,37 @@ class Orbits(OrbitSet):
         )
 
 
-def orbits_of(of: ModePath, amplitudes: ArrayLike) -> Orbits:
+class SpaceOrbits(Orbits):
+    """Free periodic orbits of a blade in space; made by `periodic_orbits`.
+
+    As `Orbits`, but q is the gauge, the tip's place along lag or flap less that of the steady
+    state, and the amplitude its peak, to both sides the same.
+    """
+
+    def tip(self, i: int, phase: ArrayLike) -> FloatArray:
+        """Return the tip's places from the clamp [m] at the phases [rad], (phases, 3).
+
+        Along the clamp, in the direction of rotation (lag) and normal to both (flap).
+        """
+        orbit = self._orbit(i)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        return np.asarray(self.beam.length * orbit.system.model.tip(q))
+
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
+        """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        return self.beam.length * orbit.system.model.axis(q, at)
+
+    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
+        """Refuse: a state of the plane does not hold it; take `axis`."""
+        raise ValueError(
+            "the state of a blade in space is more than u, v and their rates: take axis, at two "
+            "phases for the rates"
+        )
+
+
+def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits] = Orbits) -> Orbits:
     """Return the orbits of a backbone, as `periodic_orbits` says."""
     asked = finite_values("amplitudes", amplitudes)
     if asked.min() <= 0.0 or asked.max() >= 1.0:
@@ -150,7 +180,7 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike) -> Orbits:
     found = _confirmed(of, found)
     warn_of_resonances(list(found.values()), of.modes, of.mode, of.beam.frequency_scale)
     kept = [found[a] for a in ascending[place].tolist() if a in found]
-    orbits = _packed(of, kept) if kept else None
+    orbits = _packed(of, kept, kind) if kept else None
     if orbits is None or refused:
         raise AmplitudeNotReachedError(refused, orbits)
     return orbits
@@ -180,7 +210,7 @@ def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamO
         suspects = [a for a, o in found.items() if outstanding(o, of.modes, of.mode)]
         if not suspects:
             break
-        of = replace(of, model=finer_model(of.path.seed.system.model))
+        of = replace(of, model=of.finer(of.path.seed.system.model))
         finer, _ = _found(of, np.sort(suspects))
         changes = []
         for a in suspects:
@@ -210,23 +240,20 @@ def _why(of: ModePath, a: float) -> str:
     return f"{nearest}; ask for amplitudes beyond it, or take backbone(...).branch to follow it"
 
 
-def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
-    """Return the orbits as a value; λ_ω is extrapolated from the two smallest."""
-    linear = float(of.modes[of.mode - 1])
-    near, far = (
-        (1.0 - o.frequency / linear) / o.amplitude**2 for o in (of.path.seed, of.path.double)
-    )
+def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits:
+    """Return the orbits as a value."""
+    softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
     per_second = of.beam.frequency_scale
-    return Orbits(
+    return kind(
         beam=of.beam,
         omega=of.omega,
         mode=of.mode,
-        omega_n=linear * per_second,
+        omega_n=of.omega_n,
         amplitude=np.array([orbit.amplitude for orbit in orbits]),
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
-        lambda_omega=float((4.0 * near - far) / 3.0),
-        lambda_omega_error=float(abs(near - far) / 3.0),
+        lambda_omega=softening,
+        lambda_omega_error=error,
         harmonics=np.array([np.pad(o.gauge_sines, (0, count - o.harmonics)) for o in orbits]),
         frequency_error=np.array([orbit.frequency_error for orbit in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -17,8 +18,9 @@ from ...methods.continuation import (
 )
 from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
+from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.continuum import Continuum
+from ..beam.discretization import finer_model
 from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import solve_modes
 from .branch import AmplitudeNotReachedError
@@ -34,7 +36,7 @@ class ModePath:
     omega: float
     mode: int = 1
     theory: Theory = BERNOULLI_EULER
-    model: Continuum = field(repr=False)
+    model: Any = field(repr=False)
     care: Care | None = field(default=None, repr=False)
 
     @property
@@ -57,14 +59,36 @@ class ModePath:
         """Orbits by their amplitude, laid as far as they were asked for."""
         return self._begun[1]
 
+    def _rotation(self) -> Any:
+        """Return the system of the model."""
+        return steady_rotation(self.beam, self.omega, self.model)
+
+    def _solved(self, steady: Any) -> tuple[FloatArray, FloatArray]:
+        """Return frequencies and shapes (modes, n) about the steady state, odd ones in the sine."""
+        modes = solve_modes(steady)
+        return modes.frequencies, modes.coordinates
+
+    def finer(self, model: Any) -> Any:
+        """Return a model on half as many functions again."""
+        return finer_model(model)
+
+    def softening(self) -> tuple[float, float]:
+        """Return λ_ω, extrapolated from the two smallest orbits, and what that changed."""
+        near, far = self._softenings(self.path.seed, self.path.double)
+        return (4.0 * near - far) / 3.0, abs(near - far) / 3.0
+
+    def _softenings(self, *orbits: Orbit[Any]) -> list[float]:
+        linear = float(self.modes[self.mode - 1])
+        return [float((1.0 - one.frequency / linear) / one.amplitude**2) for one in orbits]
+
     @cached_property
     def _begun(self) -> tuple[FloatArray, Path[SteadyBeam]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
-        steady = steady_rotation(self.beam, self.omega, self.model)
+        steady = self._rotation()
         small = 0.02 / self.mode**2
         while True:
-            modes, tangent = solve_modes(steady), LastTangent()
-            shape, linear = modes.coordinates[self.mode - 1], modes.frequencies[self.mode - 1]
+            (frequencies, shapes), tangent = self._solved(steady), LastTangent()
+            shape, linear = shapes[self.mode - 1], frequencies[self.mode - 1]
             try:
                 seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)
                 double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
@@ -76,7 +100,7 @@ class ModePath:
                         seed=seed, double=double, longest=_LONGEST_STEP,
                         care=self.care or THOROUGH, tangent=tangent,
                     )  # fmt: skip
-                    return modes.frequencies[: steady.functions // 2], path
+                    return frequencies[: steady.functions // 2], path
                 reason = (
                     f"{steady.functions} functions meet the equations of motion to "
                     f"{double.residual:.1e} only; rotate slower"

@@ -140,6 +140,22 @@ def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
     return 1.0 / inverse[kept], np.asarray(shapes[:, kept], dtype=np.complex128)
 
 
+def reversible_modes(steady: SpaceBlade) -> tuple[FloatArray, FloatArray]:
+    """Return frequencies and shapes (modes, n) of a blade that time reversal maps onto itself.
+
+    Odd coordinates go with the sine, the others with the cosine; the gauge of each is 1.
+    """
+    frequencies, shapes = _solved(steady)
+    odd = steady.odd
+    assert odd is not None
+    # The phase that turns the odd ones into the sine.
+    turn = np.sum(shapes[odd] ** 2, axis=0)
+    shapes = shapes * 1j * np.conj(np.sqrt(turn / np.abs(turn)))
+    parts = np.where(odd[:, None], -shapes.imag, shapes.real).T
+    gauge = parts @ steady.gauge_gradient(steady.equilibrium[None])[0]
+    return frequencies, np.asarray(parts / gauge[:, None])
+
+
 def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:
     """Return the shares of flap, lag and torsion in the kinetic energy, (modes, 3)."""
     center, turn, masses = steady.model.displacements(steady.equilibrium)

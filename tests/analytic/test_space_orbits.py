@@ -1,0 +1,86 @@
+"""Free periodic orbits of blades in space: known numbers, the plane, conservation, refusals."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Theory, backbone, linear_modes, periodic_orbits
+
+SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
+BLADE = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+).with_section_out_of_plane(1.0 / 16.0, 0.08)
+
+
+def twisted(degrees):
+    return BLADE.with_twist(math.radians(degrees)) if degrees else BLADE
+
+
+@pytest.mark.parametrize(
+    ("twist", "omega", "linear", "softening"),
+    [
+        (30.0, 1.0, 1.394601723, 0.438884),
+        (30.0, 2.0, 2.308588441, -0.253500),
+        (0.0, 1.0, 1.396221420, 0.371572),
+        (0.0, 2.0, 2.314159324, -0.313112),
+    ],
+)
+def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
+    """By another code; between the two speeds is the pole where lag is twice flap."""
+    found = periodic_orbits(twisted(twist), omega, [0.05], gauge="flap", theory=SOLID)
+    assert found.omega_n == pytest.approx(linear, abs=6e-10)
+    # Of six decimals, known to 1 to 5 of the seventh.
+    assert found.lambda_omega == pytest.approx(softening, abs=1e-6)
+    assert found.lambda_omega_error < 1e-5
+    assert found.frequency_error.max() < 1e-9
+
+
+@pytest.mark.filterwarnings("ignore:internal resonance")
+def test_frequencies_over_the_amplitude():
+    """The known ones have the gauge a quarter of a period after zero, just below the peak."""
+    known = {0.05: 1.00062592, 0.1: 1.00241430, 0.15: 1.00512648}
+    of, asked = backbone(twisted(30.0), 2.0, theory=SOLID, gauge="flap"), np.array(list(known))
+    for _ in range(2):
+        orbits = of.orbits(asked)
+        quarter = [one.gauge(np.array([0.5 * np.pi]))[0] for one in orbits.nondimensional]
+        asked = asked * np.array(list(known)) / quarter
+    ratio = of.orbits(asked).frequency / orbits.omega_n
+    assert ratio == pytest.approx(np.array(list(known.values())), abs=1e-8)
+
+
+def test_an_orbit_keeps_its_integral_and_is_followed_by_its_own_tip():
+    orbits = periodic_orbits(twisted(30.0), 1.0, [0.1], theory=SOLID)
+    assert orbits.jacobi_drift.max() < 1e-10
+    phase = np.linspace(0.0, 2.0 * np.pi, 400)
+    tip = orbits.tip(0, phase)
+    assert np.ptp(tip[:, 2]) / 2.0 == pytest.approx(0.1, rel=1e-4)  # flap is the larger share
+    assert orbits.axis(0, [1.0], phase)[:, 0] == pytest.approx(tip, abs=1e-12)
+    # A half turn about the blade and reversed time: bending odd.
+    assert tip[::-1, 1:] == pytest.approx(-tip[:, 1:], abs=1e-12)
+
+
+def test_a_blade_that_is_hardly_twisted_has_the_orbits_of_the_plane():
+    flat = Theory(trapeze=False)
+    planar = periodic_orbits(BLADE, 2.0, [0.1, 0.2], theory=flat)
+    mode = (
+        int(np.argmax(linear_modes(BLADE.with_twist(1e-9), 2.0, 2, theory=flat).shares[:, 1])) + 1
+    )
+    space = periodic_orbits(BLADE.with_twist(1e-9), 2.0, [0.1, 0.2], mode, theory=flat)
+    assert space.frequency == pytest.approx(planar.frequency, rel=1e-9)
+    assert space.lambda_omega == pytest.approx(planar.lambda_omega, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (
+            lambda: periodic_orbits(BLADE.with_precone(0.1), 1.0, [0.1]),
+            "no time reversal by a half",
+        ),
+        (lambda: periodic_orbits(BLADE, 1.0, [0.1], gauge="up"), "gauge must be 'lag' or 'flap'"),
+    ],
+)
+def test_bad_input(call, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        call()
