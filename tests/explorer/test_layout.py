@@ -6,6 +6,9 @@ import pytest
 
 from rotbeam_exu.explorer import explorer_page
 
+# Pages in a browser cost most of the Explorer's tests; what it shows is tested by default.
+pytestmark = pytest.mark.slow
+
 STATES = [
     "",
     "omega=0&a=0.05&hide=",
@@ -61,9 +64,7 @@ TICKS = """() => [...document.querySelectorAll(".plot > svg")].map(svg =>
 OWN = [("mine.csv", "a,omega_NL\n0.1,3\n"), ("a-longer-name-of-a-file.csv", "t,q\n0,0\n9,1\n")]
 
 
-@pytest.mark.parametrize(
-    "width", [1400, *(pytest.param(w, marks=pytest.mark.slow) for w in (1024, 800)), 390]
-)
+@pytest.mark.parametrize("width", [1400, 1024, 800, 390])
 def test_nothing_overprints(open_page, url, width):
     page = open_page(url, phone=width == 390, width=width)
     found = {}
@@ -184,7 +185,7 @@ def test_contrast_is_that_of_the_standard():
     )
 
 
-@pytest.mark.parametrize("dark", [pytest.param(False, marks=pytest.mark.slow), True])
+@pytest.mark.parametrize("dark", [False, True])
 def test_all_words_can_be_read(open_page, url, dark):
     page = open_page(f"{url}#a=0.45&hide=", dark=dark)
     page.locator("tr[data-model=CE] input").uncheck()
