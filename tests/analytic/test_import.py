@@ -18,12 +18,13 @@ def test_import_is_cheap():
     assert not modules_after("import analytic") & (HEAVY | {"scipy"})
 
 
-@pytest.mark.parametrize("variant", ["FrE", "FrM", "P3"])
-def test_numeric_models_need_no_sympy(variant):
-    code = (
-        "from analytic import Beam, reduced_model\n"
-        f"reduced_model(Beam.reference(), 4.0, '{variant}').exact_frequency([0.1])"
-    )
+def test_numbers_need_neither_sympy_nor_matplotlib():
+    code = """
+from analytic import Beam, periodic_orbits, reduced_model
+for variant in ("FrE", "FrM", "P3"):
+    reduced_model(Beam.reference(), 4.0, variant).exact_frequency([0.1])
+periodic_orbits(Beam.reference(), 6.0, [0.1], functions=8)
+"""
     assert not modules_after(code) & HEAVY
 
 

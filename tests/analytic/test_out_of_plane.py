@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from rotbeam_exu.cli.sections import SectionOptions
 
 from analytic import Beam, Blade, Circle, Ellipse, OutOfPlane, Rectangle, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section_shapes import Gyration, SectionShape
+from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()
 UNIT = Blade(

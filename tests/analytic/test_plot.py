@@ -1,8 +1,6 @@
 """What results draw of themselves is what they hold."""
 
 import math
-import subprocess
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -153,12 +151,3 @@ def test_a_response_is_dashed_where_it_is_unstable():
     assert set(found.amplitude[first : last + 1].round(12)) <= set(a.round(12))
     assert not np.isnan(np.fmax(solid.get_ydata(), dashed.get_ydata())).any()
     assert ax.get_xlabel() == "drive frequency ν [rad/s]"
-
-
-def test_the_theory_computes_without_matplotlib():
-    code = (
-        "import sys; sys.modules['matplotlib'] = None; from analytic import *;"
-        "print(periodic_orbits(Beam.reference(), 6.0, [0.1]).omega_n)"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert float(done.stdout) == pytest.approx(3.7304014, abs=1e-6)

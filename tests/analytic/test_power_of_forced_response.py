@@ -52,7 +52,12 @@ def power(states, omega, nu, load, ripple=0.0):
     [
         (2.0, 0.004, DistributedForce(amplitude=0.0045 * BEAM.bending_stiffness / BEAM.length**3)),
         (6.0, 0.008, SpeedRipple(amplitude=0.003 * SCALE)),
-        (6.0, 0.008, TipForce(amplitude=0.005 * BEAM.bending_stiffness / BEAM.length**2)),
+        pytest.param(
+            6.0,
+            0.008,
+            TipForce(amplitude=0.005 * BEAM.bending_stiffness / BEAM.length**2),
+            marks=pytest.mark.slow,  # the two above are of either speed and kind
+        ),
     ],
 )
 def test_damping_takes_what_the_load_gives(omega, c, load):

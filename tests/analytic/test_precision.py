@@ -122,10 +122,18 @@ ANSWERS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ANSWERS)
+KINDS = (np.float16, np.float32, np.longdouble, Fraction)
+# Seconds each: the first and the last kind stand for all four.
+DEAR = ("quiet_ramp_times", "backbone_branch", "forced_response")
+SLOW = {"stability_limit"}  # the note and the stability of a plane, above, take the same numbers
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=pytest.mark.slow if one in SLOW else ()) for one in ANSWERS]
+)
 def test_the_type_of_a_number_changes_no_bit(name):
     expected = ANSWERS[name](float)
-    for kind in (np.float16, np.float32, np.longdouble, Fraction):
+    for kind in KINDS[:: 3 if name in DEAR else 1]:
         found = ANSWERS[name](kind)
         if isinstance(expected, (list, str)) or not np.ndim(expected):
             assert found == expected, kind

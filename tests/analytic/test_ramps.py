@@ -141,16 +141,16 @@ def test_bad_input(make, sentence):
 
 
 def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
-    times = np.linspace(0.0, 5.0, 101)
+    times = np.linspace(0.0, 4.0, 81)
     one = spin_up_response(beam, spin_up, times, tolerance=1e-6)
     off = []
-    for intervals in (25, 50, 100):
+    for intervals in (50, 100):
         at = np.linspace(0.0, 3.0, intervals + 1)
         table = spin_up_response(beam, SpeedTable(at, spin_up.rate(at)), times, tolerance=1e-6)
         off.append(np.abs(table.q - one.q).max() / beam.length)
     # What the docstring says of a hundred; and the third power, or better, on the way there.
-    assert off[2] < 1e-6
-    assert min(off[0] / off[1], off[1] / off[2]) > 8.0
+    assert off[1] < 1e-6
+    assert off[0] / off[1] > 8.0
 
 
 def test_what_turns_already_is_stretched_and_stays_so(beam):

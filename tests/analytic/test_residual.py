@@ -127,7 +127,9 @@ def test_closed_form_at_both_ends_of_the_paper(beam):
         assert better / exact - 1.0 == pytest.approx(corrected, abs=1e-3)
 
 
-@pytest.mark.parametrize("omega", [2.0, 6.0])
+@pytest.mark.parametrize(
+    "omega", [2.0, *(pytest.param(omega, marks=pytest.mark.slow) for omega in (4.0, 6.0, 8.0))]
+)
 def test_quiet_ramp_times(beam, omega):
     expected = [(T, left) for speed, T, left in QUIET if speed == omega]
     found = quiet_ramp_times(beam, omega, longest=expected[-1][0] + 0.2)
@@ -136,12 +138,6 @@ def test_quiet_ramp_times(beam, omega):
         assert found.ramp_times[nearest] == pytest.approx(T, abs=2e-3)
         digit = 10.0 ** math.floor(math.log10(left) - 1.0)
         assert found.left[nearest] == pytest.approx(left, abs=0.51 * digit)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("omega", [4.0, 8.0])
-def test_more_quiet_ramp_times(beam, omega):
-    test_quiet_ramp_times(beam, omega)
 
 
 def test_designed_ramp(beam):

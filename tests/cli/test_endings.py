@@ -19,7 +19,7 @@ from rotbeam_exu.cli import endings, main
 from rotbeam_exu.files.results import whole_file, writable_folder
 
 ROOT = Path(__file__).parents[2]
-FILM = ("animate", "--ramp-time", "1", "--duration", "2", "--rate", "6", "--out")
+FILM = ("animate", "--ramp-time", "1", "--duration", "2", "--rate", "3", "--out")
 
 
 @contextmanager
@@ -33,7 +33,8 @@ def files_of_at_most(size):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-@pytest.mark.parametrize("name", ["SIGHUP", pytest.param("SIGTERM", marks=pytest.mark.slow)])
+@pytest.mark.slow  # a child process; signals and Ctrl-C within this one are tested below
+@pytest.mark.parametrize("name", ["SIGHUP", "SIGTERM"])
 def test_a_closed_terminal_and_a_kill_leave_nothing(tmp_path, name):
     """As Ctrl-C; the shell that is closed sends SIGHUP as well, after the terminal."""
     number = getattr(signal, name)

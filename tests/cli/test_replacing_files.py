@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from rotbeam_exu import figures, load, oscillation
+from rotbeam_exu import figures, load
 from rotbeam_exu.fem import simulation
+from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")

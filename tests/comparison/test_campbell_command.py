@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from analytic import Rectangle, campbell, linear_modes
-from rotbeam_exu.cli import app
 from rotbeam_exu.cli.campbell import campbell as command
 from rotbeam_exu.cli.options import SectionOptions
 
@@ -35,10 +34,6 @@ def test_table_shows_frequencies_and_crossings(capsys):
 def test_one_speed_is_no_diagram():
     with pytest.raises(ValueError, match="points must be at least 2"):
         command(points=1)
-
-
-def test_the_former_name_still_does():
-    assert app["campbell"].default_command is app["campbell"].default_command
 
 
 def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):

@@ -167,7 +167,7 @@ def test_figure_13_mode_straightens_with_speed(data_of):
 @pytest.mark.parametrize(
     # All are drawn on given axes below.
     "number",
-    [8, 13, *(pytest.param(n, marks=pytest.mark.slow) for n in (9, 10, 11, 12))],
+    [13, *(pytest.param(n, marks=pytest.mark.slow) for n in (8, 9, 10, 11, 12))],
 )
 def test_theory_figures_on_the_command_line(number, tmp_path, capsys):
     main(["figure", str(number), "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])

@@ -25,7 +25,7 @@ from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.sweeps import grid as sweeps
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
-COARSE = {"elements": 2, "step": 5e-3, "duration": 9.0}
+COARSE = {"elements": 2, "step": 1e-2, "duration": 9.0}
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_a_sweep_in_a_file_says_what_was_run(serial, tmp_path):
     kept = load(save(table, tmp_path / "sweep.nc"))
     xr.testing.assert_identical(kept, table)
     assert kept.attrs["element"] == "cable"
-    assert kept.attrs["step"] == 5e-3
+    assert kept.attrs["step"] == 1e-2
     assert json.loads(kept.attrs["versions"])["exudyn"]
 
 
@@ -69,6 +69,7 @@ def test_processes_give_the_same_bits(beam, serial):
     xr.testing.assert_identical(sweep(beam, **SMALL, **COARSE, jobs=2, history=True), serial)
 
 
+@pytest.mark.slow  # processes, above, take the same way; a cluster's start is all that it adds
 def test_dask_gives_the_same_bits(beam, serial):
     distributed = pytest.importorskip("distributed")
     with (
@@ -178,7 +179,7 @@ def test_a_mistake_in_an_element_is_no_failed_case(beam):
 
 def test_numbers_of_numpy_are_numbers(beam, serial, tmp_path):
     grid = {name: np.array(values) for name, values in SMALL.items()}
-    coarse = {"elements": np.int64(2), "step": np.float64(5e-3), "duration": np.int64(9)}
+    coarse = {"elements": np.int64(2), "step": np.float64(1e-2), "duration": np.int64(9)}
     for _ in range(2):
         found = sweep(beam, **grid, **coarse, jobs=1, cache=tmp_path, history=True)
         xr.testing.assert_identical(found, serial)
@@ -319,6 +320,7 @@ def test_bad_input_is_refused_before_any_work(beam, monkeypatch, options, senten
         sweep(beam, **{**SMALL, **COARSE, "jobs": 1, **options})
 
 
+@pytest.mark.slow  # a child; tests of endings and of dying workers, above, hold its two halves
 def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):
     disk = tmp_path / "disk"
     disk.mkdir()

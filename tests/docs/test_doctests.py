@@ -17,8 +17,11 @@ MODULES = sorted(
 )
 
 
-# A limit of stability takes eight seconds; cheaper ones are asked for in its own tests.
-SLOW = {"analytic.exact.plane.stability_limit"}
+# A second and more, of eight a limit of stability; tests of their own ask the same for less.
+SLOW = {
+    "analytic.exact.linear.campbell", "analytic.exact.plane.stability_limit",
+    "analytic.spin_up.design", "analytic.spin_up.quiet", "rotbeam_exu.verification.verify",
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -1,17 +1,18 @@
 import shutil
+from functools import cache
 
 import numpy as np
 import pytest
 
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
-OMEGAS = tuple(np.arange(0.0, 12.5, 1.0).tolist())
+OMEGAS = tuple(np.arange(0.0, 12.5, 2.0).tolist())
 AMPLITUDES = tuple((np.arange(1, 13) * 5 / 100).tolist())
 RAMPS = (2.5, 3.0, 4.0, 6.5)
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
-    "--disable-background-networking", "--disable-component-update",
+    "--disable-background-networking", "--disable-component-update", "--renderer-process-limit=1",
 ]  # fmt: skip
 
 
@@ -48,21 +49,31 @@ def browser():
         started.close()
 
 
-@pytest.fixture
-def open_page(browser):
-    """Return a function that opens a URL and refuses noise: messages, errors, the network."""
-    noise, contexts = [], []
+@pytest.fixture(scope="session")
+def context(browser):
+    """Return a function that gives the one context of each sort; a new one costs a process."""
 
-    def opened(url, *, phone=False, dark=False, motion=False, width=None):
-        context = browser.new_context(
+    @cache
+    def of(phone, dark, motion, width):
+        return browser.new_context(
             viewport={"width": width or (390 if phone else 1280), "height": 844 if phone else 800},
             color_scheme="dark" if dark else "light",
             reduced_motion="no-preference" if motion else "reduce",
             is_mobile=phone,
             has_touch=phone,
         )
-        contexts.append(context)
-        page = context.new_page()
+
+    return of
+
+
+@pytest.fixture
+def open_page(context):
+    """Return a function that opens a URL and refuses noise: messages, errors, the network."""
+    noise, pages = [], []
+
+    def opened(url, *, phone=False, dark=False, motion=False, width=None):
+        page = context(phone, dark, motion, width).new_page()
+        pages.append(page)
         page.on("console", lambda message: noise.append(message.text))
         page.on("pageerror", lambda error: noise.append(str(error)))
         page.on(
@@ -79,8 +90,8 @@ def open_page(browser):
         return page
 
     yield opened
-    for context in contexts:
-        context.close()
+    for page in pages:
+        page.close()
     assert noise == []
 
 

@@ -13,7 +13,7 @@ def test_keyboard(open_page, url, data):
     page = open_page(url)
     value = page.locator("#omega-value")
     page.get_by_label("Speed ω").focus()
-    for key, wanted in (("ArrowRight", "7.00"), ("ArrowLeft", "6.00"), ("Home", "0.00")):
+    for key, wanted in (("ArrowRight", "8.00"), ("ArrowLeft", "6.00"), ("Home", "0.00")):
         page.keyboard.press(key)
         assert value.inner_text() == f"{wanted} rad/s"
     page.keyboard.press("End")
@@ -67,7 +67,7 @@ def test_touch(open_page, url):
 
 def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(open_page, url, at, beam):
     page = open_page(url)
-    at(page, 5.0, 0.3)
+    at(page, 6.0, 0.3)
     page.locator("#softening > svg").focus()
     page.keyboard.press("ArrowLeft")
     settle = "new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"

@@ -6,6 +6,9 @@ import pytest
 
 from rotbeam_exu.explorer import explorer_page
 
+# Pages in a browser cost most of the Explorer's tests; what it shows is tested by default.
+pytestmark = pytest.mark.slow
+
 STATES = [
     "",
     "omega=0&a=0.05&hide=",

@@ -62,7 +62,7 @@ def test_points_join_the_backbones_in_any_unit(open_page, url, at, beam):
     np.testing.assert_allclose(marks(page), np.tile(wanted, (2, 1)), rtol=1e-9)
     listed = page.locator("#own-list li").all_inner_texts()
     assert "2 points at 6 rad/s, the slider's speed, over the exact" in listed[0]
-    at(page, 5.0, 0.2)
+    at(page, 4.0, 0.2)
     assert page.locator("#backbone path.own").count() == 0  # they are of 6 rad/s
     at(page, 6.0, 0.2)
     page.get_by_role("button", name="Remove ours.csv").click()

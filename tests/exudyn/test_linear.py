@@ -38,7 +38,8 @@ def test_frequency_softens_to_zero_below_the_divergence_speed(beam):
     assert Linear().divergence_speed(beam, 16) == pytest.approx(beam.omega_0, rel=3e-7)
 
 
-@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+# Both frames are compared above the divergence speed.
+@pytest.mark.parametrize("frame", [pytest.param("inertial", marks=pytest.mark.slow), "rotating"])
 def test_bounded_below(beam, frame):
     run = simulate(
         beam, SpinUp(omega=2.0, ramp_time=6.0), element="linear", elements=4, step=4e-3, frame=frame

@@ -51,7 +51,12 @@ def last_cycle(blade, omega, loads, frequency, cycles, **options):
 
 
 @pytest.mark.parametrize(
-    ("frame", "dressed"), [("inertial", False), ("rotating", False), ("rotating", True)]
+    ("frame", "dressed"),
+    [
+        ("inertial", False),
+        pytest.param("rotating", False, marks=pytest.mark.slow),
+        ("rotating", True),
+    ],
 )
 def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed):
     """With c = 1.5 and w̄ = 2, plain or with hub, tip mass and setting angle."""
@@ -69,13 +74,19 @@ def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed)
 
 @pytest.mark.parametrize(
     ("kind", "size", "omega", "element", "frame"),
+    # Each load, each element and each frame by default.
     [
-        (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
         (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
         (TipForce, 0.5, 2.0, Exact(nodes=3), "rotating"),
-        (TipForce, 0.5, 2.0, "cable", "inertial"),
         (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
-        (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in [
+                (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
+                (TipForce, 0.5, 2.0, "cable", "inertial"),
+                (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
+            ]
+        ),
     ],
 )
 def test_under_a_harmonic_load_it_settles_on_the_exact_response(
@@ -94,9 +105,13 @@ def test_under_a_harmonic_load_it_settles_on_the_exact_response(
     assert np.abs(q - exact.response(nu * time, i)).max() < 2e-3 * exact.amplitude[i]
 
 
-@pytest.mark.parametrize("loads", [(one,) for one in ALL] + [ALL], ids=str)
+@pytest.mark.parametrize(
+    "loads",
+    [ALL, *(pytest.param((one,), marks=pytest.mark.slow) for one in ALL)],  # all hold each
+    ids=str,
+)
 def test_the_energy_balance_closes_to_second_order_in_the_step(beam, loads):
-    """In flap and lag at once, with masses; each load alone, and all."""
+    """In flap and lag at once, with masses; all loads, and each alone."""
     blade = beam.with_hub_radius(0.5).with_tip_mass(0.1, 0.01).with_setting_angle(0.7)
     errors = []
     for step in (8e-3, 4e-3):

@@ -157,6 +157,7 @@ def test_a_gif_has_every_picture_in_real_time(response, tmp_path):
 
 
 @pytest.mark.skipif(not FFMpegWriter.isAvailable(), reason="no ffmpeg")
+@pytest.mark.slow  # its pictures are those of the GIF
 def test_an_mp4_where_ffmpeg_is(response, tmp_path):
     save_animation(response, tmp_path / "beam.mp4")
     assert (tmp_path / "beam.mp4").read_bytes()[4:8] == b"ftyp"

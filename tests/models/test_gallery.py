@@ -1,6 +1,6 @@
 """Each script of the gallery runs, and its number is right: against theory, not against itself.
 
-Slow are those of more than a second: the site's build runs each script, too.
+All slow: the site's build runs each script, too.
 """
 
 import runpy
@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from analytic import SpinUp, linear_modes, periodic_orbits, reduced_model, residual_amplitude
+
+pytestmark = pytest.mark.slow
 
 MODELS = Path(__file__).parents[2] / "models"
 
@@ -39,7 +41,6 @@ def test_spin_up(run, beam):
     assert found["ratio"] == pytest.approx(0.99789, abs=2e-5)
 
 
-@pytest.mark.slow
 def test_out_of_plane(run):
     found = run("out_of_plane")
     rectangle, tube, length = found["rectangle"], found["tube"], 8.0
@@ -54,7 +55,6 @@ def test_out_of_plane(run):
     assert "<img" in found["animation"].to_jshtml()
 
 
-@pytest.mark.slow
 def test_quiet_spin_up(run, beam):
     left = run("quiet_spin_up")["left"]
     # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.
@@ -68,7 +68,6 @@ def test_mesh_convergence(run):
     assert run("mesh_convergence")["order"] == pytest.approx(4.0, abs=0.2)
 
 
-@pytest.mark.slow
 def test_phase_space(run):
     miss = run("phase_space")["miss"]
     assert abs(miss.sel(model="exact").item()) < 2e-4
@@ -77,21 +76,18 @@ def test_phase_space(run):
     assert miss.sel(model="CE").item() < -0.05
 
 
-@pytest.mark.slow
 def test_backbone(run, beam):
     found = run("backbone")["exact"].lambda_omega
     # FrM leaves the extensibility out, 1e-5 here.
     assert found == pytest.approx(reduced_model(beam, 6.0, "FrM").lambda_omega, abs=2e-5)
 
 
-@pytest.mark.slow
 def test_tapered_blade(run):
     found = run("tapered_blade")
     # Inextensible, flap² - lag² is ω²; μ times squares of frequencies is left.
     assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
 
 
-@pytest.mark.slow
 def test_forced_response(run):
     least = {omega: curves[0] for omega, curves in run("forced_response")["curves"].items()}
     # Hardening at 2 rad/s, softening at 6, and jumps at either.
@@ -104,7 +100,6 @@ def test_forced_response(run):
         assert len(folds) == 2
 
 
-@pytest.mark.slow
 def test_gravity(run):
     found = run("gravity")
     response = found["response"]
@@ -114,13 +109,11 @@ def test_gravity(run):
     assert sorted(crossing.order for crossing in found["crossings"]) == [1, 2, 3, 4]
 
 
-@pytest.mark.slow
 def test_blade_in_exudyn(run):
     # The centrifugal force of 0.1 kg 9.1 m from the axis at 3 rad/s; it still swings.
     assert run("blade_in_exudyn")["pull"][-100:].mean() == pytest.approx(8.2, rel=0.25)
 
 
-@pytest.mark.slow
 def test_softening_map(run):
     found = run("softening_map")
     # Another code's 3.59302.
@@ -129,7 +122,6 @@ def test_softening_map(run):
     assert np.interp(4.0914, ratio.w_bar, ratio) == pytest.approx(3.0, abs=2e-3)
 
 
-@pytest.mark.slow
 def test_simo_vu_quoc(run):
     found = run("simo_vu_quoc")
     # Both as printed in the literature, the lag to the digits of a converged run.
@@ -137,7 +129,6 @@ def test_simo_vu_quoc(run):
     assert found["lag"] == pytest.approx(-0.57375, abs=5e-5)
 
 
-@pytest.mark.slow
 def test_campbell_diagram(run, beam):
     found = run("campbell_diagram")
     crossing = found["first"]
@@ -158,7 +149,6 @@ def test_model_errors(run):
     assert abs(found["total"]["CI"]) > 50 * abs(found["total"]["FrM"])
 
 
-@pytest.mark.slow
 def test_linear_frame(run, beam):
     # One floating frame feels ω² as a negative stiffness; axial motion takes 4e-5 off.
     expected = np.sqrt(16.0 - beam.omega_0**2)
@@ -186,16 +176,6 @@ def test_backbone_formula(run, beam):
     assert abs(found["said"][25] / found["shift"][25] - 1.0) < 0.004
 
 
-def test_scripts_are_short_and_all_tested():
-    scripts = {path.stem: path.read_text(encoding="utf-8") for path in MODELS.glob("*.py")}
-    long = [name for name, text in scripts.items() if len(text.splitlines()) >= 40]
-    assert not long
-    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
-    # The main job is the command line's, and tested there.
-    assert set(scripts) - tested == {"rotating_beam"}
-
-
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_internal_resonance(run):
     found = run("internal_resonance")
@@ -203,7 +183,6 @@ def test_internal_resonance(run):
     assert found["branch"].folds[0].amplitude < found["resonance"].amplitude < 0.65
 
 
-@pytest.mark.slow
 def test_is_it_planar(run):
     found = run("is_it_planar")
     assert found["limit"].amplitude == pytest.approx(0.0592, abs=2e-4)

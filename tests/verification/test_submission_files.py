@@ -316,7 +316,7 @@ def mutation(draw):
 
 
 @settings(
-    max_examples=200, deadline=None, derandomize=True,
+    max_examples=3 * settings().max_examples, deadline=None, derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )  # fmt: skip
 @given(mutations=st.lists(mutation(), min_size=1, max_size=4))
