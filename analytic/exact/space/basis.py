@@ -268,7 +268,9 @@ class StrainFunctions:
         if blade.told_rotary:
             j3 = told
         elif theory.rotary_inertia or theory.trapeze:
-            j3 = self.slenderness * solid
+            # A polar inertia that is told is parted as 1 to r.
+            own = self.slenderness if blade.polar is None else blade.polar / (1.0 + blade.flap)
+            j3 = own * solid
         else:
             j3 = np.zeros_like(x)
         j2 = blade.flap * j3
