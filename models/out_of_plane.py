@@ -3,8 +3,7 @@ The spin-up of a rectangle leaves its plane
 ===========================================
 
 A rectangle with the paper's A and I, 37 mm high and 2 mm wide, without gravity, the tip 8 mm out of
-the plane at first: bent by a tenth of its length, on the ramp, it buckles sideways, by w. A tube
-stays. Sections are drawn as strips 0.4 m high; nothing else is exaggerated.
+the plane at first, buckles sideways by w. A tube stays. Sections are strips drawn 0.4 m high.
 """
 
 import matplotlib.pyplot as plt
@@ -15,8 +14,8 @@ from rotbeam_exu import figures, simulate_3d
 from rotbeam_exu.fem.picture import ray_traced
 
 plt.style.use([figures.STYLE, {"animation.html": "jshtml"}])
-beam, settings = Beam.reference(), {"kick": 1e-3, "duration": 3.4}
-settings["motion"] = SpinUp(omega=6.0, ramp_time=3.0)
+beam = Beam.reference()
+settings = {"motion": SpinUp(omega=6.0, ramp_time=3.0), "kick": 1e-3, "duration": 3.4}
 rectangle = simulate_3d(beam.with_shape(Rectangle()), **settings, elements=32, step=2.5e-4)
 tube = simulate_3d(beam.with_shape(Tube(radius=0.015, wall=0.00077)), **settings, step=5e-3)
 

@@ -33,7 +33,7 @@ def orbit_at(a, *, harmonics=7, pole=0.36, background=0.0, rate=1.0, setting=1.0
     model = SimpleNamespace(setting=setting)
     return SimpleNamespace(
         amplitude=a, frequency=2.0 - a**2, harmonics=harmonics, gauge_sines=sines,
-        sines=sines[:, None], system=SimpleNamespace(rate=rate, model=model),
+        sizes=np.abs(sines), system=SimpleNamespace(rate=rate, model=model),
     )  # fmt: skip
 
 
@@ -123,9 +123,9 @@ def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mod
     assert outstanding(orbit, MODES * 2.0, 1) == [6]  # 11/1.8775 = 5.86
     assert outstanding(orbit, MODES * 1.8, 1) == []  # 5.27 is 12 % away
     third = orbit_at(0.1)
-    third.sines[2] = 0.02
+    third.sizes[2] = 0.02
     assert outstanding(third, MODES * 1.07, 1) == [3]  # 5.9/1.99 = 2.96
-    orbit.sines[4] = 2.0 * orbit.sines[5]
+    orbit.sizes[4] = 2.0 * orbit.sizes[5]
     assert outstanding(orbit, MODES * 2.0, 1) == []  # less than the one before
     small = orbit_at(0.1, pole=9.0)  # 1e-4 of the first: drowned
     assert outstanding(small, MODES * 2.1, 1) == []

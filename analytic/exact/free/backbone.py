@@ -117,6 +117,13 @@ class SpaceBackbone(Backbone):
         """Return the orbits of peaks of the gauge over L, as `periodic_orbits` does."""
         return cast(SpaceOrbits, orbits_of(self, amplitudes, SpaceOrbits))
 
+    def branch(self, up_to: float = 0.9) -> BackboneBranch:
+        """Refuse: tongues are followed in the plane only."""
+        raise ValueError(
+            "internal resonances are followed for planar blades only: take orbits, which end or "
+            "warn near one"
+        )
+
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from three small orbits, and what the third changed.
 
