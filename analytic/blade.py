@@ -60,17 +60,21 @@ class Variations(Described, abstract=True):
         """Return the blade set at `angle` [rad]: 0 is lag, π/2 flap."""
         return replace(self.blade, setting_angle=angle)
 
-    def with_point_mass(self, mass: float, position: float, inertia: float = 0.0) -> Blade:
-        """Return the blade with one mass [kg] more at `position` [m] from the clamp."""
-        more = (PointMass(position=position, mass=mass, inertia=inertia),)
+    def with_point_mass(
+        self, mass: float, position: float, inertia: float = 0.0, offset: Offset = (0.0, 0.0)
+    ) -> Blade:
+        """Return the blade with one mass [kg] more at `position` [m] from the clamp.
+
+        Its center is `offset` [m] from the line.
+        """
+        more = (PointMass(position=position, mass=mass, inertia=inertia, offset=offset),)
         return replace(self.blade, point_masses=self.blade.point_masses + more)
 
     def with_tip_mass(
         self, mass: float, inertia: float = 0.0, offset: Offset = (0.0, 0.0)
     ) -> Blade:
         """Return the blade with one mass [kg] more at its tip, `offset` [m] from the line."""
-        more = (PointMass(position=self.blade.length, mass=mass, inertia=inertia, offset=offset),)
-        return replace(self.blade, point_masses=self.blade.point_masses + more)
+        return self.with_point_mass(mass, self.blade.length, inertia, offset)
 
     def with_twist(self, angle: Profile) -> Blade:
         """Return the blade whose sections twist, from the chord towards the thickness.

@@ -60,11 +60,14 @@ class Line(Described):
     tension_offset: Offset = (0.0, 0.0)
 
     def __post_init__(self) -> None:
-        for name in ("twist", "prebend", "sweep"):
-            object.__setattr__(self, name, checked_profile(name, getattr(self, name)))
-        object.__setattr__(self, "precone", finite_number("precone", self.precone, "rad"))
-        for name in ("mass_offset", "tension_offset"):
-            object.__setattr__(self, name, checked_offset(name, getattr(self, name)))
+        self._keep(
+            twist=checked_profile("twist", self.twist),
+            prebend=checked_profile("prebend", self.prebend),
+            sweep=checked_profile("sweep", self.sweep),
+            precone=finite_number("precone", self.precone, "rad"),
+            mass_offset=checked_offset("mass_offset", self.mass_offset),
+            tension_offset=checked_offset("tension_offset", self.tension_offset),
+        )
 
     def in_units(self, length: float) -> Line:
         """Return the same in units of length [m]."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,52 @@ from .continuum import Continuum
 from .discretization import finer_model
 
 
+class Discretized:
+    """Size and refinement of a discretized blade, in the plane or in space."""
+
+    model: Any
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return int(self.model.size)
+
+    @property
+    def functions(self) -> int:
+        """Number of functions for each curvature of bending."""
+        return int(self.model.bending)
+
+    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return np.asarray(self.model.padded(q, finer.model))
+
+
+class AtConstantRate(Discretized):
+    """Equations of a blade in a frame that turns at a constant rate, in the plane or in space."""
+
+    rate: float
+    driven: ClassVar[bool] = False
+
+    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
+        """Return the virtual work of all forces, (samples, n)."""
+        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate))
+
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
+        """Return the residual and its derivatives to q, q̇ and q̈."""
+        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate)
+        return tangent
+
+    def potential(self, q: FloatArray) -> FloatArray:
+        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
+        return np.asarray(self.model.amended_potential(q, self.rate))
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the rotating frame, (samples,)."""
+        return np.asarray(self.model.kinetic_energy(q, q_dot))
+
+
 @dataclass(frozen=True, eq=False)
-class BeamCoordinates:
+class BeamCoordinates(Discretized):
     """The discretized beam as `methods` see it: the gauge is the tip's deflection over the length.
 
     Attributes
@@ -27,16 +71,6 @@ class BeamCoordinates:
     """
 
     model: Continuum
-
-    @property
-    def size(self) -> int:
-        """Number of coordinates, of θ and of the strains together."""
-        return self.model.size
-
-    @property
-    def functions(self) -> int:
-        """Number of functions for θ."""
-        return self.model.bending
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's deflection v(1), (samples,)."""
@@ -54,13 +88,9 @@ class BeamCoordinates:
         """Return the beam on half as many functions again."""
         return replace(self, model=finer_model(self.model))
 
-    def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
-        """Return the coordinates of the same shape on more functions, along the last axis."""
-        return self.model.padded(q, finer.model)
-
 
 @dataclass(frozen=True, eq=False)
-class SteadyBeam(BeamCoordinates):
+class SteadyBeam(AtConstantRate, BeamCoordinates):
     """The beam in a frame that turns at a constant rate; a `methods.System`.
 
     The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t) maps orbits onto orbits: θ and γ are odd. The
@@ -73,7 +103,6 @@ class SteadyBeam(BeamCoordinates):
     """
 
     rate: float
-    driven: ClassVar[bool] = False
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
@@ -84,22 +113,6 @@ class SteadyBeam(BeamCoordinates):
     def equilibrium(self) -> FloatArray:
         """Coordinates (n,) of the straight beam that the rotation stretches."""
         return self.model.steady_state(self.rate)
-
-    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, self.rate)
-
-    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, self.rate)
-
-    def potential(self, q: FloatArray) -> FloatArray:
-        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
-        return self.model.amended_potential(q, self.rate)
-
-    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the kinetic energy relative to the rotating frame, (samples,)."""
-        return self.model.kinetic_energy(q, q_dot)
 
 
 BeamOrbit = Orbit[SteadyBeam]

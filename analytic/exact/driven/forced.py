@@ -92,7 +92,8 @@ def forced_response(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "
             "leave it out of the load, and give it among the frequencies"
         )
-    if load.varied == "speed":
+    by_speed = load.varied == "speed"
+    if by_speed:
         if frequencies is not None:
             raise ValueError(
                 f"{load.called} goes around once a turn, at ω itself: give the speeds as omega, "
@@ -106,8 +107,8 @@ def forced_response(
     model = resolved_model(beam, 1, theory, functions)
     rate = steady_rate(beam, highest, model)
     if not any(beam.unit.damping):
-        _require_no_resonance(beam, None if load.varied == "speed" else highest, theory, asked)
-    system = DrivenBeam(model, None if load.varied == "speed" else rate, unit)
+        _require_no_resonance(beam, None if by_speed else highest, theory, asked)
+    system = DrivenBeam(model, None if by_speed else rate, unit)
     least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
     try:
         found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least)

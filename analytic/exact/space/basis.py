@@ -220,8 +220,8 @@ class StrainFunctions:
                 gamma[0, :, start : start + axial] += along
             if shear:
                 half, start = shear // 2, start + axial
-                gamma[1, :, start : start + half] = along / math.sqrt(theory.shear or 1.0)
-                gamma[2, :, start + half :] = along / math.sqrt(theory.shear or 1.0)
+                across = along / math.sqrt(theory.shear or 1.0)
+                gamma[1, :, start : start + half] = gamma[2, :, start + half :] = across
         bows = np.stack(
             (np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x))
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,10 +44,10 @@ class Changes:
     Each line of the motion once more, with δφ = Φ_k and δr' = U_k' for a change of coordinate k.
     """
 
-    def __init__(self, model: Any, at: State, motion: Motion, W: Any, W_dot: Any, hub: Any) -> None:
+    def __init__(self, model: Any, at: State, motion: Motion, W: Any, W_dot: Any) -> None:
         own = model.strains
         self._model, self._at, self._motion, self._W = model, at, motion, W[..., None]
-        self._W_dot, self._place = W_dot[..., None], (hub + at.place_m)[..., None]
+        self._W_dot = W_dot[..., None]
         frame = at.frame[..., None]
         gamma = np.broadcast_to(own.gamma[:, None], (3, len(at.K[0]), *own.gamma.shape[1:])).copy()
         if own.trapezes:
@@ -79,19 +80,30 @@ class Changes:
         if masses.drag is not None:
             drag = masses.drag[:, None]
             damping = damping + _contracted(self._place_m, drag * self._place_m)
-            stiffness = stiffness + _contracted(self._place_m, drag * self._of_velocity())
+            stiffness = stiffness + _contracted(self._place_m, drag * self._velocity)
         return mass, damping.copy(), stiffness.copy()
 
-    def _of_velocity(self) -> FloatArray:
-        at, motion = self._at, self._motion
-        spin = self._inner(cross(self.turn, motion.turning[..., None]))
-        return self._outer(self._velocity_slope(spin, at, motion))
+    @cached_property
+    def _bent(self) -> FloatArray:
+        """The change of R K̇ with q, as R turns."""
+        return cross(self.turn, self._motion.turning[..., None])
 
-    def _velocity_slope(self, spin: FloatArray, at: State, motion: Motion) -> FloatArray:
-        """Return δv' to q where the spin changes by `spin`."""
-        slope = cross(spin, at.slope[..., None]) + cross(motion.spin[..., None], self.slope)
-        slope += cross(self.turn, motion.stretching[..., None])
-        return slope + self._shortening(motion.turning)
+    @cached_property
+    def _spins(self) -> FloatArray:
+        """The change of the spin with q."""
+        return self._inner(self._bent)
+
+    @cached_property
+    def _stretched(self) -> FloatArray:
+        """The change of R Γ̇ with q."""
+        motion = self._motion
+        return cross(self.turn, motion.stretching[..., None]) + self._shortening(motion.turning)
+
+    @cached_property
+    def _velocity(self) -> FloatArray:
+        """The change of the masses' velocity with q."""
+        slope = cross(self._spins, self._at.slope[..., None]) + self._stretched
+        return self._outer(slope + cross(self._motion.spin[..., None], self.slope))
 
     def _shortening(self, turning: FloatArray) -> FloatArray | float:
         """Return the change -k² K̇1 Ψ1 R e1 of R Γ̇ with q."""
@@ -132,10 +144,8 @@ class Changes:
         at, motion, W, W_dot = self._at, self._motion, self._W, self._W_dot
         turn, spin, slope = self.turn, motion.spin[..., None], at.slope[..., None]
         turning, stretching = motion.turning[..., None], motion.stretching[..., None]
-        bent = cross(turn, turning)
-        spins = self._inner(bent)
+        bent, spins, stretched = self._bent, self._spins, self._stretched
         change = cross(turn, motion.twisting[..., None]) + cross(spins, turning) + cross(spin, bent)
-        stretched = cross(turn, stretching) + self._shortening(motion.turning)
         pulled = (
             cross(self._inner(change), slope)
             + cross(motion.spin_rate[..., None], self.slope)
@@ -144,9 +154,8 @@ class Changes:
             + cross(turn, motion.speeding[..., None])
             + self._shortening(motion.twisting)
         )
-        velocity = self._outer(cross(spins, slope) + cross(spin, self.slope) + stretched)
         total, offset = motion.total_spin[..., None], at.offset_m[..., None]
-        pull = self._outer(pulled) + cross(W, 2.0 * velocity + cross(W, self._place_m))
+        pull = self._outer(pulled) + cross(W, 2.0 * self._velocity + cross(W, self._place_m))
         pull += cross(W_dot, self._place_m)
         if self._model.masses.whole_on_line:
             return pull, pull

@@ -203,7 +203,7 @@ class SpaceContinuum:
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
         pulled, force, moment = self._forces(at, motion, push)
-        change = Changes(self, at, motion, *self._clamp(rate, rate_dot))
+        change = Changes(self, at, motion, *self._clamp(rate, rate_dot)[:2])
         mass, damping, stiffness = change.matrices()
         stiffness += change.geometric(pulled, force, moment)
         n = self.size
@@ -296,4 +296,5 @@ class SpaceContinuum:
     def changes(self, q: FloatArray) -> Changes:
         """Return the derivatives about states `q` (samples, n) at rest."""
         at, still = self._state(q), np.zeros_like(q)
-        return Changes(self, at, self._motion(at, still, still, 0.0, 0.0), *self._clamp(0.0, 0.0))
+        motion = self._motion(at, still, still, 0.0, 0.0)
+        return Changes(self, at, motion, *self._clamp(0.0, 0.0)[:2])

@@ -12,9 +12,10 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
 from ...input_checks import points_of_beam
 from ...methods.gyroscopic import reciprocal_modes
+from ...settled import settled
 from ...theory import Theory
 from .continuum import SpaceContinuum
-from .steady import FUNCTIONS, MOST_FUNCTIONS, SpaceBlade, space_continuum, space_rotation
+from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
@@ -87,18 +88,18 @@ def space_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> Sp
         If they do not.
     """
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
-    steady = space_rotation(blade, omega, model)
-    (found, shapes), error = _solved(steady), math.inf
-    while error > _SETTLED:
-        if steady.functions > MOST_FUNCTIONS:
-            raise ValueError(
-                f"the frequencies at omega = {omega:g} rad/s have not settled with "
-                f"{steady.functions} functions: the last refinement changes them by {error:.1e}; "
-                "ask for fewer modes, or rotate slower"
-            )
-        steady, before = steady.refined(), found[:count]
-        found, shapes = _solved(steady)
-        error = float(np.abs(found[:count] / before - 1.0).max())
+    _, (steady, (found, shapes)), error = settled(
+        lambda one: (one, _solved(one)),
+        finer_blades(space_rotation(blade, omega, model)),
+        _SETTLED,
+        lambda solved: np.log(solved[1][0][:count]),
+    )
+    if error > _SETTLED:
+        raise ValueError(
+            f"the frequencies at omega = {omega:g} rad/s have not settled with "
+            f"{steady.functions} functions: the last refinement changes them by {error:.1e}; "
+            "ask for fewer modes, or rotate slower"
+        )
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], error)
 
 
@@ -135,8 +136,7 @@ def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
     at = steady.linearized
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     gyroscopic = -0.5j * (at.damping[0] - at.damping[0].T)
-    symmetric = (0.5 * (part[0] + part[0].T) for part in (at.stiffness, at.mass))
-    stiffness, mass = symmetric
+    stiffness, mass = (0.5 * (part[0] + part[0].T) for part in (at.stiffness, at.mass))
     inverse, shapes = reciprocal_modes(stiffness, gyroscopic, mass)
     kept = inverse > _MASSLESS
     return 1.0 / inverse[kept], np.asarray(shapes[:, kept], dtype=np.complex128)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,8 +14,10 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state, warn_if_rpm
 from ...input_checks import points_of_beam, rotation_speed
 from ...methods.system import Tangent
+from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
+from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
 from .unit import space_unit
@@ -78,7 +81,7 @@ def require_section(beam: AnyBlade) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceBlade:
+class SpaceBlade(AtConstantRate):
     """The blade in a frame that turns at a constant rate; a `methods.System`.
 
     Attributes
@@ -96,16 +99,6 @@ class SpaceBlade:
     rate: float
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
     coarser: SpaceBlade | None = None
-
-    @property
-    def size(self) -> int:
-        """Number of coordinates."""
-        return self.model.size
-
-    @property
-    def functions(self) -> int:
-        """Number of functions for each curvature of bending."""
-        return self.model.bending
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -152,11 +145,6 @@ class SpaceBlade:
                 step *= 0.5
             rate = min(reached + step, self.rate)
 
-    @property
-    def driven(self) -> bool:
-        """No drive acts."""
-        return False
-
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's place along the direction, relative to the steady state, (samples,)."""
         return np.asarray((self.model.tip(q) - self.tip) @ np.array(self.direction))
@@ -169,28 +157,12 @@ class SpaceBlade:
         """Return its derivatives to the coordinates, (samples, n)."""
         return np.asarray(np.array(self.direction) @ self.model.tip_gradient(q))
 
-    def lifted(self, q: FloatArray, finer: SpaceBlade) -> FloatArray:
-        """Return the coordinates of the same shape on more functions, along the last axis."""
-        return np.asarray(self.model.padded(q, finer.model))
-
-    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, self.rate)
-
-    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, self.rate)
-
-    def potential(self, q: FloatArray) -> FloatArray:
-        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
-        return self.model.amended_potential(q, self.rate)
-
-    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the kinetic energy relative to the root frame, (samples,)."""
-        return self.model.kinetic_energy(q, q_dot)
-
     def refined(self) -> SpaceBlade:
-        """Return the blade on half as many functions again."""
+        """Return the blade on half as many functions again, the same each time."""
+        return self._finer
+
+    @cached_property
+    def _finer(self) -> SpaceBlade:
         return SpaceBlade(self.model.refined(), self.rate, self.direction, self)
 
     @cached_property
@@ -203,6 +175,11 @@ class SpaceBlade:
         """The tangent at the steady state, (1, n, n)."""
         still = np.zeros((1, self.size))
         return self.tangent(self.equilibrium[None], still, still)
+
+
+def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
+    """Yield a blade on more and more functions, up to the most that are taken."""
+    return refined(first, SpaceBlade.refined, lambda one: one.functions > MOST_FUNCTIONS)
 
 
 def _newton(model: SpaceContinuum, q: FloatArray, rate: float) -> FloatArray | None:
@@ -287,19 +264,15 @@ def steady_state(blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EU
     """
     omega = rotation_speed(omega)
     warn_if_rpm(blade, omega)
-    steady = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
-    tip, error = steady.tip, math.inf
-    while error > _SETTLED:
-        if steady.functions > MOST_FUNCTIONS:
-            raise ValueError(
-                f"the steady state at omega = {omega:g} rad/s has not settled with "
-                f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "
-                "L; rotate slower"
-            )
-        steady, before = steady.refined(), tip
-        tip = steady.tip
-        error = float(np.abs(tip - before).max())
+    first = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
+    _, steady, error = settled(lambda one: one, finer_blades(first), _SETTLED, lambda one: one.tip)
+    if error > _SETTLED:
+        raise ValueError(
+            f"the steady state at omega = {omega:g} rad/s has not settled with "
+            f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "
+            "L; rotate slower"
+        )
     return SteadyState(
-        blade=blade, omega=omega, theory=theory, tip=blade.length * tip, error=error,
+        blade=blade, omega=omega, theory=theory, tip=blade.length * steady.tip, error=error,
         _steady=steady,
     )  # fmt: skip
