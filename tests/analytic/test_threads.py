@@ -4,9 +4,11 @@ import threading
 
 import numpy as np
 import pytest
+import scipy.linalg  # noqa: F401 - its BLAS is one more, loaded before any is counted
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from analytic import Beam, periodic_orbits
+from analytic import Beam, Theory, backbone, periodic_orbits
+from analytic.exact.free import backbone as backbones
 from analytic.threads import one_thread
 
 
@@ -67,3 +69,13 @@ def test_a_call_that_another_thread_makes_meanwhile_changes_nothing(two):
 def test_a_public_verb_leaves_the_setting(two):
     periodic_orbits(Beam.reference(), 6.0, [0.1], functions=8)
     assert threads() == two
+
+
+@pytest.mark.parametrize("twist", [0.0, 0.3])
+def test_orbits_in_the_plane_and_in_space_take_one_thread(two, twist, monkeypatch):
+    """An orbit in space took forty times its processor time with two threads."""
+    seen = []
+    monkeypatch.setattr(backbones, "orbits_of", lambda *_: seen.append(threads()))
+    blade = Beam.reference().with_section_out_of_plane(0.25, 0.2).with_twist(twist)
+    backbone(blade, 6.0, theory=Theory(extension=False)).orbits([0.1])
+    assert seen == [[1] * len(two)]

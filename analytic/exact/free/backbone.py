@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, cast
+from typing import Any, ClassVar, Literal
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -51,10 +51,12 @@ class Backbone(ModePath):
     λ_ω = 0.01967
     """
 
+    _kind: ClassVar[type[Orbits]] = Orbits
+
     @one_thread
     def orbits(self, amplitudes: float | Sequence[float] | FloatArray) -> Orbits:
         """Return the orbits of peak tip deflections |q|/L, as `periodic_orbits` does."""
-        return orbits_of(self, amplitudes)
+        return orbits_of(self, amplitudes, self._kind)
 
     @one_thread
     def curve(
@@ -113,9 +115,7 @@ class SpaceBackbone(Backbone):
 
     gauge: Literal["lag", "flap"] | None = None
 
-    def orbits(self, amplitudes: float | Sequence[float] | FloatArray) -> SpaceOrbits:
-        """Return the orbits of peaks of the gauge over L, as `periodic_orbits` does."""
-        return cast(SpaceOrbits, orbits_of(self, amplitudes, SpaceOrbits))
+    _kind: ClassVar[type[Orbits]] = SpaceOrbits
 
     def branch(self, up_to: float = 0.9) -> BackboneBranch:
         """Refuse: tongues are followed in the plane only."""

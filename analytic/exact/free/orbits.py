@@ -166,7 +166,7 @@ class SpaceOrbits(Orbits):
         )
 
 
-def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits] = Orbits) -> Orbits:
+def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits:
     """Return the orbits of a backbone, as `periodic_orbits` says."""
     asked = finite_values("amplitudes", amplitudes)
     if asked.min() <= 0.0 or asked.max() >= 1.0:
