@@ -39,6 +39,7 @@ def prose(text):
     text = re.sub(r"^(?= *(?:[-*]|\d+\.) )", "\n", text, flags=re.MULTILINE)
     text = re.sub(r"(?:\{[\w:]+\})?`+[^`]+`+|\$[^$]+\$", "X", text)
     text = re.sub(r"!?\[([^]]*)\](?:\([^)]*\))?", r"\1", text)
+    text = re.sub(r"\b(Eqs?|Figs?|Secs?|al)\.", r"\1", text)  # no end of a sentence
     parts = re.split(r"\n(?:[ \t]*\n)+", text)
     return [" ".join(part.split()) for part in parts if part.strip() and part[:4] != " " * 4]
 
