@@ -26,7 +26,10 @@ OWN_WORDS = {
     r"what is left": "residual vibration",
     r"the pull": "tension",
     r"ours (?:is|are)": "we, this package",
-    r"colour\w*|fibres?|licen[c]e|behaviour|centre\w*|grey|\w*metres?": "American spelling",
+    r"leaves? (?:nothing|almost nothing|least|less)": "the residual amplitude is ...",
+    r"fl(?:y|ies) apart": "diverges",
+    r"colour\w*|fibres?|licence|behaviour|centre\w*|grey|\w*metres?": "American spelling",
+    r"judgement\w*|neighbour\w*|modelled|labelled": "American spelling",
 }
 
 
