@@ -1,4 +1,4 @@
-"""The pages are plain English: short sentences, and the field's words in place of the project's own."""
+"""The pages are plain English: short sentences, and the words of the field."""
 
 import re
 from pathlib import Path
