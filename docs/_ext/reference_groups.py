@@ -39,10 +39,10 @@ GROUPS = (
         "Small vibration about steady rotation.",
         analytic="linear_modes campbell damping_ratios steady_state",
         analytic__exact__linear__modes="LinearModes",
-        analytic__exact__linear__out_of_plane_modes="TorsionModes",
         analytic__exact__linear__campbell="Campbell",
         analytic__exact__linear__tracking="Crossing",
         analytic__exact__linear__unstretched="unstretched_frequencies",
+        analytic__exact__space__modes="SpaceModes",
     ),
     _group(
         "Backbone",

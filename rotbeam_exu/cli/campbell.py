@@ -105,7 +105,8 @@ def _families(beam: AnyBlade) -> list[Plane]:
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
-    return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
+    inert = 0.0 not in (known.polar_inertia, beam.section.rotary_inertia)
+    return ["lag", "flap", "torsion"] if twists and inert else ["lag", "flap"]
 
 
 def _print(diagram: Campbell, form: Format) -> None:

@@ -14,6 +14,7 @@ from analytic import (
     Rectangle,
     Section,
     SpinUp,
+    Theory,
     Tube,
     campbell,
     linear_modes,
@@ -294,6 +295,15 @@ UNIT = Blade(
                 UNIT.with_section_out_of_plane(1.0, 0.5, 0.0), 1.0, plane="torsion"
             ),
             "torsion has no modes without polar inertia",
+        ),
+        (
+            lambda: linear_modes(
+                UNIT.with_section_out_of_plane(1.0, 0.5),
+                1.0,
+                plane="torsion",
+                theory=Theory(trapeze=False),
+            ),
+            "without polar inertia: .* and trapeze=False",
         ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),

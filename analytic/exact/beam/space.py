@@ -112,29 +112,14 @@ class Space:
         at, dm = self.unit.inertia(self.shapes.a_panel + 3)
         w = self.shapes.twice(at)
         across = w.T @ (dm[:, None] * w)
-        return linalg.block_diag(across, self.twist_mass) if self.twist == "inertial" else across
-
-    @cached_property
-    def twist_mass(self) -> FloatArray:
-        """∫ j φφ of the twist, (functions, functions)."""
+        if self.twist != "inertial":
+            return across
         x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
         phi = self.shapes.once(x)
-        return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
-
-    def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
-        """Return the stiffness of the twist of the straight blade in steady rotation.
-
-        ∫ (gEI + Nk²) φ'φ' + ιw̄² φφ, (functions, functions).
-        """
-        model, still = steady.model, np.zeros((1, steady.size))
-        tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
-        torsion, turning = self._held(model.points, tension, steady.rate)
-        strain, once, _ = _bases(self.shapes, model)
-        stiffness = _form(strain, model.weights * torsion, strain)
-        return np.asarray(stiffness[0] + _form(once, model.weights * turning, once))
+        return linalg.block_diag(across, phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
     def _held(
-        self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
+        self, x: FloatArray, tension: FloatArray, spin: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
         r, unit = self.section.bending_ratio, self.unit

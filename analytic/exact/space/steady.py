@@ -128,7 +128,10 @@ class SpaceBlade(AtConstantRate):
             near = self.coarser.model.padded(self.coarser.equilibrium, self.model)
             if (found := _newton(self.model, near, self.rate)) is not None:
                 return found
-        q, rate, step = np.zeros(self.size), 0.0, min(_LONGEST, self.rate or _LONGEST)
+        unit = self.model.functions.blade
+        # A straight blade stays straight, and nothing is to be followed.
+        rate = self.rate if unit.half_turn and unit.mirrored else 0.0
+        q, reached, step = np.zeros(self.size), 0.0, _LONGEST
         while True:
             found = _newton(self.model, q, rate)
             if found is not None:
