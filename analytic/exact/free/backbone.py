@@ -12,7 +12,6 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
-from ..space.continuum import SpaceContinuum
 from ..space.modes import orbit_modes, space_modes_on
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
@@ -134,10 +133,6 @@ class SpaceBackbone(Backbone):
         first, second, last = self._softenings(self.path.seed, self.path.double, third)
         value = 1.5 * first - 0.6 * second + 0.1 * last
         return value, abs(value - (4.0 * first - second) / 3.0)
-
-    def finer(self, model: SpaceContinuum) -> SpaceContinuum:
-        """Return a model on half as many functions again."""
-        return model.refined()
 
     def _rotation(self) -> SpaceBlade:
         steady = space_rotation(self.beam, self.omega, self.model)

@@ -20,7 +20,6 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.discretization import finer_model
 from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import solve_modes
 from .branch import AmplitudeNotReachedError
@@ -67,10 +66,6 @@ class ModePath:
         """Return frequencies and shapes (modes, n) about the steady state, odd ones in the sine."""
         modes = solve_modes(steady)
         return modes.frequencies, modes.coordinates
-
-    def finer(self, model: Any) -> Any:
-        """Return a model on half as many functions again."""
-        return finer_model(model)
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the two smallest orbits, and what that changed."""

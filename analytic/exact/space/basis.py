@@ -21,7 +21,6 @@ from .unit import SpaceUnit
 from .vectors import about_axis
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
-_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +136,7 @@ class StrainFunctions:
     @cached_property
     def grid(self) -> Grid:
         """Points at which fields are evaluated."""
-        return self.blade.grid(2 * self.bending, _MORE, _MOST_CELLS)
+        return self.blade.grid(2 * self.bending, _MORE, of_fields=True)
 
     @cached_property
     def viscosity(self) -> FloatArray:

@@ -178,7 +178,9 @@ def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, Comp
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
     bending, twists, *_ = steady.model.functions.counts
     moving = slice(bending, bending + twists) if torsion else slice(None)
-    K, C, M = (part[0, moving, moving] for part in steady.linearized[1:])
+    parts: list[FloatArray] = [part[0, moving, moving] for part in steady.linearized[1:]]
+    K, C, M = parts
+    # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
     kept = inverse > _MASSLESS
