@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -178,7 +179,7 @@ def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, Comp
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
     bending, twists, *_ = steady.model.functions.counts
     moving = slice(bending, bending + twists) if torsion else slice(None)
-    parts: list[FloatArray] = [part[0, moving, moving] for part in steady.linearized[1:]]
+    parts: list[Any] = [part[0, moving, moving] for part in steady.linearized[1:]]
     K, C, M = parts
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
