@@ -334,14 +334,25 @@ def test_a_strip_at_rest_has_a_limit_and_a_square_none(beam):
     assert strip.amplitude == pytest.approx(0.00782, rel=1e-3)
 
 
-def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam):
-    """Flap and torsion of the growth's own matrices are those of `linear_modes`, name by name."""
+TAPERED = Blade(
+    length=8.0,
+    section=Section(
+        mass_per_length=[0.2, -0.1], axial_stiffness=[5e6, -2e6], bending_stiffness=[566.0, -300.0]
+    ),
+)
+
+
+@pytest.mark.parametrize("polar", [None, 5e-5])
+def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, polar):
+    """Flap and torsion by L2 are those of `linear_modes`, in other coordinates, name by name."""
     blade = beam.with_shape(Rectangle())
+    if polar:
+        blade = TAPERED.with_section_out_of_plane(0.0625, 0.08, polar)
     planar = steady_rotation(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
     space = Space(blade, 27)
     frequencies, rows, names = _steady_modes(space, with_points_for(planar, space.functions))
     assert len(names) == len(rows) == frequencies.size == 54
-    of = dict(zip(names, frequencies * beam.frequency_scale, strict=True))
+    of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))
     for plane in ("flap", "torsion"):
         known = linear_modes(blade, 4.0, 2, plane=plane).frequencies
         assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=1e-8)
