@@ -350,7 +350,7 @@ def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, polar):
         blade = TAPERED.with_section_out_of_plane(0.0625, 0.08, polar)
     planar = steady_rotation(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
     space = Space(blade, 27)
-    frequencies, rows, names = _steady_modes(space, with_points_for(planar, space.functions))
+    rows, frequencies, names = _steady_modes(space, with_points_for(planar, space.functions))
     assert len(names) == len(rows) == frequencies.size == 54
     of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))
     for plane in ("flap", "torsion"):

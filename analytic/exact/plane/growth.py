@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
 from ...lazily import linalg
-from ...methods.floquet import reversible_monodromy
+from ...methods.floquet import normal_modes, reversible_monodromy
 from ...settled import settled
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import BeamOrbit, SteadyBeam
@@ -121,7 +121,7 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """
 
     def flap(space: Space) -> FloatArray:
-        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[0][:4])
+        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
 
     space, _, change = settled(lambda count: _space(blade, count), iter(_SIZES), _SETTLED, flap)
     if change > _SETTLED:
@@ -133,21 +133,17 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
 
 
 def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:
-    """Return frequencies, normal coordinates (modes, n) and names, flap first, then torsion."""
+    """Return normal coordinates (modes, n), frequencies and names, the slowest first."""
     at_rest = np.zeros((1, planar.size))
-    (K,) = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
-    n, M = space.functions, space.mass
-    frequencies, rows, names = [], [], []
-    for name, part in (("flap", slice(0, n)), ("torsion", slice(n, 2 * n))):
-        if part.start >= space.size:
-            break
-        squares, shapes = linalg.eigh(K[part, part], M[part, part])
-        frequencies.append(np.sqrt(np.maximum(squares, 0.0)))
-        row = np.zeros((n, space.size))
-        row[:, part] = shapes.T @ M[part, part]
-        rows.append(row)
-        names += [f"{name} {k}" for k in range(1, n + 1)]
-    return np.concatenate(frequencies), np.concatenate(rows), names
+    K = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
+    rows, frequencies = normal_modes(K[0], space.mass)
+    flap = np.abs(rows[:, : space.functions]).max(axis=1)
+    twists = np.abs(rows[:, space.functions :]).max(axis=1, initial=0.0) > flap
+    names = [
+        f"torsion {before}" if torsion else f"flap {k - before}"
+        for k, (torsion, before) in enumerate(zip(twists, np.cumsum(twists), strict=True), start=1)
+    ]
+    return rows, frequencies, names
 
 
 def _shares(
@@ -157,9 +153,8 @@ def _shares(
 
     The shares are (modes, states).
     """
-    frequencies, rows, names = _steady_modes(space, planar)
+    rows, frequencies, names = _steady_modes(space, planar)
     n = space.size
     energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
     energy += np.abs(rows @ states[n:]) ** 2
-    order = np.argsort(frequencies)
-    return frequencies[order], [names[k] for k in order], (energy / energy.sum(axis=0))[order]
+    return frequencies, names, energy / energy.sum(axis=0)
