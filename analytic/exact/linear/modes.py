@@ -155,7 +155,7 @@ def linear_modes(
         )
     bent = flap_blade(beam) if plane == "flap" else beam
     model = resolved_model(bent, count, theory, functions)
-    model, modes = _settled_modes(bent, omega, count, model)
+    model, modes = settled_modes(bent, omega, count, model)
     return replace(_in_units(bent, omega, count, model, modes), beam=beam)
 
 
@@ -194,16 +194,17 @@ def _in_units(
     )
 
 
-def _settled_modes(
-    beam: AnyBlade, omega: float, count: int, model: Continuum
+def settled_modes(
+    beam: AnyBlade, omega: float, count: int, model: Continuum, *, stretched: bool = True
 ) -> tuple[Continuum, Modes]:
     """Return the discretization that a finer one confirms, and its modes.
 
-    Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
+    About the stretched or the unstretched blade. Rotation bends it in a layer at the clamp, √2/w̄
+    thin, which takes ~√w̄ functions.
     """
     first = steady_rotation(beam, omega, model)
     (steady, modes), _, change = settled(
-        lambda steady: (steady, solve_modes(steady)),
+        lambda steady: (steady, solve_modes(steady, stretched=stretched)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
         lambda found: np.log(found[1].frequencies[:count]),
@@ -241,21 +242,21 @@ class Modes(NamedTuple):
     slopes: ComplexArray
 
 
-def solve_modes(steady: SteadyBeam) -> Modes:
+def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
     With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
-    model = steady.model
-    at_rest = np.zeros((1, model.size))
-    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    model, at_rest = steady.model, np.zeros((1, steady.size))
+    at = steady.equilibrium if stretched else at_rest[0]
+    tangent = steady.tangent(at[None], at_rest, at_rest)
     gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
     gyroscopic += gyroscopic.T
     inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
     # The inextensible beam has no axial modes: they come out with ν = 0.
     kept = inverse > 1e-12
     coordinates = shapes.T[kept]
-    slopes = model.slope_rate(steady.equilibrium, coordinates)
+    slopes = model.slope_rate(at, coordinates)
     tips = slopes @ model.weights
     scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
     return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])
