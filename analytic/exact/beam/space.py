@@ -82,6 +82,8 @@ class Space:
         With a known section out of the plane.
     functions : int
         Least number of functions for each.
+    theory : Theory
+        Whether there are the second line of L2, and inertia of the twist, as in space.
 
     Attributes
     ----------
@@ -91,9 +93,10 @@ class Space:
         Number of coordinates, and of those of w, which come first.
     """
 
-    def __init__(self, blade: AnyBlade, functions: int) -> None:
+    def __init__(self, blade: AnyBlade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
         section = require_out_of_plane(blade)
-        self.blade, self.unit, self.section = blade, blade.unit, section
+        self.blade, self.unit, self.section, self.theory = blade, blade.unit, section, theory
+        inert = theory.trapeze or theory.rotary_inertia
         self.shapes = shape_functions(self.unit, functions)
         self.functions = self.shapes.count
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
@@ -101,7 +104,7 @@ class Space:
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
         self.twist: Twist = (
             "rigid" if np.isinf(self.g) or section.bending_ratio == 1.0
-            else "quasi-static" if section.polar_inertia == 0.0
+            else "quasi-static" if section.polar_inertia == 0.0 or not inert
             else "inertial"
         )  # fmt: skip
         self.size = (1 + (self.twist == "inertial")) * self.functions
@@ -125,9 +128,10 @@ class Space:
         r, unit = self.section.bending_ratio, self.unit
         torsion = self.g * evaluated(unit.bending, x)
         gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
-        trapeze = tension * self.blade.slenderness * (1.0 + r) * gyration
-        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
-        return torsion + trapeze, difference * np.square(spin)
+        if self.theory.trapeze:
+            torsion = torsion + tension * self.blade.slenderness * (1.0 + r) * gyration
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x) * (self.twist == "inertial")
+        return np.broadcast_to(torsion, tension.shape), difference * np.square(spin)
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
