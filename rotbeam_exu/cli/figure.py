@@ -49,7 +49,7 @@ def figure(
     """
     from .. import figures
 
-    every = list(figures.PAPER_FIGURES)
+    every = sorted(figures.PAPER_FIGURES)
     wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
     if not wanted or wanted[0] not in every:
         raise ValueError(
