@@ -63,8 +63,8 @@ def sweep(
         Number of processes of the default executor, by default the cores; 1 runs in this process.
     cache : path, optional
         Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
-        Results found there were made by the same code: this project's, the element's, and all else
-        they import but installed libraries.
+        Results found there were made by the same code: this project's and the element's, which is
+        its package, or its module and those beside it.
     progress : callable, optional
         Called with the cases done and their number.
     on_error : {"raise", "record"}
