@@ -54,10 +54,8 @@ def explore(
     require_exudyn()
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
-    if out.suffix not in (".html", ".htm"):
-        raise ValueError(f"cannot write {out.name!r}: the ending must be .html")
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
-    require_writable(out, force, b"<title>Rotating beam explorer")
+    require_writable(out, force=force, ours="<title>Rotating beam explorer", ending=".html")
     beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:

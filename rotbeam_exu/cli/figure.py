@@ -2,25 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Annotated, Any
-
-from cyclopts import Parameter
+from collections.abc import Sequence
+from typing import Any
 
 from ..files.results import writable_folder
 from ..lazily import xr
 from .job import Job
-from .options import RESULTS, WORKERS, Results, Workers, spelled_as
-
-
-def _styles() -> Iterable[str]:
-    from ..figures import STYLES
-
-    return STYLES
-
-
-StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
-"""Name of a style; `figures.style` refuses unknown ones."""
+from .options import RESULTS, WORKERS, Results, Workers
 
 
 def figure(
@@ -28,7 +16,7 @@ def figure(
     *,
     workers: Workers = WORKERS,
     results: Results = RESULTS,
-    style: StyleName = "house",
+    style: str = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
 
@@ -56,7 +44,7 @@ def figure(
             f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
             "and all"
         )
-    with figures.style(style):
+    with figures.style(style.lower()):
         for n in wanted:
             _made(n, workers, results)
 

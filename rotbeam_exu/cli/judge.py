@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
 
-from ..files.results import whole_file, writable_folder
+from ..files.results import whole_file
 from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
 from ..verification.cases import VERSION
@@ -15,6 +15,7 @@ from ..verification.judgement import judged
 from ..verification.mistakes import Mistake, mistakes_in
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import MalformedSubmissionError
+from .job import require_writable
 from .output import print_note, print_text, print_written
 from .verify import print_judgements
 
@@ -44,9 +45,9 @@ def judge(
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
     """
-    for target, ending in ((report, ".html"), (json, ".json")):
+    for target, ending, ours in ((report, ".html", TITLE), (json, ".json", SCHEMA)):
         if target is not None:
-            _may_write(target, ending)
+            require_writable(target, ours=ours, ending=ending)
     try:
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
@@ -67,16 +68,6 @@ def judge(
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
     sys.exit(0 if found.passed else 1)
-
-
-def _may_write(target: Path, ending: str) -> None:
-    """Refuse a target of another ending, in a folder that cannot be written, or not of ours."""
-    if target.suffix != ending:
-        raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
-    writable_folder(target.parent)
-    ours = TITLE.encode(), SCHEMA.encode()
-    if target.exists() and not any(mark in target.read_bytes()[:1000] for mark in ours):
-        raise FileExistsError(f"{target} is there and is no judgement: choose another name")
 
 
 def _write(text: str, target: Path) -> None:

@@ -19,7 +19,7 @@ from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
-from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import Progress, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -35,9 +35,6 @@ def choice(kind: Any, tokens: Sequence[Token]) -> str:
 
 
 Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
-
-_TITLE = 22
-"""Width of the titles ahead of single lines."""
 
 _DIGITS = 7
 """Digits of a float in a table."""
@@ -204,16 +201,8 @@ def print_note(text: str) -> None:
 
 
 def print_line(title: str, text: str) -> None:
-    """Print a title and its text beside it, on a terminal in as many lines as it takes."""
-    console = new_console()
-    if not console.is_terminal:
-        console.print(f"{title:<{_TITLE}}{text}")
-        return
-    grid = Table.grid()
-    grid.add_column(width=_TITLE)
-    grid.add_column()
-    grid.add_row(title, text)
-    console.print(grid, soft_wrap=False)
+    """Print a title and its text beside it."""
+    print_text(f"{title:<22}{text}")
 
 
 def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
@@ -258,37 +247,29 @@ def _encodable(text: str, console: Console) -> str:
 
 
 @contextmanager
+def bar(title: str) -> Iterator[Callable[[float, float], None]]:
+    """Give a function to call with the work done and all of it; it draws on a terminal only."""
+    console = new_console()
+    with Progress(
+        *Progress.get_default_columns(), TimeElapsedColumn(), console=console, transient=True,
+        disable=not console.is_terminal,
+    ) as drawn:  # fmt: skip
+        task = drawn.add_task(title, total=None)
+        yield lambda done, whole: drawn.update(task, completed=done, total=whole)
+
+
+@contextmanager
 def counter(title: str) -> Iterator[Callable[[int, int], None]]:
     """Give a function to call with the pieces done and their number.
 
     Without a terminal its lines go to standard error: results stay alone on standard output.
     """
-    console = new_console()
-    if not console.is_terminal:
-        yield _plain(title)
-        return
-    with Progress(
-        *Progress.get_default_columns(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn(""),
-        console=console,
-        transient=True,
-    ) as bar:
-        task = bar.add_task(title, total=None)
-
-        def progress(done: int, number: int) -> None:
-            bar.update(task, completed=done, total=number)
-
-        yield progress
-
-
-def _plain(title: str) -> Callable[[int, int], None]:
     errors, started = new_console(stderr=True), time.monotonic()
 
-    def progress(done: int, number: int) -> None:
-        if done % -(-number // _LINES) and done != number:
-            return
-        errors.print(f"{title}: {done} of {number} done after {time.monotonic() - started:.0f} s")
+    def line(done: int, number: int) -> None:
+        if done % -(-number // _LINES) == 0 or done == number:
+            after = time.monotonic() - started
+            errors.print(f"{title}: {done} of {number} done after {after:.0f} s")
 
-    return progress
+    with bar(title) as drawn:
+        yield drawn if new_console().is_terminal else line

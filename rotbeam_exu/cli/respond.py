@@ -209,9 +209,7 @@ def respond(
 def _frequencies(first: float, last: float, points: int) -> FloatArray:
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
-    if whole_number("points", points) < 2:
-        raise ValueError(f"points must be at least 2, got {points}")
-    return np.linspace(first, last, points)
+    return np.linspace(first, last, whole_number("points", points, least=2))
 
 
 def _name(load: Load, omega: float | None) -> str:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.progress import Progress
-
 from analytic.warning import warn
 
 from ..lazily import xr
@@ -14,7 +12,7 @@ from ..runs.check import SimulationError, energy_drift
 from .job import Job, UnfinishedError
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
 from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
-from .output import new_console, print_line
+from .output import bar, print_line
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -88,11 +86,9 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
 def _computed(case: Case) -> xr.Dataset:
     from ..fem.simulation import run_case
 
-    console = new_console()
     try:
-        with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-            task = bar.add_task("spinning up", total=1.0)
-            return run_case(case, progress=lambda done: bar.update(task, completed=done))
+        with bar("spinning up") as drawn:
+            return run_case(case, progress=lambda done: drawn(done, 1.0))
     except SimulationError as error:
         if error.run is None:
             raise

@@ -112,7 +112,7 @@ def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
         (("--gravity", "--damping-ratio", "-0.1"), "ratio must not be negative"),
         (("--gravity", "--damping-ratio", "0.1", "--to", "3"), "--to must be above --from, got 3"),
         (("--gravity", "--damping-ratio", "0.1", "--points", "1"), "points must be at least 2"),
-        (("--rippel", "1"), "did you mean --ripple?"),
+        (("--rippel", "1"), "Did you mean --ripple?"),
     ],
 )
 def test_bad_input_is_one_sentence(call, tmp_path, arguments, sentence):
