@@ -23,7 +23,7 @@ from .motion import (
     motion_of,
     slower_than_paper,
 )  # fmt: skip
-from .options import Force, Whole
+from .options import Flag, Whole
 from .output import bar, print_text
 
 
@@ -37,14 +37,13 @@ def animate(
     beside: Literal["linear"] | None = None,
     config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> None:
     """Write the spin-up as GIF or MP4.
 
     Inertial and rotating view, and q over time.
 
-    The response is the exact beam's, to scale; a beam faster than the paper's is shown as
-    many times slower.
+    The film shows the exact beam to scale; a beam faster than the paper's is slowed down.
 
     Parameters
     ----------
@@ -55,8 +54,8 @@ def animate(
     slow_motion
         Seconds of the film per second of the motion.
     beside
-        Show a model that is linear in one floating frame beside the exact beam: above the first
-        natural frequency at rest it flies apart.
+        Show the linear model in a floating frame beside the exact beam: it diverges above the first
+        natural frequency at rest.
     out
         File to write, .gif, or .mp4 where ffmpeg is installed.
     force

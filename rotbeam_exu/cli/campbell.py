@@ -18,7 +18,7 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import require_writable
 from .motion import chosen_speeds, configured
-from .options import SECTION, Force, SectionOptions, Whole
+from .options import SECTION, Flag, SectionOptions, Whole
 from .output import Format, formatted, print_columns, print_written
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def campbell(
     format: Format = "table",  # noqa: A002  the name of the option
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: float | None = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 

@@ -104,7 +104,7 @@ class Job(Generic[R, T]):
         names = (Path(stem if n == 1 else f"{stem}-{n}") for n in range(1, 10_000))
         free = next(name for name in names if not differing_inputs(part, f"{name}.nc"))
         kept = saved(part, free, self.table(part))[0]
-        return f"{error}; what was {word} is in {kept}, marked failed"
+        return f"{error}; the part that was {word} is in {kept}, marked failed"
 
 
 def refuse_to_replace(
@@ -153,12 +153,12 @@ def require_writable(
     known = ours and target.is_file() and ours.encode() in target.read_bytes()[:4096]
     if target.exists() and not known and not force:
         remedy = "choose another name" + ("" if force is None else " with --out, or --force")
-        raise FileExistsError(f"{target} is there, and is not known as replaceable; {remedy}")
+        raise FileExistsError(f"{target} is there, from unknown inputs: {remedy}")
 
 
 @contextmanager
 def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
-    """Let Ctrl-C name the files it leaves behind: `kept` is asked then, and empty for none."""
+    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
     try:
         yield
     except KeyboardInterrupt as interrupt:

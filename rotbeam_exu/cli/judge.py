@@ -27,10 +27,10 @@ def judge(
     report: Path | None = None,
     json: Path | None = None,
 ) -> None:
-    """Judge the files that any code handed in, by its limits.
+    """Judge the result files of any code by their limits.
 
-    Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
-    malformed, and all their faults are told.
+    Exit code 0: all quantities that can be decided converge to the reference; 1: one does not;
+    2: files are malformed, and all their faults are printed.
 
     Parameters
     ----------

@@ -18,21 +18,21 @@ from ..files.beam_file import RunFile, load_run_file
 Config = Annotated[
     Path | None,
     Parameter(
-        help="TOML file with the beam or blade, and if it likes with [motion] and [numerics], of "
-        "which a command takes what it has no option for; without it, the paper's beam."
+        help="TOML file with [beam] or [blade], and optionally [motion] and [numerics]; options "
+        "given here replace its values. Without a file: the paper's beam."
     ),
 ]
 """The option --config; `configured` reads it."""
 
 Omega = Annotated[
     float | None,
-    Parameter(help="Rotation speed [rad/s]; needed, unless [motion] of the file has it."),
+    Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
 """A speed that is not guessed: see `omega_of`."""
 
 SteadySpeed = Annotated[
     float | None,
-    Parameter(help="Steady angular velocity [rad/s]; 6 for the paper's beam, unless given."),
+    Parameter(help="Steady angular velocity [rad/s]; by default 6 for the paper's beam."),
 ]
 """Speed after the ramp."""
 

@@ -43,12 +43,8 @@ _OF_FILE = "given"
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
-
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
-
-Force = Annotated[bool, Parameter(negative=(), show_default=False)]
-"""Replace files even if they hold what other inputs gave."""
 
 Amplitudes = Annotated[
     list[float],
@@ -56,13 +52,18 @@ Amplitudes = Annotated[
 ]
 """One or several, shown as they are typed."""
 
-NoFigure = Annotated[
-    bool,
-    Parameter(
-        name="--no-figure", negative=(), show_default=False, help="Write no figure, data only."
-    ),
-]
+NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
 """A switch of the commands that write a figure beside their data."""
+
+
+def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
+    """Return the number in a text, or all that are known."""
+    if text.lower() == "all":
+        return known
+    if text.isdecimal() and int(text) in known:
+        return [int(text)]
+    every = ", ".join(map(str, known))
+    raise ValueError(f"there is no {what} {text!r} with data: take {every} or all")
 
 
 def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
@@ -101,7 +102,7 @@ class Discretization:
     element
         Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
     option
-        Option of the formulation as name=value; may be given again for another.
+        Option of the formulation as name=value; repeat it for several.
     elements
         Number of elements, 16 unless given.
     step
@@ -172,7 +173,7 @@ class Results:
     """
 
     out: Annotated[Path, Parameter(alias="-o")] = Path("results")
-    force: Force = False
+    force: Flag = False
 
 
 @Parameter(name="*")
@@ -183,9 +184,9 @@ class Workers:
     Parameters
     ----------
     jobs
-        Processes at a time; by default the cores.
+        Number of processes; by default one per core.
     cache
-        Folder with one file per finished spin-up, from which a stopped command goes on.
+        Folder with one file per finished spin-up; a stopped command continues from it.
     """
 
     jobs: Jobs = None
@@ -263,11 +264,11 @@ class SectionOptions:
         return beam.blade.with_shape(shape)
 
     def required_of(self, beam: AnyBlade) -> AnyBlade:
-        """Return the same, refusing a beam of whose section nothing is known out of the plane."""
+        """Return the same; refuse a beam whose section out of the plane is unknown."""
         blade = self.of(beam)
         if blade.section.out_of_plane is None:
             raise ValueError(
-                "what the section is out of the plane is unknown: give --section rectangle or "
+                "the section out of the plane is unknown: give --section rectangle or "
                 "--section tube, or [blade.section.out_of_plane] in --config"
             )
         return blade

@@ -84,7 +84,6 @@ def ready_streams() -> None:
     nowhere = Path(os.devnull)
     sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
     sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
-    codecs.register_error("spelled", _spell)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="spelled")
@@ -95,6 +94,9 @@ def _spell(error: UnicodeError) -> tuple[str, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error
     return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+
+
+codecs.register_error("spelled", _spell)
 
 
 def _in_ascii(letter: str) -> str:
@@ -242,7 +244,6 @@ def _is_number(text: str) -> bool:
 
 
 def _encodable(text: str, console: Console) -> str:
-    codecs.register_error("spelled", _spell)
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
 
 

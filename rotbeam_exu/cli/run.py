@@ -29,7 +29,7 @@ def run(
     no_figure: NoFigure = False,
     results: Results = RESULTS,
 ) -> None:
-    """Spin a beam up in Exudyn and measure what oscillation is left.
+    """Spin a beam up in Exudyn and measure the remaining oscillation.
 
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
     another beam speed, times and step follow its ω_0.

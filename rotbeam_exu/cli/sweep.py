@@ -31,8 +31,8 @@ def sweep(
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
-    The paper's grid unless another is given. Failed cases stay on record and end in exit code 1; a
-    sweep that was stopped goes on where it stopped.
+    The default is the paper's grid. Failed cases stay on record and end in exit code 1; a sweep
+    that was stopped goes on where it stopped.
 
     Parameters
     ----------
@@ -45,8 +45,8 @@ def sweep(
     history
         Also keep q over time.
     config
-        TOML file with the beam, and if it likes with [numerics]; a speed or ramp time in its
-        [motion] is the grid's only one, unless others are given.
+        TOML file with the beam, and optionally [numerics]; a speed or ramp time in its [motion] is
+        the grid's only one, unless others are given.
 
     Examples
     --------

@@ -45,17 +45,17 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes at hand, by their limits.
+    """Judge elements, and other codes installed here, by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
-    Of the paper's beam the benchmark's cases L, S1, S2, O and S4; of another one its spin-up.
+    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up.
 
     Parameters
     ----------
     element
         A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
-        kratos. May be given again; without it all that are at hand.
+        kratos. Repeat it for several; by default all that are installed.
     cost
         Print the cost at equal error instead.
     error
@@ -155,13 +155,13 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             one.declaration.code: [cell(one.by_quantity.get(key)) for key in keys] for one in found
         }
 
-    _print(asked | of_each(_limit), f"What codes tend to, less the reference; {about}")
+    _print(asked | of_each(_limit), f"Limits of the codes less the reference; {about}")
     print_note(
-        "! decides against the code, ? decides nothing; floor: of what measures it, ref ±: of the "
-        "reference, in the shift also of the limit of the code's own ω_n"
+        "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
+        "reference, in the shift also that of the code's own ω_n"
     )
     bars = {"quantity": asked["quantity"]} | of_each(_discretization)
-    _print(bars, "Discretization of the finest run: less its own limit ± the bar of that")
+    _print(bars, "Discretization error: finest run less its own limit, ± uncertainty of that")
     _print(
         {
             "code": [one.declaration.code for one in found],
@@ -173,7 +173,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
             "outcome": [one.outcome for one in found],
         },
-        "Orders of q(t) observed of declared, and time, of the finest run of the first history",
+        "Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in found:
         for sentence in _sentences(one):

@@ -39,7 +39,7 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
         if histories is not None:
             caption = (
                 f"{name}: the finest run over the reference, and the largest difference of each "
-                "run up to each time; dashed, what passes of a limit."
+                "run up to each time; dashed: the threshold for a limit."
             )
             yield svg(_history(histories)), caption
         drawn = _in_mesh(judgement, name)
@@ -62,7 +62,7 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
             _draw_cost(axes[-1], histories)
         machine = declared.machine or "the author's machine"
         caption = f"{name}: distance from the limit in the mesh{' and in the step' * bool(steps)}"
-        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
+        caption += f", with the limit's uncertainty{f'; error and time on {machine}' * timed}."
         yield svg(axes[0]), caption
 
 

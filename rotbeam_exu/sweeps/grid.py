@@ -183,8 +183,8 @@ def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache 
     if made_by is None:
         cls = type(model)
         warn(
-            f"the source of {cls.__qualname__} does not tell what it does, so its cases are not "
-            "kept in the cache; define it at the top level of a module on file"
+            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
+            "define it at the top level of a module on file"
         )
         return None
     return Cache(folder, made_by=made_by)
@@ -222,7 +222,9 @@ def _solved(
                 except (BrokenProcessPool, CancelledError) as error:
                     what = "a worker process died"
                     if isinstance(error, CancelledError):
-                        what = "the executor gave its cases up, as a Dask scheduler does that ends,"
+                        what = (
+                            "the executor, such as a Dask scheduler that ended, cancelled its cases"
+                        )
                     raise SimulationError(
                         f"{what} with {len(waiting) - finished} of {len(waiting)} cases to do; "
                         "run again to resume from the cache"

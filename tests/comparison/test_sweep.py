@@ -219,7 +219,10 @@ class DyingPool(Executor):
     [
         (BrokenProcessPool("a worker died"), "a worker process died"),
         # Of Dask's client, whose scheduler is gone.
-        (CancelledError(), "the executor gave its cases up, as a Dask scheduler does that ends,"),
+        (
+            CancelledError(),
+            "the executor, such as a Dask scheduler that ended, cancelled its cases",
+        ),
     ],
 )
 def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error, said):
