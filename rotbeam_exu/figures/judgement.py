@@ -179,13 +179,10 @@ def _draw_cost(ax: Axes, histories: Histories) -> None:
     ax.margins(0.2)
     _whole_decades(ax)
     low, high = ax.get_xlim()
-    narrow, low, high = high / low < 10.0, low / 1.3, 1.3 * high
-    ax.set_xlim(low, high)
+    ax.set_xlim(low / 1.3, 1.3 * high)
     ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
-    if narrow:  # round times where no power of ten is in sight
-        powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
-        places = [float(k * power) for power in powers for k in (1, 2, 5)]
-        ax.set_xticks([x for x in places if low <= x <= high])
+    if high / low < 10.0:  # round times where no power of ten is in sight
+        ax.xaxis.set_major_locator(mpl.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
     ax.legend(loc="best")
 

@@ -100,8 +100,8 @@ def sweep(
     [[0.2758 0.1654]] [[3.0377 3.0361]]
     """
     cases = _grid(
-        _values("omegas", omegas, "rad/s"),
-        _values("ramp_times", ramp_times, "s"),
+        finite_values("omegas", omegas, "rad/s").tolist(),
+        finite_values("ramp_times", ramp_times, "s").tolist(),
         lambda spin_up: Case(
             beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
             step=step, frame=frame,
@@ -156,12 +156,6 @@ def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
         if sentence:
             found.setdefault(str(sentence), []).append((omegas[i], times[j]))
     return found
-
-
-def _values(name: str, values: Sequence[float], unit: str) -> list[float]:
-    if np.size(np.asarray(values)) == 0:
-        raise ValueError(f"{name} is empty; give at least one value")
-    return [float(value) for value in finite_values(name, values, unit)]
 
 
 def _grid(

@@ -296,7 +296,7 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"omegas": []}, "omegas is empty"),
+        ({"omegas": []}, "omegas must be a sequence of numbers"),
         ({"ramp_times": [3.0, 2.0, 3.0]}, "ramp_times holds 3 more than once"),
         ({"omegas": [-1.0]}, "omega must not be negative"),
         ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
