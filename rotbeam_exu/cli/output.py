@@ -43,13 +43,14 @@ _LINES = 50
 """Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
 
 _SPELLED = {
-    "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
-    "–": "-", "·": "*", "√": "sqrt ",
+    "ω": "omega", "Ω": "Omega", "θ": "theta", "ϑ": "theta", "λ": "lambda", "μ": "mu", "η": "eta",
+    "ν": "nu", "ρ": "rho", "κ": "kappa", "φ": "phi", "ψ": "psi", "π": "pi", "τ": "tau", "×": "x",
+    "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-", "·": "*",
+    "√": "sqrt ", "₀": "0",
 }  # fmt: skip
+"""Letters of the theory, for outputs that lack them."""
 _CONTROL = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 """Categories of letters that steer a terminal, or the direction in which it writes."""
-
-_NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
 
 
 class _Console(Console):
@@ -93,21 +94,11 @@ def _spell(error: UnicodeError) -> tuple[str, int]:
     """Replace letters by their names, or by '?': the handler of an encoding error."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
-    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+    letters = error.object[error.start : error.end]
+    return "".join(_SPELLED.get(letter, "?") for letter in letters), error.end
 
 
 codecs.register_error("spelled", _spell)
-
-
-def _in_ascii(letter: str) -> str:
-    if letter in _SPELLED:
-        return _SPELLED[letter]
-    name = unicodedata.name(letter, "").split()
-    if name[:1] == ["GREEK"]:
-        spoken = next((word for word in name if word not in _NO_NAME), "?").lower()
-        return spoken.capitalize() if "CAPITAL" in name else spoken
-    plain = unicodedata.normalize("NFKD", letter).encode("ascii", "ignore").decode()
-    return plain or "?"
 
 
 def print_columns(
