@@ -75,5 +75,5 @@ def test_names_are_known_in_upper_and_lower_case(call):
     assert call("verify", "--element", "CABEL")[0] == 2
     code, _, error = call(*arguments, "frn")
     assert code == 2
-    assert "rotbeam: variant must be one of CI, CE" in error
+    assert "rotbeam: frn: variant must be one of CI, CE" in error
     assert call("backbone", "--omega", "6", "--format", "text")[0] == 2
