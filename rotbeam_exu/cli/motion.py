@@ -60,12 +60,6 @@ class Motion:
     duration: float
     step: float
 
-    def __str__(self) -> str:
-        return (
-            f"omega {self.spin_up.omega:g} rad/s, ramp-time {self.spin_up.ramp_time:g} s, "
-            f"duration {self.duration:g} s, step {self.step:g} s"
-        )
-
 
 def chosen_speeds(beam: AnyBlade, *of_paper: float) -> list[float]:
     """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits."""

@@ -13,9 +13,8 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Any, Literal
 
-from cyclopts import Parameter, Token
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
@@ -23,18 +22,7 @@ from rich.progress import Progress, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
-
-def choice(kind: Any, tokens: Sequence[Token]) -> str:
-    """Read one of the texts of a Literal, in upper or lower case: a converter."""
-    inner = next((one for one in get_args(kind) if get_args(one)), kind)  # Literal[...] | None
-    text, known = tokens[0].value, get_args(inner)
-    found = {str(one).lower(): str(one) for one in known}.get(text.lower())
-    if found is None:
-        raise ValueError(f"it must be {' or '.join(map(str, known))}, got {text!r}")
-    return found
-
-
-Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
+Format = Literal["table", "csv"]
 
 _DIGITS = 7
 """Digits of a float in a table."""

@@ -51,12 +51,6 @@ def run(
     case = numerics.case(file.beam, motion)
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
-    def computed() -> xr.Dataset:
-        if config is not None:
-            where = "(where not given, the paper's, scaled by ω_0)"
-            print_line("motion", f"{motion} {where}")
-        return _computed(case)
-
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
         found = assess(case, steady)
@@ -65,7 +59,7 @@ def run(
         return found
 
     found = Job(
-        path=path, inputs=case.describe(), force=results.force, compute=computed,
+        path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case),
         show=shown,
         draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
     ).run()  # fmt: skip

@@ -70,7 +70,7 @@ def test_what_is_missing_is_named_and_where_it_is_explained(call, arguments, nam
 
 
 def test_names_are_known_in_upper_and_lower_case(call):
-    arguments = ("backbone", "--omega", "6", "--amplitude", "0.1", "--format", "CSV", "--variant")
+    arguments = ("backbone", "--omega", "6", "--amplitude", "0.1", "--format", "csv", "--variant")
     assert call(*arguments, "frm")[1] == call(*arguments, "FrM")[1]
     assert call("verify", "--element", "CABEL")[0] == 2
     code, _, error = call(*arguments, "frn")
