@@ -51,7 +51,12 @@ def judge(
     try:
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
-        _print_faults(error)
+        for fault in error.faults:
+            print_text(str(fault), stderr=True)
+        many = f"{len(error.faults)} fault{'s' * (len(error.faults) > 1)}"
+        print_text(
+            f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True
+        )
         sys.exit(2)
     found = judged(submission)
     mistakes = mistakes_in(submission, found)
@@ -74,13 +79,6 @@ def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
     print_written([target])
-
-
-def _print_faults(error: MalformedSubmissionError) -> None:
-    for fault in error.faults:
-        print_text(str(fault), stderr=True)
-    count = len(error.faults)
-    print_text(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True)
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:

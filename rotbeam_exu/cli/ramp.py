@@ -65,7 +65,11 @@ def ramp(
         "elements": case.elements,
     }  # fmt: skip
     if finite_element_points:
-        _require_exudyn()
+        # Before the transients are computed, for the runs cannot be.
+        try:
+            require_exudyn()
+        except ImportError as error:
+            raise ImportError(f"{error}; take --finite-element-points 0") from error
 
     def computed() -> xr.Dataset:
         with counter("transients") as progress:
@@ -84,14 +88,6 @@ def ramp(
         show=lambda data, _: _print(beam, omega, longest, data),
         draw=lambda figures, data: figures.residual(data),
     ).run()
-
-
-def _require_exudyn() -> None:
-    """Say before the transients are computed that the runs cannot be, and what can."""
-    try:
-        require_exudyn()
-    except ImportError as error:
-        raise ImportError(f"{error}; take --finite-element-points 0") from error
 
 
 def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> None:

@@ -146,7 +146,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
     asked = {
         "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
         "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
-        "floor": [_largest(_floor(one) for one in known[key]) for key in keys],
+        "floor": [_largest(one.runs.noise[-1] for one in known[key] if one.runs) for key in keys],
         "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
     }
 
@@ -198,10 +198,6 @@ def _discretization(found: Finding | None) -> str:
     if found is None or found.runs is None or not math.isfinite(found.runs.limit):
         return "-"
     return f"{_signed(float(found.runs.errors[-1]))} ±{found.runs.bar:.0e}"
-
-
-def _floor(found: Finding) -> float:
-    return math.nan if found.runs is None else float(found.runs.noise[-1])
 
 
 def _signed(value: float) -> str:
