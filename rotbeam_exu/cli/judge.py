@@ -54,9 +54,7 @@ def judge(
         for fault in error.faults:
             print_text(str(fault), stderr=True)
         many = f"{len(error.faults)} fault{'s' * (len(error.faults) > 1)}"
-        print_text(
-            f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True
-        )
+        print_text(f"{many}: nothing was judged", stderr=True)
         sys.exit(2)
     found = judged(submission)
     mistakes = mistakes_in(submission, found)

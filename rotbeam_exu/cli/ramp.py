@@ -28,7 +28,7 @@ def ramp(
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
-    """Print the residual vibration over the ramp time, and its minima.
+    """Print the residual vibration over the ramp time, and minima.
 
     Prints the quiet ramp times and the points; writes all numbers and the figure.
 
@@ -61,8 +61,8 @@ def ramp(
     whole_number("finite-element-points", finite_element_points, least=0)
     inputs = {
         **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
-        "finite_element_points": finite_element_points, "element": case.model.name,
-        "elements": case.elements,
+        "finite_element_points": finite_element_points,
+        **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
     }  # fmt: skip
     if finite_element_points:
         # Before the transients are computed, for the runs cannot be.

@@ -45,7 +45,7 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes installed here, by their limits.
+    """Judge elements and other codes by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 

@@ -53,7 +53,9 @@ def solve(case: Case) -> xr.Dataset:
     except SimulationError as error:
         run = error.run if run is None else run
         attrs = {"verdict": "failed", "failure": str(error)}
-    return xr.Dataset({} if run is None else run[["q", "q_dot"]], attrs=attrs)
+    result = xr.Dataset() if run is None else run[["q", "q_dot"]]
+    result.attrs = attrs
+    return result
 
 
 def _steady(run: xr.Dataset) -> dict[str, float]:
