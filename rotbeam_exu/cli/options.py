@@ -30,6 +30,8 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
     text = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", text):
         raise ValueError(f"it must be a whole number in decimal digits, got {text!r}")
+    if len(text) > 300:
+        raise ValueError(f"it must be a number, got {len(text)} digits")
     return int(text)
 
 
@@ -58,10 +60,10 @@ def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
     """Return the number in a text, or all that are known."""
     if text.lower() == "all":
         return known
-    if text.isdecimal() and int(text) in known:
-        return [int(text)]
-    every = ", ".join(map(str, known))
-    raise ValueError(f"there is no {what} {text!r} with data: take {every} or all")
+    by_name = {str(number): number for number in known}
+    if text in by_name:
+        return [by_name[text]]
+    raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")
 
 
 def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
