@@ -214,14 +214,10 @@ def _solved(
                 try:
                     result = future.result()
                 except (BrokenProcessPool, CancelledError) as error:
-                    what = "a worker process died"
-                    if isinstance(error, CancelledError):
-                        what = (
-                            "the executor, such as a Dask scheduler that ended, cancelled its cases"
-                        )
                     raise SimulationError(
-                        f"{what} with {len(waiting) - finished} of {len(waiting)} cases to do; "
-                        "run again to resume from the cache"
+                        "a worker process died, or its executor ended, with "
+                        f"{len(waiting) - finished} of {len(waiting)} cases to do; run again to "
+                        "resume from the cache"
                     ) from error
                 yield point, _kept(store, cases[point], result)
         finally:
