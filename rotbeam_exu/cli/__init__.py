@@ -42,7 +42,7 @@ def _refuse_none(
 
 app = cyclopts.App(
     name="rotbeam",
-    help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
+    help="The rotating cantilever beam benchmark: simulation, theory and the exact solution.",
     version=__version__,
     help_epilogue="rotbeam COMMAND --help has examples. Speeds are in rad/s, all else in SI units.",
     default_parameter=cyclopts.Parameter(negative=()),
