@@ -18,7 +18,7 @@ from typing import Any, Literal
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
-from rich.progress import Progress, TimeElapsedColumn
+from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -212,12 +212,12 @@ def _encodable(text: str, console: Console) -> str:
 
 
 @contextmanager
-def bar(title: str) -> Iterator[Callable[[float, float], None]]:
+def bar(title: str, *more: ProgressColumn) -> Iterator[Callable[[float, float], None]]:
     """Give a function to call with the work done and all of it; it draws on a terminal only."""
     console = new_console()
     with Progress(
-        *Progress.get_default_columns(), TimeElapsedColumn(), console=console, transient=True,
-        disable=not console.is_terminal,
+        *Progress.get_default_columns(), *more, TimeElapsedColumn(), console=console,
+        transient=True, disable=not console.is_terminal,
     ) as drawn:  # fmt: skip
         task = drawn.add_task(title, total=None)
         yield lambda done, whole: drawn.update(task, completed=done, total=whole)
@@ -236,5 +236,5 @@ def counter(title: str) -> Iterator[Callable[[int, int], None]]:
             after = time.monotonic() - started
             errors.print(f"{title}: {done} of {number} done after {after:.0f} s")
 
-    with bar(title) as drawn:
+    with bar(title, MofNCompleteColumn()) as drawn:
         yield drawn if new_console().is_terminal else line
