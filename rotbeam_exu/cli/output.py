@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
-from rich import box
 from rich.cells import cell_len
 from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElapsedColumn
@@ -94,7 +93,6 @@ def print_columns(
     form: Format = "table",
     *,
     title: str = "",
-    frame: box.Box = box.HEAVY_HEAD,
     header: bool = True,
 ) -> None:
     """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
@@ -123,7 +121,7 @@ def print_columns(
         console.print(Text(title, style="italic"), soft_wrap=False)
     room = console.width
     for part in _parts(least, room):
-        table = Table(box=frame)
+        table = Table()
         for i in part:
             justify: Any = "right" if all(map(_is_number, cells[i])) else "left"
             # Without it rich breaks numbers where it shrinks columns.

@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
-from rich import box
 
 from analytic import AnyBlade
 from analytic.input_checks import positive
@@ -116,9 +115,9 @@ def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motio
         cells.append(f"{seconds:.2f}" if math.isfinite(seconds) else "not reached")
         for column, cell in zip(list(columns.values())[1:], cells, strict=True):
             column.append(cell)
-    _print(
+    print_columns(
         columns,
-        f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
+        title=f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
     print_text(
@@ -155,14 +154,16 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             one.declaration.code: [cell(one.by_quantity.get(key)) for key in keys] for one in found
         }
 
-    _print(asked | of_each(_limit), f"Limits of the codes less the reference; {about}")
+    print_columns(asked | of_each(_limit), title=f"Limits of the codes less the reference; {about}")
     print_note(
         "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
         "reference, in the shift also that of the code's own ω_n"
     )
     bars = {"quantity": asked["quantity"]} | of_each(_discretization)
-    _print(bars, "Discretization error: finest run less its own limit, ± uncertainty of that")
-    _print(
+    print_columns(
+        bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
+    )
+    print_columns(
         {
             "code": [one.declaration.code for one in found],
             "theory": [one.declaration.theory.name for one in found],
@@ -173,15 +174,11 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
             "outcome": [one.outcome for one in found],
         },
-        "Orders of q(t), observed of declared, and the finest run of the first history",
+        title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in found:
         for sentence in _sentences(one):
             print_note(f"{one.declaration.code}: {sentence}")
-
-
-def _print(columns: dict[str, list[str]], title: str) -> None:
-    print_columns(columns, title=title, frame=box.SIMPLE)
 
 
 def _limit(found: Finding | None) -> str:
