@@ -109,8 +109,6 @@ def chosen_motion(
             duration = _whole_steps(duration, step) * step
     else:
         duration = positive("duration", duration, "s")
-        if step is not None:
-            _require_whole_steps(duration, step)
     if step is None:
         fitted = duration / _whole_steps(duration, fine)
         # The number as printed, where round-off is all that sets them apart.
@@ -166,17 +164,6 @@ def slower_than_paper(beam: AnyBlade) -> float:
 def _whole_steps(duration: float, step: float) -> int:
     """Return the number of steps that cover a duration, rounded up but for round-off."""
     return max(1, math.ceil(duration / step * (1.0 - 1e-12)))
-
-
-def _require_whole_steps(duration: float, step: float) -> None:
-    """Refuse a duration that is no whole number of steps, with one and the other that fit."""
-    steps = round(duration / step)
-    if abs(steps * step - duration) > 1e-9 * duration:
-        more = _whole_steps(duration, step)
-        raise ValueError(
-            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step "
-            f"of {duration / more:.12g} s or a duration of {more * step:.12g} s"
-        )
 
 
 def _rounded(value: float, digits: int, *, up: bool = False) -> float:
