@@ -113,24 +113,27 @@ def print_columns(
         for name, cells in columns.items()
     }
     names, cells = list(readable), list(readable.values())
-    least = [
-        max(cell_len(word) for text in (name, *column) for word in text.split() or [""])
-        for name, column in readable.items()
-    ]
+    least, most = (
+        [
+            max(cell_len(piece) for text in (name, *column) for piece in text.split(at) or [""])
+            for name, column in readable.items()
+        ]
+        for at in (None, "\n")
+    )
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
     room = console.width
     for part in _parts(least, room):
+        widths = _widths([least[i] for i in part], [most[i] for i in part], room)
         table = Table()
-        for i in part:
+        for i, width in zip(part, widths, strict=True):
             justify: Any = "right" if all(map(_is_number, cells[i])) else "left"
-            # Without it rich breaks numbers where it shrinks columns.
-            table.add_column(names[i], min_width=least[i], justify=justify)
+            table.add_column(names[i], width=width, justify=justify)
         for row in zip(*(cells[i] for i in part), strict=True):
             table.add_row(*row)
         # Two columns at least: a longer line is better than half a number.
-        console.width = max(room, _total([least[i] for i in part]))
-        console.print(table, soft_wrap=False, crop=False)
+        console.width = max(room, _total(widths))
+        console.print(table, soft_wrap=False)
 
 
 def _total(widths: Sequence[int]) -> int:
@@ -146,6 +149,17 @@ def _parts(least: Sequence[int], room: int) -> list[list[int]]:
             parts.append([0])
         parts[-1].append(column)
     return parts
+
+
+def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
+    """Return the columns' widths, with the widest texts narrowed for the table to fit.
+
+    Rich does not know how long words are where it shrinks columns, and breaks numbers.
+    """
+    widths = list(most)
+    while _total(widths) > room and widths != list(least):
+        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
+    return widths
 
 
 def formatted(values: Iterable[float], form: str) -> list[str]:
