@@ -67,6 +67,9 @@ def sweep(
     one = numerics.case(beam, motion)
 
     def computed() -> xr.Dataset:
+        if config is not None:
+            speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
+            print_text(f"ω = {speeds} rad/s, T = {times} s (by default the paper's, by ω_0)")
         with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,

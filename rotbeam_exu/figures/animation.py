@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,17 @@ _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}
 _Response = SpinUpResponse | LinearResponse
 _Moving = Callable[[int], None]
 """A moving part, drawn anew at time number n."""
+
+
+class _Gif(PillowWriter):
+    """A GIF, not begun where drawing stops: matplotlib's fails of no picture, hiding why."""
+
+    @contextmanager
+    def saving(self, *arguments: Any, **options: Any) -> Iterator[PillowWriter]:
+        self.setup(*arguments, **options)
+        with mpl.rc_context({"savefig.bbox": None}):  # as matplotlib has it
+            yield self
+        self.finish()
 
 
 def animate(
@@ -122,7 +134,7 @@ def save_animation(
     check_format(path)
     animation = animate(response, beside=beside, rate=rate)
     fps: Any = rate or 1.0 / (response.time[1] - response.time[0])
-    writer = PillowWriter(fps=fps) if path.suffix == ".gif" else FFMpegWriter(fps=fps)
+    writer = _Gif(fps=fps) if path.suffix == ".gif" else FFMpegWriter(fps=fps)
     try:
         drawn = (lambda n, _: progress(n + 1)) if progress else None
         animation.save(path, writer=writer, dpi=100, progress_callback=drawn)
