@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
-from rich import box
 
 from analytic import AnyBlade
 from analytic.input_checks import positive
@@ -45,17 +44,17 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes at hand, by their limits.
+    """Judge elements and other codes by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
-    Of the paper's beam the benchmark's cases L, S1, S2, O and S4; of another one its spin-up.
+    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up.
 
     Parameters
     ----------
     element
         A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
-        kratos. May be given again; without it all that are at hand.
+        kratos. Repeat it for several; by default all that are installed.
     cost
         Print the cost at equal error instead.
     error
@@ -116,9 +115,9 @@ def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motio
         cells.append(f"{seconds:.2f}" if math.isfinite(seconds) else "not reached")
         for column, cell in zip(list(columns.values())[1:], cells, strict=True):
             column.append(cell)
-    _print(
+    print_columns(
         columns,
-        f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
+        title=f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
     print_text(
@@ -146,7 +145,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
     asked = {
         "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
         "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
-        "floor": [_largest(_floor(one) for one in known[key]) for key in keys],
+        "floor": [_largest(one.runs.noise[-1] for one in known[key] if one.runs) for key in keys],
         "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
     }
 
@@ -155,14 +154,16 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             one.declaration.code: [cell(one.by_quantity.get(key)) for key in keys] for one in found
         }
 
-    _print(asked | of_each(_limit), f"What codes tend to, less the reference; {about}")
+    print_columns(asked | of_each(_limit), title=f"Limits of the codes less the reference; {about}")
     print_note(
-        "! decides against the code, ? decides nothing; floor: of what measures it, ref ±: of the "
-        "reference, in the shift also of the limit of the code's own ω_n"
+        "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
+        "reference, in the shift also that of the code's own ω_n"
     )
     bars = {"quantity": asked["quantity"]} | of_each(_discretization)
-    _print(bars, "Discretization of the finest run: less its own limit ± the bar of that")
-    _print(
+    print_columns(
+        bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
+    )
+    print_columns(
         {
             "code": [one.declaration.code for one in found],
             "theory": [one.declaration.theory.name for one in found],
@@ -173,15 +174,11 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
             "outcome": [one.outcome for one in found],
         },
-        "Orders of q(t) observed of declared, and time, of the finest run of the first history",
+        title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in found:
         for sentence in _sentences(one):
             print_note(f"{one.declaration.code}: {sentence}")
-
-
-def _print(columns: dict[str, list[str]], title: str) -> None:
-    print_columns(columns, title=title, frame=box.SIMPLE)
 
 
 def _limit(found: Finding | None) -> str:
@@ -198,10 +195,6 @@ def _discretization(found: Finding | None) -> str:
     if found is None or found.runs is None or not math.isfinite(found.runs.limit):
         return "-"
     return f"{_signed(float(found.runs.errors[-1]))} ±{found.runs.bar:.0e}"
-
-
-def _floor(found: Finding) -> float:
-    return math.nan if found.runs is None else float(found.runs.noise[-1])
 
 
 def _signed(value: float) -> str:

@@ -39,7 +39,7 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
         if histories is not None:
             caption = (
                 f"{name}: the finest run over the reference, and the largest difference of each "
-                "run up to each time; dashed, what passes of a limit."
+                "run up to each time; dashed: the threshold for a limit."
             )
             yield svg(_history(histories)), caption
         drawn = _in_mesh(judgement, name)
@@ -62,7 +62,7 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
             _draw_cost(axes[-1], histories)
         machine = declared.machine or "the author's machine"
         caption = f"{name}: distance from the limit in the mesh{' and in the step' * bool(steps)}"
-        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
+        caption += f", with the limit's uncertainty{f'; error and time on {machine}' * timed}."
         yield svg(axes[0]), caption
 
 
@@ -179,13 +179,10 @@ def _draw_cost(ax: Axes, histories: Histories) -> None:
     ax.margins(0.2)
     _whole_decades(ax)
     low, high = ax.get_xlim()
-    narrow, low, high = high / low < 10.0, low / 1.3, 1.3 * high
-    ax.set_xlim(low, high)
+    ax.set_xlim(low / 1.3, 1.3 * high)
     ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
-    if narrow:  # round times where no power of ten is in sight
-        powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
-        places = [float(k * power) for power in powers for k in (1, 2, 5)]
-        ax.set_xticks([x for x in places if low <= x <= high])
+    if high / low < 10.0:  # round times where no power of ten is in sight
+        ax.xaxis.set_major_locator(mpl.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
     ax.legend(loc="best")
 

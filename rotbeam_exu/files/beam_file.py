@@ -194,7 +194,7 @@ def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
         title = "[blade.section.out_of_plane]"
         section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
         if shape is not None:
-            raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
+            raise ValueError(f"{source} has {title} and a shape, which say the same: keep one")
     parts["section"] = Section(**section)
     parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
     parts["line"] = _part(Line, table.get("line", {}), "[blade.line]", source)

@@ -15,7 +15,7 @@ import numpy as np
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import Judgement
 from ..verification.mistakes import Mistake
-from ..verification.outcomes import Finding, Order
+from ..verification.outcomes import Finding
 from ..verification.submission import Run, Submission
 
 SCHEMA = "rotbeam judgement 1"
@@ -87,7 +87,10 @@ def _case(name: str, record: Record) -> dict[str, Any]:
         "outcome": str(found.outcome_of(name)),
         "reference": found.sources.get(name, ""),
         "quantities": {key: _finding(one) for key, one in found.findings[name].items()},
-        "orders": {key: _order(one) for key, one in found.orders.get(name, {}).items()},
+        "orders": {
+            key: {"observed": one.value, "declared": one.declared, "low": one.low, "why": one.why}
+            for key, one in found.orders.get(name, {}).items()
+        },
         "runs": [_run(run, found) for run in record.submission.runs if run.case == name],
     }
 
@@ -111,10 +114,6 @@ def _finding(found: Finding) -> dict[str, Any]:
         "values": runs.values if runs else [],
         "errors": runs.errors if runs else [],
     }
-
-
-def _order(order: Order) -> dict[str, Any]:
-    return {"observed": order.value, "declared": order.declared, "low": order.low, "why": order.why}
 
 
 def _run(run: Run, found: Judgement) -> dict[str, Any]:

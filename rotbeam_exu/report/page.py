@@ -90,7 +90,7 @@ def _about(record: Record) -> str:
         "Source": url,
         "Licence": escape(stated.licence),
         "Element": escape(stated.element),
-        "Held against": escape(f"the exact {stated.theory.name} beam"),
+        "Compared with": escape(f"the exact {stated.theory.name} beam"),
         "Declared orders": ", ".join(orders),
         "Machine": escape(stated.machine),
         "Remarks": escape(stated.remarks),

@@ -150,7 +150,7 @@ def test_backbone_as_a_table_keeps_units_and_introduces_the_model(capsys):
 
 @pytest.mark.parametrize("number", [1, 2, 3, 4, 5])
 def test_table_marks_differences(capsys, number):
-    table(number, form="csv")
+    table(str(number), form="csv")
     printed = rows(capsys)
     assert all(row["derived"] for row in printed)
     errata = sum("erratum" in row["note"] for row in printed)
@@ -158,7 +158,7 @@ def test_table_marks_differences(capsys, number):
 
 
 def test_table_for_a_reader(capsys):
-    table(5)
+    table("5")
     assert "Table 5" in capsys.readouterr().out
 
 

@@ -90,7 +90,7 @@ def test_all_faults_and_nothing_else(call, folder):
     [
         (("--report", "a.pdf"), "the ending must be .html"),
         (("--json", "a.txt"), "the ending must be .json"),
-        (("--run",), "there is no option --run"),
+        (("--run",), "Unknown option: --run"),
     ],
 )
 def test_bad_input(call, folder, arguments, said):

@@ -62,7 +62,7 @@ def test_a_failed_run_is_kept_and_marked(call, tmp_path):
         code, _, error = call(*failing, "--duration", duration)
         assert code == 1
         kept = tmp_path / f"cable-2-omega-6-ramp-2.5{name}.nc"
-        assert f"what was computed is in {kept}, marked failed" in error
+        assert f"the part that was computed is in {kept}, marked failed" in error
         run = load(kept)
         assert run.attrs["verdict"].startswith("failed: ")
         assert run.attrs["duration"] == duration

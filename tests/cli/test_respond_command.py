@@ -112,7 +112,7 @@ def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
         (("--gravity", "--damping-ratio", "-0.1"), "ratio must not be negative"),
         (("--gravity", "--damping-ratio", "0.1", "--to", "3"), "--to must be above --from, got 3"),
         (("--gravity", "--damping-ratio", "0.1", "--points", "1"), "points must be at least 2"),
-        (("--rippel", "1"), "did you mean --ripple?"),
+        (("--rippel", "1"), "Did you mean --ripple?"),
     ],
 )
 def test_bad_input_is_one_sentence(call, tmp_path, arguments, sentence):
@@ -143,7 +143,7 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
     code, _, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 1
     kept = tmp_path / "response-omega-6-ripple-0.002-from-3.6-to-3.8-failed.nc"
-    assert f"after 3.7 rad/s; what was found is in {kept}, marked failed" in error
+    assert f"after 3.7 rad/s; the part that was found is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"
 
 

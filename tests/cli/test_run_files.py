@@ -49,7 +49,7 @@ def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, co
     assert [line for line in out.splitlines() if line.startswith("written")] == [
         f"written {tmp_path}/cable-2-omega-4-ramp-2.5.{kind}" for kind in ("nc", "csv")
     ]
-    given = ("--elements", "1", "--omega", "5", "--frame", "Inertial", "--element", "CABLE")
+    given = ("--elements", "1", "--omega", "5", "--frame", "inertial", "--element", "CABLE")
     assert call("run", "--config", config, *given, "--no-figure", "--out", tmp_path)[0] == 0
     run = load(tmp_path / "cable-1-omega-5-ramp-2.5.nc")
     assert (run.attrs["frame"], run.attrs["step"]) == ("inertial", 0.01)

@@ -122,7 +122,7 @@ def test_a_blade_without_area_needs_the_ratio(call, tmp_path):
         ('shape = { kind = "Tube", height = 1.0 }', "this is no Tube"),
         (
             'shape = { kind = "Tube" }\n[blade.section.out_of_plane]\nbending_ratio = 1.0',
-            "tells the same: keep one",
+            "say the same: keep one",
         ),
     ],
 )

@@ -246,7 +246,7 @@ def test_unknown_figures_are_refused(number, capsys):
     with pytest.raises(SystemExit) as stop:
         main(["figure", "--", number] if number.startswith("-") else ["figure", number])
     assert stop.value.code == 2
-    assert re.search("known are 3, 4, 5, 8", capsys.readouterr().err)
+    assert re.search("it must be 3, 4, 5, 8", capsys.readouterr().err)
 
 
 @pytest.mark.slow

@@ -94,4 +94,4 @@ def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, 
     assert asked["ramp_times"][0] == pytest.approx(3.375 / 361.06, rel=1e-3)
     assert asked["duration"] == pytest.approx(0.042)
     assert asked["step"] == 2e-6
-    assert "omega 720, 1400, 2200, 2900 rad/s" in capsys.readouterr().out
+    assert "ω = 720, 1400, 2200, 2900 rad/s" in capsys.readouterr().out
