@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..lazily import optimize
-from .newton import Newton, NoOrbitError, factored, solved
+from .newton import Newton, NoOrbitError, Vector, factored, solved
 
 # Of the unknowns, which are of order 1.
 _NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
@@ -36,6 +36,10 @@ class Curve(Protocol):
 
     def jacobian(self, z: FloatArray) -> FloatArray:
         """Return their derivatives, (N, N + 1)."""
+        ...
+
+    def products(self, z: FloatArray) -> Vector:
+        """Return the function that multiplies them with a vector (N + 1,)."""
         ...
 
 
@@ -81,7 +85,11 @@ def corrected(
     def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
         return factored(np.vstack((curve.jacobian(z), across))), residual(z)
 
-    found = _NEWTON.root(guess, residual, linearized, factors=factors)
+    def products(z: FloatArray) -> Vector:
+        product = curve.products(z)
+        return lambda change: np.append(product(change), across @ change)
+
+    found = _NEWTON.root(guess, residual, linearized, factors=factors, products=products)
     if found is None:
         raise NoOrbitError("Newton's method does not converge")
     return _with_tangent(curve, found.z, across, found.steps)
@@ -135,7 +143,7 @@ def located(
         if share not in found:
             guess = start.z + share * (end.z - start.z)
             # The plane at this distance along the start's tangent, whatever the guess.
-            found[share] = corrected(curve, guess, start.tangent)
+            found[share] = corrected(curve, guess, start.tangent, start.factors)
         return function(found[share])
 
     found[0.0], found[1.0] = start, end

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .fourier import Period, packed, unpacked
-from .newton import Newton, NoOrbitError, factored, length, solved
+from .newton import Newton, NoOrbitError, Vector, factored, length, solved
 from .orbit import Orbit, S, crest_of, peak_gradient
 from .system import Tangent
 
@@ -42,14 +42,12 @@ def jacobian(orbit: Orbit[Any]) -> FloatArray:
 
     The last row is left to the amplitude, or to whatever picks one orbit of the branch.
     """
-    at, system = orbit.period(), orbit.system
-    state = orbit.summed(at.waves)
-    tangent = system.tangent(*state, *orbit.drive(at.phase))
+    at = orbit.period()
+    tangent, by_frequency = _linearized(orbit)
     # A change exp(ikφ) of q changes the residual by the sum of these times 1, ik, k².
     powers = np.stack(
         (tangent.stiffness, orbit.frequency * tangent.damping, -(orbit.frequency**2) * tangent.mass)
     ).swapaxes(-1, -2)
-    by_frequency = packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
     matrix, right = np.zeros((by_frequency.size + 1,) * 2, order="F"), 0  # as LAPACK takes it
     matrix[:-1, -1] = by_frequency
     for by, columns in orbit.parts:
@@ -90,6 +88,31 @@ def _waves_onto_waves(
         if rows.start == 0:
             onto[0] *= 0.5
         transposed[place * by : (place + 1) * by].reshape(by, count, of)[...] = onto.swapaxes(0, 1)
+
+
+def products(orbit: Orbit[Any]) -> Vector:
+    """Return the function that multiplies the same derivatives with a change of the unknowns."""
+    at, (tangent, by_frequency) = orbit.period(), _linearized(orbit)
+
+    def product(change: FloatArray) -> FloatArray:
+        moved = unpacked(change[:-1], orbit.parts, orbit.coefficients.shape)
+        q, q_dot, q_ddot = replace(orbit, coefficients=moved).summed(at.waves)
+        work = (
+            tangent.stiffness @ q[..., None]
+            + tangent.damping @ q_dot[..., None]
+            + tangent.mass @ q_ddot[..., None]
+        )[..., 0]
+        return packed(at.onto @ work, orbit.parts) + change[-1] * by_frequency
+
+    return product
+
+
+def _linearized(orbit: Orbit[Any]) -> tuple[Tangent, FloatArray]:
+    """Return the tangent at the phases, and the derivatives of the residual's harmonics to Ω."""
+    at = orbit.period()
+    state = orbit.summed(at.waves)
+    tangent = orbit.system.tangent(*state, *orbit.drive(at.phase))
+    return tangent, packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
 
 
 def _by_frequency(
@@ -170,6 +193,12 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         tangent.factor(orbit(z))
         return tangent.factors, defect
 
+    def multiplied(z: FloatArray) -> Vector:
+        nonlocal others
+        others = None  # exact steps do not lead astray
+        product, gradient = products(orbit(z)), peak_gradient(orbit(z))
+        return lambda change: np.append(product(change), gradient @ change)
+
     def size(z: FloatArray, change: FloatArray) -> float:
         if z[-1] <= 0.0:
             return np.inf
@@ -178,7 +207,9 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     z = np.append(packed(guess.coefficients, parts), guess.frequency)
     others = factors = tangent.factors if tangent.fits(z.size) else None
     for _ in range(_PEAKS):
-        found = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
+        found = _NEWTON.root(
+            z, residual, linearized, size=size, factors=factors, products=multiplied
+        )
         if found is None:
             break
         z, factors = found.z, found.factors

@@ -18,8 +18,8 @@ from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
 from .fourier import packed, unpacked
-from .harmonic_balance import jacobian, projected
-from .newton import NoOrbitError
+from .harmonic_balance import jacobian, products, projected
+from .newton import NoOrbitError, Vector
 from .orbit import Orbit, S, at_peak, peak_gradient
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
@@ -78,6 +78,11 @@ class OrbitCurve(Generic[S]):
         matrix = jacobian(self._raw(z))[:-1]
         matrix[:, -1] *= self.scale
         return matrix
+
+    def products(self, z: FloatArray) -> Vector:
+        """Return the function that multiplies them with a vector."""
+        product, scale = products(self._raw(z)), np.append(np.ones(z.size - 1), self.scale)
+        return lambda change: product(scale * change)
 
 
 @dataclass(frozen=True, eq=False)
