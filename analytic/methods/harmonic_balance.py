@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from .crest import crest_of, peak_gradient
 from .fourier import Period, packed, unpacked
 from .newton import Newton, NoOrbitError, Vector, factored, length, solved
-from .orbit import Orbit, S, crest_of, peak_gradient
+from .orbit import Orbit, S
 from .system import Tangent
 
 # Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
@@ -76,8 +77,8 @@ def _waves_onto_waves(
     even, odd = (cos, sin) if from_sines == to_sines else (sin, -cos)
     means = np.stack((even, odd, even)) @ powers.reshape(3, len(at.phase), -1)
     means = (-means if from_sines and not to_sines else means).reshape(3, -1)
-    for place, k in enumerate(range(columns.start, columns.stop)):
-        k -= H * from_sines
+    for place in range(columns.stop - columns.start):
+        k = columns.start - H * from_sines + place
         near, far = (
             means[:, first * by * of : (first + count) * by * of]
             for first in (H + rows.start - H * to_sines + order for order in (-k, k))
@@ -194,8 +195,6 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         return tangent.factors, defect
 
     def multiplied(z: FloatArray) -> Vector:
-        nonlocal others
-        others = None  # exact steps do not lead astray
         product, gradient = products(orbit(z)), peak_gradient(orbit(z))
         return lambda change: np.append(product(change), gradient @ change)
 

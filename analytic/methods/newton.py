@@ -17,7 +17,8 @@ from ..lazily import linalg
 
 Vector = Callable[[FloatArray], FloatArray]
 
-_LARGE = 1000  # unknowns, from which on a step by products costs less than new factors
+LARGE = 1000  # unknowns, from which on a step by products costs less than new factors
+_NEAR = 1e-2  # size of a change after which the tangent at hand is good for that
 _PRODUCTS, _LEFT = 40, 1e-4  # at most, and what they leave of a step
 
 
@@ -101,6 +102,7 @@ class Newton:
         """
         last, own, tangents, steps = np.inf, False, 0, list[FloatArray]()
         anew = factors is None
+        products = products if z.size > LARGE else None
         for count in range(1, self.steps + 1):
             change = None
             if anew:
@@ -108,7 +110,7 @@ class Newton:
                 if tangents > self.tangents:
                     return None
                 own, steps = True, []
-                if factors is not None and products is not None and z.size > _LARGE:
+                if factors is not None and products is not None and last < _NEAR:
                     defect = residual(z)
                     change = by_products(products(z), factors, defect)
                 if change is None:
@@ -152,12 +154,16 @@ def solved(factors: Any, vector: FloatArray) -> FloatArray:
     return np.asarray(linalg.lapack.dgetrs(*factors, vector)[0])
 
 
-def by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArray | None:
+def by_products(
+    product: Vector, factors: Any, vector: FloatArray, left: float = _LEFT
+) -> FloatArray | None:
     """Return the solution of product(x) = vector, preconditioned by factors; None if too far off.
 
-    Saad and Schultz's GMRES (1986).
+    Saad and Schultz's GMRES (1986); `left` is what it leaves, as a share of the solution.
     """
     start = solved(factors, vector)
+    if not np.all(np.isfinite(start)):
+        return None
     basis, images = [start / length(start)], np.zeros((_PRODUCTS + 1, _PRODUCTS))
     for k in range(_PRODUCTS):
         image = solved(factors, product(basis[k]))
@@ -167,7 +173,7 @@ def by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArray
         images[k + 1, k] = length(image)
         onto = length(start) * np.eye(1, k + 2)[0]
         shares = np.linalg.lstsq(images[: k + 2, : k + 1], onto)[0]
-        if length(images[: k + 2, : k + 1] @ shares - onto) <= _LEFT * length(start):
+        if length(images[: k + 2, : k + 1] @ shares - onto) <= left * length(start):
             return np.asarray(shares @ np.array(basis))
         basis.append(image / images[k + 1, k])
     return None

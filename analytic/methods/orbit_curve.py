@@ -17,10 +17,11 @@ import numpy as np
 from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
+from .crest import at_peak, peak_gradient
 from .fourier import packed, unpacked
 from .harmonic_balance import jacobian, products, projected
 from .newton import NoOrbitError, Vector
-from .orbit import Orbit, S, at_peak, peak_gradient
+from .orbit import Orbit, S
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
 Marked = tuple[Orbit[Any], Mark]

@@ -124,9 +124,9 @@ class SpaceBlade(AtConstantRate):
         ValueError
             If it ends, or becomes unstable, at a lower speed.
         """
-        if self.near is not None:
-            if (found := _newton(self.model, self.near, self.rate)) is not None:
-                return found
+        found = None if self.near is None else _newton(self.model, self.near, self.rate)
+        if found is not None:
+            return found
         q, rate, step = np.zeros(self.size), 0.0, min(_LONGEST, self.rate or _LONGEST)
         while True:
             found = _newton(self.model, q, rate)

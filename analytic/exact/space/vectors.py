@@ -135,6 +135,8 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
         if np.abs(found - last).max(initial=0.0) < _SETTLED:
             break
     else:
-        rates = np.full_like(rates, np.nan)  # wound up several times: no step of Newton's leads there
+        rates = np.full_like(
+            rates, np.nan
+        )  # wound up several times: no step of Newton's leads there
     u, v = rates @ onto
     return np.stack((1.0 + u.real, u.imag, v.real, v.imag))
