@@ -66,9 +66,9 @@ class Point:
     z: FloatArray
     tangent: FloatArray
     steps: int
-    factors: tuple[Any, Any]
+    factors: Any
     matrix: Callable[[], FloatArray]
-    _own: tuple[Any, Any] | None
+    _own: Any
 
     @cached_property
     def determinant(self) -> float:
@@ -102,13 +102,15 @@ def corrected(
         product = curve.products(z)
         return lambda change: np.append(product(change), across @ change)
 
-    found = _NEWTON.root(
-        guess,
-        residual,
-        lambda z: (factored(matrix(z)), residual(z)),
-        factors=factors,
-        products=products,
-    )
+    found = None
+    for tried in (factors, None):
+        found = found or _NEWTON.root(
+            guess,
+            residual,
+            lambda z: (factored(matrix(z)), residual(z)),
+            factors=tried,
+            products=products,
+        )
     if found is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.

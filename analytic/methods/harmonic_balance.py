@@ -103,7 +103,7 @@ def products(orbit: Orbit[Any]) -> Vector:
             + tangent.damping @ q_dot[..., None]
             + tangent.mass @ q_ddot[..., None]
         )[..., 0]
-        return packed(at.onto @ work, orbit.parts) + change[-1] * by_frequency
+        return np.asarray(packed(at.onto @ work, orbit.parts) + change[-1] * by_frequency)
 
     return product
 

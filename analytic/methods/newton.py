@@ -96,7 +96,8 @@ class Newton:
         size : callable
             Of z and a change: small after convergence.
         factors : optional
-            Factors of a tangent near by, tried first.
+            Factors of a tangent near by, tried first; of many unknowns no others are made where
+            they lead astray.
         products : callable, optional
             Of z: the function that multiplies the tangent there with a vector (N,).
         """
@@ -107,7 +108,8 @@ class Newton:
             change = None
             if anew:
                 tangents += 1
-                if tangents > self.tangents:
+                led_astray = factors is not None and products is not None and not own
+                if tangents > self.tangents or (led_astray and last >= _NEAR):
                     return None
                 own, steps = True, []
                 if factors is not None and products is not None and last < _NEAR:
