@@ -102,15 +102,13 @@ def corrected(
         product = curve.products(z)
         return lambda change: np.append(product(change), across @ change)
 
-    found = None
-    for tried in (factors, None):
-        found = found or _NEWTON.root(
-            guess,
-            residual,
-            lambda z: (factored(matrix(z)), residual(z)),
-            factors=tried,
-            products=products,
-        )
+    found = _NEWTON.root(
+        guess,
+        residual,
+        lambda z: (factored(matrix(z)), residual(z)),
+        factors=factors,
+        products=products,
+    )
     if found is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.

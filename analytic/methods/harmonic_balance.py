@@ -194,10 +194,6 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         tangent.factor(orbit(z))
         return tangent.factors, defect
 
-    def multiplied(z: FloatArray) -> Vector:
-        product, gradient = products(orbit(z)), peak_gradient(orbit(z))
-        return lambda change: np.append(product(change), gradient @ change)
-
     def size(z: FloatArray, change: FloatArray) -> float:
         if z[-1] <= 0.0:
             return np.inf
@@ -206,9 +202,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     z = np.append(packed(guess.coefficients, parts), guess.frequency)
     others = factors = tangent.factors if tangent.fits(z.size) else None
     for _ in range(_PEAKS):
-        found = _NEWTON.root(
-            z, residual, linearized, size=size, factors=factors, products=multiplied
-        )
+        found = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
         if found is None:
             break
         z, factors = found.z, found.factors

@@ -1,6 +1,6 @@
 """Newton's method with a factored tangent that serves as long as it contracts.
 
-Of many unknowns it serves longer: old factors precondition steps by the tangent's products.
+Of many unknowns it serves longer where a tangent's products are at hand, as their preconditioner.
 """
 
 from __future__ import annotations
@@ -96,8 +96,7 @@ class Newton:
         size : callable
             Of z and a change: small after convergence.
         factors : optional
-            Factors of a tangent near by, tried first; of many unknowns no others are made where
-            they lead astray.
+            Factors of a tangent near by, tried first.
         products : callable, optional
             Of z: the function that multiplies the tangent there with a vector (N,).
         """
@@ -108,8 +107,7 @@ class Newton:
             change = None
             if anew:
                 tangents += 1
-                led_astray = factors is not None and products is not None and not own
-                if tangents > self.tangents or (led_astray and last >= _NEAR):
+                if tangents > self.tangents:
                     return None
                 own, steps = True, []
                 if factors is not None and products is not None and last < _NEAR:

@@ -78,10 +78,10 @@ def test_a_jacobian_of_120_harmonics_takes_a_third_of_its_factorization(factoriz
     assert cpu_seconds(lambda: jacobian(orbit)) < factoring / 3.0
 
 
-def test_a_branch_to_ninety_percent_takes_a_dozen_factorizations(factorization):
-    """It took 45, of which 29 were."""
+def test_a_branch_to_ninety_percent_takes_eighteen_factorizations(factorization):
+    """Once 40: 32 tangents are factored, of which the largest nine cost half of it."""
     taken = cpu_seconds(lambda: backbone(Beam.reference(), 6.0).branch(up_to=0.9), repeats=1)
-    assert taken < 12.0 * factorization[1]
+    assert taken < 18.0 * factorization[1]
 
 
 FLAT = Beam.from_stiffness(
