@@ -12,25 +12,33 @@ from analytic import (
     SpeedRipple,
     SpinUp,
     Theory,
+    backbone,
     backbone_curve,
     forced_response,
+    linear_modes,
     periodic_orbits,
     residual_amplitude,
     spin_up_response,
 )
+from analytic.methods.harmonic_balance import LastTangent, jacobian
 from rotbeam_exu import simulate
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 pytestmark = pytest.mark.benchmarks
 
 
-def seconds(function, repeats=3):
+def seconds(function, repeats=3, clock=time.perf_counter):
     taken = []
     for _ in range(repeats):
-        start = time.perf_counter()
+        start = clock()
         function()
-        taken.append(time.perf_counter() - start)
+        taken.append(clock() - start)
     return median(taken)
+
+
+def cpu_seconds(function, repeats=3):
+    """Of one thread, whatever else the machine does."""
+    return seconds(function, repeats, time.process_time)
 
 
 def share(function, omega):
@@ -55,6 +63,57 @@ def test_ten_orbits_take_a_thirtieth_of_a_simulation(beam, omega):
 @pytest.mark.parametrize("omega", [4.0, 6.0, 8.0])
 def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
     assert share(lambda: backbone_curve(beam, omega), omega) < 0.05
+
+
+@pytest.fixture(scope="module")
+def factorization():
+    """An orbit of the paper's beam on 120 harmonics, and what its tangent and factoring it take."""
+    orbit = backbone(Beam.reference(), 6.0).path.seed.with_harmonics(120)
+    return orbit, cpu_seconds(lambda: LastTangent().factor(orbit))
+
+
+def test_a_jacobian_of_120_harmonics_takes_a_third_of_its_factorization(factorization):
+    """By products of all waves at all times it was two thirds."""
+    orbit, factoring = factorization
+    assert cpu_seconds(lambda: jacobian(orbit)) < factoring / 3.0
+
+
+def test_a_branch_to_ninety_percent_takes_eighteen_factorizations(factorization):
+    """Once 40: 32 tangents are factored, of which the largest nine cost half of it."""
+    taken = cpu_seconds(lambda: backbone(Beam.reference(), 6.0).branch(up_to=0.9), repeats=1)
+    assert taken < 18.0 * factorization[1]
+
+
+FLAT = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+).with_section_out_of_plane(1.0 / 16.0, 0.08)
+
+
+@pytest.mark.parametrize(
+    ("blade", "omega", "gauge"),
+    [
+        (FLAT.with_twist(0.5236), 1.0, "flap"),
+        (FLAT.with_twist(0.5236), 2.0, None),
+        (FLAT.with_precone(0.0873), 1.0, "flap"),
+    ],
+)
+def test_orbits_in_space_take_forty_times_those_in_the_plane(blade, omega, gauge):
+    plane = cpu_seconds(lambda: periodic_orbits(FLAT, omega, [0.05, 0.1]), repeats=9)
+    space = cpu_seconds(lambda: periodic_orbits(blade, omega, [0.05, 0.1], gauge=gauge))
+    assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
+
+
+def test_a_spin_up_in_space_takes_forty_times_that_in_the_plane():
+    motion, times = SpinUp(omega=4.0, ramp_time=12.0), np.linspace(0.0, 20.0, 21)
+    plane, space = (
+        cpu_seconds(lambda b=blade: spin_up_response(b, motion, times, tolerance=1e-6))
+        for blade in (FLAT, FLAT.with_twist(0.5236))
+    )
+    assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
+
+
+def test_modes_of_a_twisted_blade_take_a_tenth_of_a_second():
+    assert cpu_seconds(lambda: linear_modes(FLAT.with_twist(0.5236), 2.0, 4)) < 0.1
 
 
 def test_a_million_points_of_a_curve_take_five_multiplications(beam):

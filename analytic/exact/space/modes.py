@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,8 @@ from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
+DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
+"""Of the tip's places whose peak may be called the amplitude, in the root frame."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -182,7 +184,6 @@ def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, Comp
     parts: list[Any] = [part[0, moving, moving] for part in steady.linearized[1:]]
     K, C, M = parts
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
-    # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
     kept = inverse > _MASSLESS
     shapes = np.zeros((steady.size, np.count_nonzero(kept)), dtype=np.complex128)
@@ -190,21 +191,29 @@ def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, Comp
     return 1.0 / inverse[kept], shapes
 
 
-def orbit_modes(steady: SpaceBlade) -> tuple[FloatArray, FloatArray | ComplexArray]:
-    """Return frequencies and shapes (modes, n) from which orbits grow, their gauge a sine.
+def orbit_modes(
+    steady: SpaceBlade, mode: int, gauge: str | None
+) -> tuple[SpaceBlade, FloatArray, FloatArray | ComplexArray]:
+    """Return the blade with its gauge, and frequencies and shapes (modes, n) of which orbits grow.
 
+    The gauge is "flap" or "lag", by default that of which the mode has more; in the shapes a sine.
     Under time reversal odd coordinates go with the sine, the others with the cosine: real shapes.
     Without it the motion is the real part of the shape times exp(iφ).
     """
     frequencies, shapes = _solved(steady)
+    if gauge is None:
+        flap, lag, _ = _shares(steady, shapes[:, mode - 1 : mode])[0]
+        gauge = "flap" if flap > lag else "lag"
+    if steady.direction != DIRECTIONS[gauge]:
+        steady = replace(steady, direction=DIRECTIONS[gauge], near=steady.equilibrium)
     odd, gradient = steady.odd, steady.gauge_gradient(steady.equilibrium[None])[0]
     if odd is None:
-        return frequencies, np.asarray((-1j * shapes / (gradient @ shapes)).T)
+        return steady, frequencies, np.asarray((-1j * shapes / (gradient @ shapes)).T)
     # The phase that turns the odd ones into the sine.
     turn = np.sum(shapes[odd] ** 2, axis=0)
     shapes = shapes * 1j * np.conj(np.sqrt(turn / np.abs(turn)))
     parts = np.where(odd[:, None], -shapes.imag, shapes.real).T
-    return frequencies, np.asarray(parts / (parts @ gradient)[:, None])
+    return steady, frequencies, np.asarray(parts / (parts @ gradient)[:, None])
 
 
 def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -91,14 +91,14 @@ class SpaceBlade(AtConstantRate):
         w̄ = ω/√(EI3/mL³).
     direction : tuple
         Direction of the gauge, the tip's place from the steady state, in the root frame.
-    coarser : SpaceBlade, optional
-        The same on fewer functions, from whose steady state this one's is found.
+    near : ndarray (n,), optional
+        Coordinates from which the steady state is found; from rest by default.
     """
 
     model: SpaceContinuum
     rate: float
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    coarser: SpaceBlade | None = None
+    near: FloatArray | None = None
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -124,14 +124,13 @@ class SpaceBlade(AtConstantRate):
         ValueError
             If it ends, or becomes unstable, at a lower speed.
         """
-        if self.coarser is not None:
-            near = self.coarser.model.padded(self.coarser.equilibrium, self.model)
-            if (found := _newton(self.model, near, self.rate)) is not None:
-                return found
+        found = None if self.near is None else _newton(self.model, self.near, self.rate)
+        if found is not None:
+            return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
         rate = self.rate if unit.half_turn and unit.mirrored else 0.0
-        q, reached, step = np.zeros(self.size), 0.0, _LONGEST
+        q, reached, step = np.zeros(self.size), 0.0, min(_LONGEST, self.rate or _LONGEST)
         while True:
             found = _newton(self.model, q, rate)
             if found is not None:
@@ -166,7 +165,9 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def _finer(self) -> SpaceBlade:
-        return SpaceBlade(self.model.refined(), self.rate, self.direction, self)
+        finer = self.model.refined()
+        near = self.model.padded(self.equilibrium, finer)
+        return replace(self, model=finer, near=near)
 
     @cached_property
     def tip(self) -> FloatArray:
