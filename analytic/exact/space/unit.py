@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...line import STRAIGHT, Line, Offset, scaled
-from ...profiles import Profile
+from ...profiles import Profile, evaluated
+from ...station_section import StationSection
+from ...theory import Theory
 from ...unit_blade import UnitBlade
 
 
@@ -47,6 +50,40 @@ class SpaceUnit(UnitBlade):
         """Profiles along the blade."""
         line = self.line
         return (*super().profiles, line.twist, line.prebend, line.sweep)
+
+    def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
+        """Return the inverse of the stiffness in axes of the section, (places, 6, 6).
+
+        Strains over forces in the order ε, γ2, γ3, κ1, κ2, κ3; what a theory keeps rigid is zero.
+        """
+        EI3, EA = evaluated(self.bending, x), evaluated(self.axial, x) / slenderness
+        soft = np.zeros((x.size, 6))
+        soft[:, 0] = 1.0 / EA
+        if theory.shear is not None:
+            soft[:, 1] = soft[:, 2] = 1.0 / (theory.shear * EA)
+        soft[:, 3:] = 1.0 / np.outer(EI3, [self.torsion, self.flap, 1.0])
+        # The mean strain is that at the center of tension.
+        onto = np.eye(6)
+        onto[0, 5], onto[0, 4] = self.line.tension_offset[0], -self.line.tension_offset[1]
+        return np.asarray(onto * soft[:, None] @ onto.T)
+
+    def inertia_about(
+        self, x: FloatArray, theory: Theory, slenderness: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the centers of mass (3, places) from the line, and j about them (3, 3, places)."""
+        mass = evaluated(self.mass, x)
+        solid = mass * evaluated(self.bending, x) / evaluated(self.axial, x)
+        if self.told_rotary:
+            j3 = evaluated(self.rotary, x)
+        elif theory.rotary_inertia or theory.trapeze:
+            # A polar inertia that is told is parted as 1 to r.
+            j3 = (slenderness if self.polar is None else self.polar / (1.0 + self.flap)) * solid
+        else:
+            j3 = np.zeros_like(x)
+        j2 = self.flap * j3
+        polar = j2 + j3 if self.polar is None or not j3.any() else self.polar * solid
+        center = np.outer((0.0, *self.line.mass_offset), np.ones_like(x))
+        return center, np.stack((polar, j2, j3)) * np.eye(3)[:, :, None]
 
     @property
     def twists(self) -> bool:
@@ -91,20 +128,75 @@ class SpaceUnit(UnitBlade):
         return straight and not any(one[0] for one in self._offsets)
 
 
+@dataclass(frozen=True, kw_only=True)
+class StationUnit(SpaceUnit):
+    """A blade in space without dimensions, of 6x6 matrices.
+
+    Attributes
+    ----------
+    section : StationSection
+        In units of L, m0 and EI3 at the root.
+    """
+
+    section: StationSection
+
+    @property
+    def profiles(self) -> tuple[Profile, ...]:
+        """Profiles along the blade."""
+        return (*super().profiles, *self.section.diagonal())
+
+    def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
+        """Return the inverse of the stiffness, (places, 6, 6); a theory leaves forces out."""
+        del theory, slenderness
+        return np.asarray(np.linalg.inv(self.section.matrices(x)[0]))
+
+    def inertia_about(
+        self, x: FloatArray, theory: Theory, slenderness: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the centers of mass (3, places), and the inertia about them (3, 3, places)."""
+        del theory, slenderness
+        mass = self.section.matrices(x)[1]
+        carried = mass[:, 3:, :3] / mass[:, :1, :1]  # c ×
+        center = np.stack((carried[:, 2, 1], carried[:, 0, 2], carried[:, 1, 0]))
+        about = mass[:, 3:, 3:] + mass[:, :1, :1] * carried @ carried
+        return center, np.moveaxis(about, 0, -1)
+
+    @property
+    def twists(self) -> bool:
+        """True: the matrices tell GJ."""
+        return True
+
+    @property
+    def half_turn(self) -> bool:
+        """Whether a half turn about the blade maps its motions onto motions in reversed time."""
+        return super().half_turn and not self.section.couples((0, 3), (1, 2, 4, 5))
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the mirror through the blade and the axis of rotation does so."""
+        return super().mirrored and not self.section.couples((1, 3, 5), (0, 2, 4))
+
+
 def space_unit(beam: AnyBlade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
     blade = beam.blade
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
-    assert out is not None
+    common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
+    common |= {
+        "angle": blade.setting_angle,
+        "line": blade.line.in_units(length),
+        "body_offsets": tuple(scaled(one.offset, length) for one in blade.point_masses),
+    }
+    if out is None:
+        mass, time = blade.mass_per_length * length, 1.0 / blade.frequency_scale
+        section: Any = blade.section.in_units(length, mass, time)
+        return StationUnit(**common, section=section)
     assert out.torsion_ratio is not None
     polar = out.polar_inertia
     return SpaceUnit(
-        **{field.name: getattr(unit, field.name) for field in fields(unit)},
-        angle=blade.setting_angle,
-        line=blade.line.in_units(length),
+        **common,
         flap=out.bending_ratio,
         torsion=out.torsion_ratio,
         polar=None if polar is None else polar / (blade.mass_per_length * length**2),
         told_rotary=blade.section.rotary_inertia is not None,
-        body_offsets=tuple(scaled(one.offset, length) for one in blade.point_masses),
     )

@@ -1,0 +1,182 @@
+"""Blades from stations of 6x6 matrices: against the same blade by ratios, and rigid transports."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Blade, Theory, linear_modes, steady_state
+from analytic.description import describe, from_description
+from analytic.exact.space.steady import space_continuum
+
+MU, R, G = 1e-4, 1.0 / 16.0, 0.08
+X = np.linspace(0.0, 1.0, 4)
+STIFFNESS = np.tile([1.0 / MU, 0.3 / MU, 0.3 / MU, G, R, 1.0], (4, 1))
+MASS = np.tile([1.0, MU * (1.0 + R), MU * R, MU], (4, 1))
+BEAM = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1.0 / MU, bending_stiffness=1.0, mass_per_length=1.0
+)
+CENTERS = {"center": (0.05, 0.02), "tension": (0.03, -0.01)}
+SHEARED = Theory(shear=True, trapeze=False)
+
+
+def stations(**more):
+    return Blade.from_stations(X, STIFFNESS, MASS, twist=0.5 * X, **more)
+
+
+def turning(blade):
+    return blade.with_precone(0.05).with_hub_radius(0.1).with_tip_mass(0.1, offset=(0.02, 0.0))
+
+
+def frequencies(blade, theory, count=6):
+    return linear_modes(turning(blade), 2.0, count, theory=theory).frequencies
+
+
+@pytest.mark.parametrize(
+    ("by_ratios", "by_stations"),
+    [
+        (Theory(extension=False, trapeze=False, rotary_inertia=True),
+         Theory(extension=False, trapeze=False)),
+        (Theory(), Theory()),
+        (Theory(shear=0.3, rotary_inertia=True, trapeze=False), SHEARED),
+    ],
+)  # fmt: skip
+def test_a_blade_by_ratios_is_the_same_by_stations(by_ratios, by_stations):
+    """All digits: the same flexibility and inertia, by formulas and by inverting matrices."""
+    blade = BEAM.with_section_out_of_plane(R, G).with_twist(0.5)
+    blade = blade.with_offsets(mass=CENTERS["center"], tension=CENTERS["tension"])
+    found = frequencies(stations(**CENTERS), by_stations)
+    assert found == pytest.approx(frequencies(blade, by_ratios), rel=1e-11)
+
+
+def test_the_axis_of_the_table_does_not_matter():
+    """Columns about their centers, and matrices about another axis that a rigid section moves."""
+    a, b = 0.2, 0.1
+    away = {name: (c2 - a, c3 - b) for name, (c2, c3) in CENTERS.items()}
+    known = frequencies(stations(**CENTERS), SHEARED)
+    there = stations(**away, shear=(-a, -b), axis=(a, b))
+    assert frequencies(there, SHEARED) == pytest.approx(known, rel=1e-11)
+    table = stations(**away, shear=(-a, -b)).section
+    moved = Blade.from_stations(X, table.stiffness, table.mass, twist=0.5 * X, axis=(a, b))
+    assert frequencies(moved, SHEARED) == pytest.approx(known, rel=1e-11)
+
+
+def test_the_line_of_a_coupled_blade_does_not_matter():
+    """At rest, of all 36 entries; in rotation the axis of rotation would meet another line."""
+    S = np.array(stations(**CENTERS).section.stiffness)
+    S[:, 3, 4] = S[:, 4, 3] = 0.02
+    S[:, 1, 5] = S[:, 5, 1] = 5.0
+    M = stations(**CENTERS).section.mass
+    found = []
+    for c2 in (0.0, -0.04):
+        blade = Blade.from_stations(X, S, M, axis=(c2, 0.0)).with_setting_angle(0.3)
+        found.append(linear_modes(blade, 0.0, 5, theory=SHEARED).frequencies)
+    assert found[0] == pytest.approx(found[1], rel=1e-9)  # polynomials of two lines, refined
+
+
+def test_shear_centers_off_the_line_twist_a_blade_under_a_dead_force():
+    """GJ κ1 = -F c2: a force on the line bends straight and twists by its lever to the centers."""
+    blade = Blade.from_stations(X, STIFFNESS, MASS, shear=(0.02, 0.0))
+    state = steady_state(blade, 0.0, force=(0.0, 0.0, 1e-6), theory=SHEARED)
+    steady = state._steady
+    twist = steady.model.weights @ (steady.model.strains.K[0] @ steady.equilibrium)
+    assert twist == pytest.approx(-0.02 * 1e-6 / G, rel=1e-6)  # and the square of the load
+
+
+def test_stiffness_that_varies_against_another_between_stations():
+    """Uniform but for GJ, half at the tip: Bessel's equation, J0'(..) of a bar in torsion.
+
+    κ' of (GJ φ')' + ω² j φ = 0 with GJ = g (1 - x/2) and s = √(1 - x/2):
+    φ = J0(z s) Y0(z) - Y0(z s) J0(z), z = 4 ω √(j/g), and φ'(1) = 0.
+    """
+    from scipy import optimize, special
+
+    stiffness = STIFFNESS.copy()
+    stiffness[:, 3] *= 1.0 - 0.5 * X
+
+    def slope(z):
+        s = math.sqrt(0.5)
+        return special.j1(z * s) * special.y0(z) - special.y1(z * s) * special.j0(z)
+
+    z = optimize.brentq(slope, 4.0, 8.0)
+    known = 0.25 * z * math.sqrt(G / (MU * (1.0 + R)))
+    modes = linear_modes(Blade.from_stations(X, stiffness, MASS), 0.0, 9, theory=SHEARED)
+    torsion = int(np.argmax(modes.shares[:, 2]))
+    assert modes.frequencies[torsion] == pytest.approx(known, rel=1e-9)
+
+
+def test_stiffness_is_the_identity_but_where_the_section_couples():
+    """And its elastic energy is that of the strains: symmetric, positive."""
+    S = np.array(stations(**CENTERS).section.stiffness)
+    S[:, 3, 5] = S[:, 5, 3] = 0.1
+    for blade, identity in ((stations(), True), (Blade.from_stations(X, S, MASS), False)):
+        model = space_continuum(blade, SHEARED, 6)
+        K, own = model.functions.stiffness, model.strains
+        assert (np.abs(K - np.eye(model.size)).max() < 1e-12) == identity
+        assert np.linalg.eigvalsh(K)[0] > 0.0
+        E = np.concatenate((own.gamma, own.K))
+        turned = model.functions._flexibility(model.points)
+        energy = np.einsum("ipk,p,pij,jpl->kl", E, model.weights, np.linalg.inv(turned), E)
+        assert energy == pytest.approx(K, abs=1e-9)
+
+
+def test_time_reversal_of_blades_from_stations():
+    """A half turn, the mirror, or neither, as the matrices couple."""
+    S = np.array(Blade.from_stations(X, STIFFNESS, MASS).section.stiffness)
+    for entries, twist, reversible in (
+        ((4, 5), 0.5, True), ((0, 3), 0.5, True), ((3, 4), 0.5, False), ((3, 5), 0.0, False),
+        ((3, 4), 0.0, False), ((3, 5), 0.0, False),
+    ):  # fmt: skip
+        coupled = S.copy()
+        size = 0.1 * np.sqrt(S[0, entries[0], entries[0]] * S[0, entries[1], entries[1]])
+        coupled[:, entries[0], entries[1]] = coupled[:, entries[1], entries[0]] = size
+        model = space_continuum(Blade.from_stations(X, coupled, MASS, twist=twist * X), SHEARED, 5)
+        said = model.functions.odd
+        assert (said is not None) == reversible, entries
+        if said is not None:
+            q, q_dot, q_ddot = 0.1 * np.random.default_rng(0).normal(size=(3, 2, model.size))
+            here = model.residual(q, q_dot, q_ddot, 2.0)
+            sign = np.where(said, -1.0, 1.0)
+            there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
+            assert there == pytest.approx(sign * here, abs=1e-12)
+
+
+def test_files_hold_it():
+    blade = turning(stations(**CENTERS))
+    assert from_description(describe(blade), Blade) == blade
+
+
+def changed(array, entry, value):
+    array = np.array(array)
+    array[entry] = value
+    return array
+
+
+S66, M66 = stations().section.stiffness, stations().section.mass
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: Blade.from_stations(X, changed(S66, (1, 3, 4), 0.1), M66),
+         r"x = 0.333333 m is not symmetric: entries \(4, 5\) and \(5, 4\) are 0.1 and 0"),
+        (lambda: Blade.from_stations(X, changed(STIFFNESS, (2, 3), 0.0), MASS), "has GJ = 0"),
+        (lambda: Blade.from_stations(X, changed(changed(S66, (1, 3, 4), 0.1), (1, 4, 3), 0.1), M66),
+         "x = 0.333333 m is not positive definite.* -0.41"),
+        (lambda: Blade.from_stations(X, S66, changed(M66, (0, 0, 0), 2.0)), "not that of a rigid"),
+        (lambda: Blade.from_stations(X, S66, changed(M66, (0, 3, 3), -1.0)),
+         "inertia of -1 kg m about"),
+        (lambda: Blade.from_stations(X, S66, changed(MASS, (3, 0), 0.0)), "is 0 kg/m"),
+        (lambda: Blade.from_stations(X[:3], S66, M66), "at each of the 3 stations"),
+        (lambda: Blade.from_stations(X + 0.1, S66, M66), "from 0 to the length"),
+        (lambda: stations().with_offsets(mass=(0.1, 0.0)), "tell where the centers are"),
+        (lambda: stations().with_section_out_of_plane(1.0, 1.0), "tell the section out of"),
+        (lambda: stations().with_taper(0.1), "scale their values"),
+        (lambda: linear_modes(stations(), 1.0, theory=Theory(shear=0.3)), "shear=True"),
+        (lambda: linear_modes(BEAM, 1.0, theory=Theory(shear=True)), "others need the ratio"),
+        (lambda: steady_state(stations(), 0.0, force=1.0), "must be three numbers"),
+    ],
+)  # fmt: skip
+def test_bad_input(call, sentence):
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        call()
