@@ -123,10 +123,16 @@ class StationSection(Section):
         """Whether an entry of any matrix couples two sets of axes."""
         return bool(self._arrays[:, :, one][..., other].any())
 
-    def diagonal(self) -> tuple[Profile, ...]:
-        """Return the six stiffnesses themselves, as profiles."""
-        values = np.diagonal(self._arrays[0], axis1=1, axis2=2).T.tolist()
-        return tuple(tuple(zip(self.x, one, strict=True)) for one in values)
+    @property
+    def has_kinks_in_mass(self) -> bool:
+        """Whether the slope of any entry of the mass changes at a station."""
+        slopes = np.diff(self._arrays[1], axis=0) / np.diff(self.x)[:, None, None]
+        return bool(np.any(np.ptp(slopes, axis=0) > 1e-9 * np.abs(slopes).max(axis=0)))
+
+    def diagonal(self, kind: int) -> list[tuple[tuple[float, float], ...]]:
+        """Return the six entries on the diagonal of the stiffness, 0, or of the mass, 1."""
+        values = np.diagonal(self._arrays[kind], axis1=1, axis2=2).T.tolist()
+        return [tuple(zip(self.x, one, strict=True)) for one in values]
 
     def in_units(self, length: float, mass: float, time: float) -> StationSection:
         """Return the section in units of length [m], mass [kg] and time [s]."""

@@ -78,7 +78,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(theory):
     model = space(replace(ALL, damping=(0.1, 0.05, 0.2)), theory)
     x, rng = states(model, 0.1), np.random.default_rng(3)
     w, w_dot = rng.normal(size=(2, 2))
-    push = rng.normal(size=(2, 3, 2, model.points.size)) * model.weights
+    push = rng.normal(size=(3, 3, 2, model.points.size)) * model.weights
     push[1] = push[1][..., :1]
     at, h = model.tangent(*x, w, w_dot, push), 1e-6
     for k, name in enumerate(("stiffness", "damping", "mass")):

@@ -161,9 +161,6 @@ class StrainFunctions:
             return None
         return np.concatenate(kinds).astype(bool)
 
-    def _moments(self, count: int, x: FloatArray) -> FloatArray:
-        return shape_functions(self.blade, count * self.blade.panel_count).forces(x)
-
     def _turned(self, x: FloatArray) -> FloatArray:
         """Return the section's frame in that without twist, (3, 3, places)."""
         return about_axis(self.blade.angle + evaluated(self.blade.line.twist, x))
@@ -181,11 +178,12 @@ class StrainFunctions:
         Those of a family have one component; those of bending have M3 and M2 in turn.
         """
         blade, bending = self.blade, self.counts[0]
+        moments = shape_functions(blade, bending // 2)
         result = np.zeros((x.size, 6, self.size))
-        result[:, 5, 0:bending:2] = result[:, 4, 1:bending:2] = self._moments(self.bending, x)
+        result[:, 5, 0:bending:2] = result[:, 4, 1:bending:2] = moments.forces(x)
         for rows, own in self._blocks[1:]:
             if rows == [3]:
-                result[:, 3, own] = self._moments(self.torsion, x)
+                result[:, 3, own] = blade.torques(own.stop - own.start, x)
             else:
                 along = shape_functions(blade, self.axial * blade.panel_count, "axial")
                 result[:, rows[0], own] = along.forces(x)

@@ -17,7 +17,6 @@ from ...theory import Theory
 from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
-_SETTLED = 1e-9  # relative change of the frequencies from one basis to the next
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
@@ -91,10 +90,10 @@ def space_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> Sp
     _, (steady, (found, shapes)), error = settled(
         lambda one: (one, _solved(one)),
         finer_blades(space_rotation(blade, omega, model)),
-        _SETTLED,
+        model.functions.blade.tolerance,
         lambda solved: np.log(solved[1][0][:count]),
     )
-    if error > _SETTLED:
+    if error > model.functions.blade.tolerance:
         raise ValueError(
             f"the frequencies at omega = {omega:g} rad/s have not settled with "
             f"{steady.functions} functions: the last refinement changes them by {error:.1e}; "

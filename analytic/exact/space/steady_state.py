@@ -15,8 +15,6 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
-_SETTLED = 1e-9  # change of the steady state, over the length
-
 
 @dataclass(frozen=True, kw_only=True)
 class SteadyState:
@@ -112,8 +110,9 @@ def steady_state(
         EI, L = blade.bending_stiffness, blade.length
         load = tuple(f * L**2 / EI for f in force), tuple(m * L / EI for m in moment)
         first = replace(first, load=load)
-    _, steady, error = settled(lambda one: one, finer_blades(first), _SETTLED, lambda one: one.tip)
-    if error > _SETTLED:
+    tolerance = first.model.functions.blade.tolerance
+    _, steady, error = settled(lambda one: one, finer_blades(first), tolerance, lambda one: one.tip)
+    if error > tolerance:
         raise ValueError(
             f"the steady state at omega = {omega:g} rad/s has not settled with "
             f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "

@@ -12,6 +12,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...line import STRAIGHT, Line, Offset, scaled
 from ...profiles import Profile, evaluated
+from ...shape_functions import shape_functions
 from ...station_section import StationSection
 from ...theory import Theory
 from ...unit_blade import UnitBlade
@@ -46,10 +47,19 @@ class SpaceUnit(UnitBlade):
     body_offsets: tuple[Offset, ...] = ()
 
     @property
+    def tolerance(self) -> float:
+        """Change by a refinement at which frequencies, and places over the length, have settled."""
+        return 1e-9
+
+    @property
     def profiles(self) -> tuple[Profile, ...]:
         """Profiles along the blade."""
         line = self.line
         return (*super().profiles, line.twist, line.prebend, line.sweep)
+
+    def torques(self, count: int, x: FloatArray) -> FloatArray:
+        """Return the torques at `x` from which functions for κ1 are made, (places, count)."""
+        return shape_functions(self, count).forces(x)
 
     def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
         """Return the inverse of the stiffness in axes of the section, (places, 6, 6).
@@ -141,9 +151,23 @@ class StationUnit(SpaceUnit):
     section: StationSection
 
     @property
+    def tolerance(self) -> float:
+        """As that of other blades; kinks of the centers of mass leave an algebraic tail."""
+        return 1e-7 if self.section.has_kinks_in_mass else 1e-9
+
+    @property
     def profiles(self) -> tuple[Profile, ...]:
         """Profiles along the blade."""
-        return (*super().profiles, *self.section.diagonal())
+        return (*super().profiles, *self.section.diagonal(0))
+
+    def torques(self, count: int, x: FloatArray) -> FloatArray:
+        """Return integrals of polynomials times the inertia against torsion, if there is one."""
+        inertia = self.section.diagonal(1)[3]
+        if min(value for _, value in inertia) <= 0.0:
+            return super().torques(count, x)
+        return shape_functions(UnitBlade(masses=self.masses, mass=inertia), count, "axial").forces(
+            x
+        )
 
     def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
         """Return the inverse of the stiffness, (places, 6, 6); a theory leaves forces out."""
