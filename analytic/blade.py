@@ -98,6 +98,13 @@ class Variations(Described, abstract=True):
         """Return the blade whose unloaded line is curved about the thickness [1/m], chordwise."""
         return self._with_line(sweep=curvature)
 
+    def with_kink(self, position: float, prebend: float = 0.0, sweep: float = 0.0) -> Blade:
+        """Return the blade with one kink more of its line at `position` [m] from the clamp.
+
+        By angles [rad] about the chord and about the thickness.
+        """
+        return self._with_line(kinks=(*self.blade.line.kinks, (position, prebend, sweep)))
+
     def with_offsets(self, mass: Offset = (0.0, 0.0), tension: Offset = (0.0, 0.0)) -> Blade:
         """Return the blade whose centers of mass and of tension are so far [m] from the line.
 
@@ -224,6 +231,12 @@ class Blade(Variations):
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
             )
+        for x, *_ in self.line.kinks:
+            if not x < self.length:
+                raise ValueError(
+                    f"a kink at {x:g} m is not between clamp and tip, at {self.length:g} m: take "
+                    "its place from the clamp, not from the axis"
+                )
         self._require_masses()
 
     def _require_masses(self) -> None:

@@ -61,7 +61,7 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
-    [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m];
+    [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations`;
     [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
     and not of point masses, each zero where it is not given.

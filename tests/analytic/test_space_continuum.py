@@ -19,7 +19,7 @@ ALL = SpaceUnit(
     masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
     line=Line(
         twist=(0.0, 0.7, -0.2), precone=0.1, prebend=0.1, sweep=(0.05, 0.1),
-        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01),
+        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01), kinks=((0.3, 0.2, -0.1),),
     ),
 )  # fmt: skip
 """All that a blade may have, but damping."""
@@ -164,6 +164,8 @@ def test_forces_are_the_slope_of_the_potential(theory):
     [
         ({"line": Line(twist=(0.0, 0.7)), "angle": 0.4}, "half turn"),
         ({"line": Line(precone=0.2, prebend=0.1, mass_offset=(0.0, 0.05))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.3, 0.0),))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.0, 0.3),))}, None),
         ({"line": Line(twist=(0.0, 0.7), precone=0.2)}, None),
         ({"line": Line(mass_offset=(0.05, 0.0))}, None),
     ],

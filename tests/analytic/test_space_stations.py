@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Theory, linear_modes, steady_state
+from analytic import Beam, Blade, Section, Theory, linear_modes, steady_state
 from analytic.description import describe, from_description
 from analytic.exact.space.steady import space_continuum
 
@@ -171,6 +171,8 @@ S66, M66 = stations().section.stiffness, stations().section.mass
         (lambda: Blade.from_stations(X + 0.1, S66, M66), "from 0 to the length"),
         (lambda: stations().with_offsets(mass=(0.1, 0.0)), "tell where the centers are"),
         (lambda: stations().with_section_out_of_plane(1.0, 1.0), "tell the section out of"),
+        (lambda: stations().with_kink(1.0, sweep=0.1), "not between clamp and tip, at 1 m"),
+        (lambda: stations().with_kink(0.5, sweep="0.1"), "angle of a kink must be a number"),
         (lambda: stations().with_taper(0.1), "scale their values"),
         (lambda: linear_modes(stations(), 1.0, theory=Theory(shear=0.3)), "shear=True"),
         (lambda: linear_modes(BEAM, 1.0, theory=Theory(shear=True)), "others need the ratio"),
@@ -180,3 +182,56 @@ S66, M66 = stations().section.stiffness, stations().section.mass
 def test_bad_input(call, sentence):
     with pytest.raises((TypeError, ValueError), match=sentence):
         call()
+
+
+def test_the_swept_tip_of_epps_and_chandra():
+    """Steel strip on a hub with a swept tip, in inches and pounds; rows of another code.
+
+    Its frequencies of bending are upper bounds, by 2e-4: those of the straight strip are above
+    Timoshenko's beam in its plane, which this one meets. Lag and the tip's place are exact.
+    """
+    area, flap, lag, strain, density = 0.063, 0.063**3 / 12.0, 0.063 / 12.0, 1.06e7, 2.51e-4
+    shear = np.array([area / 1.2, area / 14.625127919304001, (flap + lag) / 65.85255016982444])
+    shear *= strain / (2.0 * (1.0 + 0.325))
+    stiffness = [strain * area, *shear, strain * flap, strain * lag]
+    mass = [density * area, density * (flap + lag), density * flap, density * lag]
+    straight = Blade.from_stations([0.0, 37.5], [stiffness] * 2, [mass] * 2).with_hub_radius(2.5)
+    strip = Section(
+        axial_stiffness=strain * area, bending_stiffness=strain * flap,
+        mass_per_length=density * area, rotary_inertia=density * flap,
+    )  # fmt: skip
+    ratio = Theory(shear=shear[1] / (strain * area))
+    planar = linear_modes(Blade(length=37.5, section=strip), 0.0, 4, theory=ratio).frequencies
+    at_rest = linear_modes(straight, 0.0, 5, theory=SHEARED).frequencies
+    assert at_rest[[0, 1, 3, 4]] == pytest.approx(planar, rel=1e-9)
+    omega = 750.0 * math.pi / 30.0
+    swept = straight.with_kink(31.5, sweep=-0.25 * math.pi)
+    for blade, known, tip in (
+        (straight, [13.54979, 24.53872, 34.00088, 59.47985, 91.78109], [0.0028245, 0.0]),
+        (swept, [13.56458, 24.90040, 26.07973, 42.99433, 76.42157], [0.0573986, 0.1848354]),
+    ):
+        modes = linear_modes(blade, omega, 5, theory=SHEARED)
+        found = modes.frequencies / (2.0 * math.pi)
+        assert found == pytest.approx(known, rel=3e-5)
+        assert found[1] == pytest.approx(known[1], abs=6e-6)
+        assert np.all(found < np.array(known) + 6e-6)
+        moved = (steady_state(blade, w, theory=SHEARED).tip[:2] for w in (omega, 0.0))
+        assert np.subtract(*moved) == pytest.approx(tip, abs=6e-8)
+
+
+@pytest.mark.parametrize("about", [1, 2])
+def test_arcs_on_both_sides_of_a_kink(about):
+    """A moment bends both parts to circles of one curvature, the second turned by the kink."""
+    bent, kink, at = 1.3, 0.7, 0.4
+    angles = {"prebend" if about == 1 else "sweep": kink}
+    blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_kink(at, **angles)
+    moment = bent * np.eye(3)[about]
+    state = steady_state(blade, 0.0, moment=moment, theory=Theory(extension=False, trapeze=False))
+
+    def arc(start, length):
+        there = start + bent * length
+        return np.array([math.sin(there) - math.sin(start), math.cos(start) - math.cos(there)])
+
+    along, across = (arc(0.0, at) + arc(bent * at + kink, 1.0 - at)) / bent
+    known = [along, across, 0.0] if about == 2 else [along, 0.0, -across]
+    assert state.tip == pytest.approx(known, abs=1e-12)

@@ -244,6 +244,14 @@ class StrainFunctions:
             trapeze=k2 if self.theory.trapeze else np.zeros_like(x),
         )
 
+    @property
+    def kinks(self) -> list[tuple[float, FloatArray]]:
+        """Places and rotation vectors (3,) of the line's kinks, in the frame without twist."""
+        return [
+            (x, self._turned(np.array([x]))[:, 1:, 0] @ angles)
+            for x, *angles in self.blade.line.kinks
+        ]
+
     @cached_property
     def masses(self) -> Masses:
         """Masses and inertias of the slices and the point masses."""

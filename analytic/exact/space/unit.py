@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,11 @@ class SpaceUnit(UnitBlade):
     polar: float | None = None
     told_rotary: bool = False
     body_offsets: tuple[Offset, ...] = ()
+
+    @cached_property
+    def panels(self) -> FloatArray:
+        """Ends of the panels between point masses and kinks, 0 to 1."""
+        return np.union1d(super().panels, [x for x, *_ in self.line.kinks])
 
     @property
     def tolerance(self) -> float:
@@ -125,7 +131,7 @@ class SpaceUnit(UnitBlade):
         """Whether a half turn about the blade maps its motions onto motions in reversed time."""
         line = self.line
         straight = line.precone == 0.0 and line.prebend == 0.0 and line.sweep == 0.0
-        return straight and not any(any(one) for one in self._offsets)
+        return straight and not line.kinks and not any(any(one) for one in self._offsets)
 
     @property
     def mirrored(self) -> bool:
@@ -135,7 +141,8 @@ class SpaceUnit(UnitBlade):
         """
         line = self.line
         straight = line.twist == 0.0 and line.sweep == 0.0 and self.angle == 0.0
-        return straight and not any(one[0] for one in self._offsets)
+        across = (*(kink[2] for kink in line.kinks), *(one[0] for one in self._offsets))
+        return straight and not any(across)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,9 +172,7 @@ class StationUnit(SpaceUnit):
         inertia = self.section.diagonal(1)[3]
         if min(value for _, value in inertia) <= 0.0:
             return super().torques(count, x)
-        return shape_functions(UnitBlade(masses=self.masses, mass=inertia), count, "axial").forces(
-            x
-        )
+        return shape_functions(replace(self, mass=inertia), count, "axial").forces(x)
 
     def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
         """Return the inverse of the stiffness, (places, 6, 6); a theory leaves forces out."""
