@@ -97,7 +97,7 @@ class Line(Described):
             sweep=in_units(self.sweep, length, 1.0 / length),
             mass_offset=scaled(self.mass_offset, length),
             tension_offset=scaled(self.tension_offset, length),
-            kinks=tuple((x / length, *angles) for x, *angles in self.kinks),
+            kinks=tuple((x / length, a, b) for x, a, b in self.kinks),
         )
 
 

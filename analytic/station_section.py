@@ -75,11 +75,11 @@ class StationSection(Section):
     """
 
     x: tuple[float, ...]
-    stiffness: tuple[Matrix, ...]
-    mass: tuple[Matrix, ...]
-    axial_stiffness: Profile = field(init=False)
-    bending_stiffness: Profile = field(init=False)
-    mass_per_length: Profile = field(init=False)
+    stiffness: tuple[Matrix, ...] = field(repr=False)
+    mass: tuple[Matrix, ...] = field(repr=False)
+    axial_stiffness: Profile = field(init=False, repr=False)
+    bending_stiffness: Profile = field(init=False, repr=False)
+    mass_per_length: Profile = field(init=False, repr=False)
     rotary_inertia: Profile | None = field(init=False, default=None)
     out_of_plane: OutOfPlane | None = field(init=False, default=None)
 
