@@ -117,7 +117,7 @@ class Variations(Described, abstract=True):
 
     @property
     def is_planar(self) -> bool:
-        """Whether the blade is straight and flat: no twist, precone, prebend, sweep or offset."""
+        """Whether the blade is straight and flat, and not from stations, which may couple all."""
         blade = self.blade
         offset = any(any(one.offset) for one in blade.point_masses)
         return blade.line == STRAIGHT and not offset and not blade.section.at_stations

@@ -21,6 +21,8 @@ from .section import OutOfPlane, Section
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
 _POSITIVE = 1e-12  # least stiffness, over that of the axes alone
 
+STIFFNESSES = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
+
 Matrix = tuple[tuple[float, ...], ...]
 
 
@@ -45,15 +47,27 @@ def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
     return np.asarray(np.swapaxes(onto, 1, 2) @ matrices @ onto)
 
 
-def stiffness_of(columns: FloatArray, tension: ArrayLike, shear: ArrayLike) -> FloatArray:
+def _columns(name: str, values: ArrayLike, names: tuple[str, ...]) -> FloatArray:
+    found = finite_array(name, values)
+    if found.shape[1:] != (len(names),):
+        raise ValueError(
+            f"{name} must have the columns {', '.join(names)}, or be 6x6 matrices, at each "
+            f"station, got {found.shape}"
+        )
+    return found
+
+
+def stiffness_of(values: ArrayLike, tension: ArrayLike, shear: ArrayLike) -> FloatArray:
     """Return the matrices of EA, GA2, GA3, GJ, EI2, EI3 about centers of tension and of shear."""
+    columns = _columns("stiffness", values, STIFFNESSES)
     axial, across = (columns * mask for mask in ([1, 0, 0, 0, 1, 1], [0, 1, 1, 1, 0, 0]))
     parts = ((axial, tension), (across, shear))
     return np.asarray(sum(moved(part[:, :, None] * np.eye(6), at) for part, at in parts))
 
 
-def mass_of(columns: FloatArray, center: ArrayLike) -> FloatArray:
+def mass_of(values: ArrayLike, center: ArrayLike) -> FloatArray:
     """Return the matrices of m, j1, j2, j3 about centers of mass."""
+    columns = _columns("mass", values, ("m", "j1", "j2", "j3"))
     return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
 
 
@@ -182,8 +196,7 @@ def _matrices(name: str, x: FloatArray, values: ArrayLike) -> FloatArray:
 
 
 def _require_stiffness(x: float, stiffness: FloatArray) -> None:
-    names = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
-    for name, value in zip(names, np.diag(stiffness).tolist(), strict=True):
+    for name, value in zip(STIFFNESSES, np.diag(stiffness).tolist(), strict=True):
         if value <= 0.0:
             raise ValueError(f"stiffness at x = {x:g} m has {name} = {value:g}: give it above zero")
     size = np.sqrt(np.diag(stiffness))

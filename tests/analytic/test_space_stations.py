@@ -167,6 +167,7 @@ S66, M66 = stations().section.stiffness, stations().section.mass
         (lambda: Blade.from_stations(X, S66, changed(M66, (0, 3, 3), -1.0)),
          "inertia of -1 kg m about"),
         (lambda: Blade.from_stations(X, S66, changed(MASS, (3, 0), 0.0)), "is 0 kg/m"),
+        (lambda: Blade.from_stations(X, STIFFNESS[:, :5], MASS), "the columns EA, GA2, .*4, 5"),
         (lambda: Blade.from_stations(X[:3], S66, M66), "at each of the 3 stations"),
         (lambda: Blade.from_stations(X + 0.1, S66, M66), "from 0 to the length"),
         (lambda: stations().with_offsets(mass=(0.1, 0.0)), "tell where the centers are"),
