@@ -63,6 +63,11 @@ class SpaceUnit(UnitBlade):
         line = self.line
         return (*super().profiles, line.twist, line.prebend, line.sweep)
 
+    @property
+    def tail(self) -> float:
+        """How many times the residual of an orbit may be that of smooth sections."""
+        return 1.0
+
     def torques(self, count: int, x: FloatArray) -> FloatArray:
         """Return the torques at `x` from which functions for κ1 are made, (places, count)."""
         return shape_functions(self, count).forces(x)
@@ -166,6 +171,11 @@ class StationUnit(SpaceUnit):
     def profiles(self) -> tuple[Profile, ...]:
         """Profiles along the blade."""
         return (*super().profiles, *self.section.diagonal(0))
+
+    @property
+    def tail(self) -> float:
+        """Of kinks: forces in the frame of a section that bends by them have some of their own."""
+        return 20.0 if len(self.section.x) > 2 else 1.0
 
     def torques(self, count: int, x: FloatArray) -> FloatArray:
         """Return integrals of polynomials times the inertia against torsion, if there is one."""
