@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy import optimize, special
+from scipy.spatial.transform import Rotation
 
 from analytic import (
     Beam,
@@ -243,6 +244,19 @@ def test_arcs_on_both_sides_of_a_kink(about):
 
     along, across = (arc(0.0, at) + arc(bent * at + kink, 1.0 - at)) / bent
     known = [along, across, 0.0] if about == 2 else [along, 0.0, -across]
+    assert state.tip == pytest.approx(known, abs=1e-12)
+
+
+def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():
+    """Three straight parts, the sections of which are set and twisted; rotations by scipy."""
+    blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_setting_angle(0.4).with_twist(0.5)
+    blade = blade.with_kink(0.3, prebend=0.6, sweep=-0.2).with_kink(0.6, sweep=0.8)
+    state = steady_state(blade, 0.0, theory=Theory(extension=False, trapeze=False))
+    turn, known = np.eye(3), np.array([0.3, 0.0, 0.0])
+    for at, length, angles in ((0.3, 0.3, [0.0, 0.6, -0.2]), (0.6, 0.4, [0.0, 0.0, 0.8])):
+        section = Rotation.from_rotvec([0.4 + 0.5 * at, 0.0, 0.0])
+        turn = turn @ Rotation.from_rotvec(section.apply(angles)).as_matrix()
+        known = known + length * turn[:, 0]
     assert state.tip == pytest.approx(known, abs=1e-12)
 
 
