@@ -37,7 +37,7 @@ class ModePath:
     mode: int = 1
     theory: Theory = BERNOULLI_EULER
     model: Any = field(repr=False)
-    care: Care = field(default=THOROUGH, repr=False)
+    care: Care = field(default_factory=lambda: THOROUGH, repr=False)
 
     @property
     def name(self) -> str:

@@ -174,7 +174,7 @@ class StationUnit(SpaceUnit):
 
     @property
     def tail(self) -> float:
-        """Of kinks: forces in the frame of a section that bends by them have some of their own."""
+        """More where forces in the frame of a section, which bends by kinks, have kinks too."""
         return 20.0 if len(self.section.x) > 2 else 1.0
 
     def torques(self, count: int, x: FloatArray) -> FloatArray:
