@@ -21,7 +21,7 @@ ALL = SpaceUnit(
     masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
     line=Line(
         twist=(0.0, 0.7, -0.2), precone=0.1, prebend=0.1, sweep=(0.05, 0.1),
-        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01),
+        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01), kinks=((0.3, 0.2, -0.1),),
     ),
 )  # fmt: skip
 """All that a blade may have, but damping."""
@@ -80,7 +80,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(theory):
     model = space(replace(ALL, damping=(0.1, 0.05, 0.2)), theory)
     x, rng = states(model, 0.1), np.random.default_rng(3)
     w, w_dot = rng.normal(size=(2, 2))
-    push = rng.normal(size=(2, 3, 2, model.points.size)) * model.weights
+    push = rng.normal(size=(3, 3, 2, model.points.size)) * model.weights
     push[1] = push[1][..., :1]
     at, h = model.tangent(*x, w, w_dot, push), 1e-6
     for k, name in enumerate(("stiffness", "damping", "mass")):
@@ -166,6 +166,8 @@ def test_forces_are_the_slope_of_the_potential(theory):
     [
         ({"line": Line(twist=(0.0, 0.7)), "angle": 0.4}, "half turn"),
         ({"line": Line(precone=0.2, prebend=0.1, mass_offset=(0.0, 0.05))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.3, 0.0),))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.0, 0.3),))}, None),
         ({"line": Line(twist=(0.0, 0.7), precone=0.2)}, None),
         ({"line": Line(mass_offset=(0.05, 0.0))}, None),
     ],

@@ -105,6 +105,27 @@ def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
     assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
 
 
+@pytest.mark.parametrize(
+    ("inertia", "known"),
+    [(False, [62.078, 305.481, 949.945, 1221.868]), (True, [62.035, 305.286, 948.202, 1214.672])],
+)
+def test_the_twisted_blade_of_carnegie(inertia, known):
+    """Carnegie (1959), rigid in torsion, without and with the inertia of its sections, in Hz."""
+    width, height, modulus = 0.0254, 0.0017272, 206.85e9
+    area, lag = width * height, width**3 * height / 12.0
+    strip = Beam.from_stiffness(
+        length=0.1524,
+        axial_stiffness=modulus * area,
+        bending_stiffness=modulus * lag,
+        mass_per_length=7857.6 * area,
+    )
+    ratio = (height / width) ** 2
+    blade = strip.with_section_out_of_plane(ratio, math.inf).with_twist(math.pi / 4.0)
+    theory = Theory(extension=False, trapeze=False, rotary_inertia=inertia)
+    found = linear_modes(blade, 0.0, 4, theory=theory).frequencies / (2.0 * math.pi)
+    assert found == pytest.approx(known, abs=6e-4)  # half the last digit
+
+
 def test_a_bar_under_tension_untwists_by_the_trapeze_effect_in_closed_form():
     """N k² θ'/(GJ + N k²) of a rigid bar with a heavy tip, whose tension is nearly constant."""
     blade = BLADE.with_tip_mass(1e3).with_twist(0.1)

@@ -176,3 +176,27 @@ def test_a_twisted_and_coned_blade(tmp_path):
     path.write_text(text.replace("precone", "cone"))
     with pytest.raises(ValueError, match=r"unknown key 'cone' in \[blade.line\]; did you mean 'pr"):
         load_beam(path)
+
+
+def test_a_blade_from_stations(tmp_path):
+    """Twist of the stations, precone of the line; what is missing and what is wrong is named."""
+    path = tmp_path / "blade.toml"
+    text = (
+        "[blade]\nhub_radius = 0.5\n[blade.line]\nprecone = 0.04\n[blade.stations]\n"
+        "x = [0.0, 8.0]\ntwist = [0.2, 0.0]\n"
+        "mass = [[8.0, 0.3, 0.02, 0.28], [4, 0.1, 0.01, 0.09]]\n"
+        "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
+    )
+    path.write_text(text)
+    stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]
+    mass = [[8.0, 0.3, 0.02, 0.28], [4.0, 0.1, 0.01, 0.09]]
+    by_hand = Blade.from_stations([0.0, 8.0], stiffness, mass, twist=[0.2, 0.0])
+    assert load_beam(path) == by_hand.with_precone(0.04).with_hub_radius(0.5)
+    for old, new, sentence in (
+        ("mass", "masses", r"unknown key 'masses' in \[blade.stations\]; did you mean 'mass'"),
+        ("8e3", "-8e3", "stiffness at x = 0 m has GJ = -8000"),
+        ("hub_radius = 0.5", "length = 8.0", r"unknown key 'length' in \[blade\]"),
+    ):
+        path.write_text(text.replace(old, new))
+        with pytest.raises(ValueError, match=sentence):
+            load_beam(path)

@@ -43,13 +43,18 @@ class AtConstantRate(Discretized):
     rate: float
     driven: ClassVar[bool] = False
 
+    @property
+    def push(self) -> FloatArray | None:
+        """The load, as `model.residual` takes it."""
+        return None
+
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate))
+        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate, push=self.push))
 
     def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate)
+        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate, push=self.push)
         return tangent
 
     def potential(self, q: FloatArray) -> FloatArray:

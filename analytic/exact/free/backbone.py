@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Literal
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
+from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
@@ -187,8 +188,9 @@ def backbone(
         require_undamped(beam, _NO_FREE_ORBITS, planar=False)
         in_space = space_continuum(beam, theory, max(functions // 2, 2 * mode + 2))
         return SpaceBackbone(
-            beam=beam, omega=omega, mode=mode, theory=theory, model=in_space, gauge=gauge
-        )
+            beam=beam, omega=omega, mode=mode, theory=theory, model=in_space, gauge=gauge,
+            care=Care(tail=in_space.functions.blade.tail),
+        )  # fmt: skip
     require_undamped(beam, _NO_FREE_ORBITS)
     model = resolved_model(beam, mode, theory, functions)
     return Backbone(beam=beam, omega=omega, mode=mode, theory=theory, model=model)

@@ -172,7 +172,7 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
     """Return the series of a backbone, on as many functions as it needs."""
     model = of.model
     while True:
-        of = replace(of, model=model, care=care_for(tolerance))
+        of = replace(of, model=model, care=care_for(tolerance)._replace(tail=of.care.tail))
         curve = fitted_curve(of, up_to, count, tolerance)
         largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
         model = largest.system.refined().model

@@ -36,7 +36,7 @@ class ModePath:
     mode: int = 1
     theory: Theory = BERNOULLI_EULER
     model: Any = field(repr=False)
-    care: Care | None = field(default=None, repr=False)
+    care: Care = field(default_factory=lambda: THOROUGH, repr=False)
 
     @property
     def name(self) -> str:
@@ -90,10 +90,10 @@ class ModePath:
             except NoOrbitError as failed:
                 reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
             else:
-                if meets_the_equations(double):
+                if meets_the_equations(double, self.care):
                     path = Path(
                         seed=seed, double=double, longest=_LONGEST_STEP,
-                        care=self.care or THOROUGH, tangent=tangent,
+                        care=self.care, tangent=tangent,
                     )  # fmt: skip
                     return frequencies[: steady.functions // 2], path
                 reason = (

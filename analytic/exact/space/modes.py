@@ -19,7 +19,6 @@ from ..beam.space import require_out_of_plane
 from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
-_SETTLED = 1e-9  # relative change of the frequencies from one basis to the next
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Of the tip's places whose peak may be called the amplitude, in the root frame."""
@@ -135,10 +134,10 @@ def space_modes(
     _, (steady, (found, shapes)), error = settled(
         lambda one: (one, _solved(one, torsion)),
         finer_blades(space_rotation(blade, omega, model)),
-        _SETTLED,
+        model.functions.blade.tolerance,
         lambda solved: np.log(solved[1][0][:count]),
     )
-    if error > _SETTLED:
+    if error > model.functions.blade.tolerance:
         raise ValueError(
             f"the frequencies at omega = {omega:g} rad/s have not settled with "
             f"{steady.functions} functions: the last refinement changes them by {error:.1e}; "

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...arrays import FloatArray
@@ -73,15 +76,22 @@ class Frames:
         On whose points the curvatures are given.
     places : ndarray (places,)
         Further material points at which the frames are wanted.
+    kinks : list
+        Ends of cells, and rotation vectors (3,) by which the frame jumps there.
     """
 
-    def __init__(self, grid: Grid, places: FloatArray) -> None:
+    def __init__(
+        self, grid: Grid, places: FloatArray, kinks: Sequence[tuple[float, FloatArray]] = ()
+    ) -> None:
         self._grid, self._places = grid, places
         self._cell = np.clip(
             np.searchsorted(grid.ends, places, side="right") - 1, 0, grid.counts.size - 1
         )
         # Integrals from the start of each cell, to its own points, to its end, and to the places.
         inside = grid.integral(np.concatenate((grid.points, grid.ends[1:], places)))
+        self._kinks = {
+            int(np.argmin(np.abs(grid.ends - x))) - 1: _quaternion(vector) for x, vector in kinks
+        }
         self._parts = []
         first = 0
         for k, count in enumerate(grid.counts.tolist()):
@@ -113,7 +123,16 @@ class Frames:
             at[:, :, own] = here[:, :, :count]
             extra[:, :, self._cell == k] = here[:, :, count + 1 :]
             before = here[:, :, count : count + 1]
+            if k in self._kinks:
+                before = product(before, self._kinks[k])
         return frames(at), frames(extra)
+
+
+def _quaternion(vector: FloatArray) -> FloatArray:
+    """Return the quaternion (4, 1, 1) of a rotation vector (3,)."""
+    half = 0.5 * float(np.linalg.norm(vector))
+    # sin(x)/x, of numpy in units of π.
+    return np.array([math.cos(half), *(0.5 * np.sinc(half / math.pi) * vector)])[:, None, None]
 
 
 def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
