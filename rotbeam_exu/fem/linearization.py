@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade, SteadyRotation
+from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_planar, require_steady_state, undamped, warn_if_rpm
+from analytic.beam import require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
 from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
-from .elements import Chain, Formulation, SpaceCable, formulation
+from .elements import Chain, Formulation, formulation
 from .lazily import exudyn
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
@@ -106,9 +106,10 @@ def natural_frequencies(
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
-    Small undamped vibration in the plane of bending, about the equilibrium stretched by the
-    rotation, Coriolis and centrifugal terms included: the ω_n to which a nonlinear frequency of
-    the same mesh belongs. Damping of the blade does not count.
+    Small undamped vibration about the equilibrium in rotation, Coriolis and centrifugal terms
+    included: the ω_n to which a nonlinear frequency of the same mesh belongs. In the plane of
+    bending, or of an element in space of flap, lag and torsion together. Damping of the blade does
+    not count.
 
     Parameters
     ----------
@@ -141,7 +142,6 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
-    require_planar(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return Linearization.of(beam, omega, element, elements).frequencies(count)
 
@@ -184,56 +184,6 @@ def steady_stretch(
     return Linearization.of(beam, omega, element, elements).stretch
 
 
-def flap_frequencies(
-    blade: AnyBlade, omega: float, *, elements: int = 16, count: int = 3
-) -> FloatArray:
-    """Natural frequencies [rad/s] of Exudyn's cable out of the plane of rotation, ascending.
-
-    About the equilibrium stretched by the rotation. Not of the geometrically exact beam, which is
-    solved in the inertial frame only.
-
-    Parameters
-    ----------
-    blade : Blade
-        With a section that bends alike in all directions, bending_ratio 1.
-    omega : float
-        Steady angular velocity ω [rad/s].
-    elements : int
-        Number of cables.
-    count : int
-        How many frequencies, at most 2 `elements`.
-
-    Returns
-    -------
-    ndarray of shape (count,)
-
-    Raises
-    ------
-    ValueError
-        If an input is refused, or the mesh has fewer than `count` modes.
-    SimulationError
-        If the static equilibrium is not found.
-
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import flap_frequencies
-    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
-    >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
-    [ 7.0656 23.7847 57.0132]
-    """
-    with steady_system(blade, omega, SpaceCable(), elements) as (mbs, _, settings):
-        mass, stiffness = (np.asarray(m) for m in mbs.ComputeLinearizedSystem(settings)[:2])
-    # Coordinates are (x, y, z) of r and r' in turn; the clamp holds those of the first node.
-    across = np.arange(2, 6 * (elements + 1), 3)[2:]
-    pick = np.ix_(across, across)
-    system = Linearization(
-        mass=mass[pick], stiffness=stiffness[pick], gyroscopic=0.0 * mass[pick], tip=0.0,
-        units=Units.of(blade), mesh=f"{elements} cables out of the plane",
-    )  # fmt: skip
-    return system.frequencies(count)
-
-
 @contextmanager
 def steady_system(
     beam: AnyBlade, omega: float, element: str | Formulation, elements: int
@@ -243,24 +193,43 @@ def steady_system(
     With its chain and the settings of a static solution.
     """
     omega = rotation_speed(omega)
-    require_planar(beam)
     warn_if_rpm(beam, omega)
     require_steady_state(beam, omega)
     require_feasible(elements)
     require_stretch(beam)
-    units = Units.of(beam)
-    unit_beam, rotation = units.beam(undamped(beam)), units.rotation(SteadyRotation(omega=omega))
+    model, unit_beam = formulation(element), Units.of(beam).beam(undamped(beam))
+    rotation = _Raised(omega / beam.frequency_scale)
     with exudyn_system() as mbs:
         built = add_rotating_beam(
-            mbs, unit_beam, rotation, element=element, elements=elements, frame="rotating"
+            mbs, unit_beam, rotation, element=model, elements=elements, frame="rotating"
         )
         mbs.Assemble()
         settings = static_settings(unit_beam, elements)
         try:
             mbs.SolveStatic(settings, updateInitialValues=True)
+            settings.staticSolver.loadStepStart = 1.0  # when to linearize
         except Exception as error:
             raise SimulationError(
                 f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
                 f"EA = {beam.axial_stiffness:g} N and the speed"
             ) from error
         yield mbs, built.chain, settings
+
+
+@dataclass(frozen=True)
+class _Raised:
+    """A steady rotation whose speed static solutions raise from zero at t = 0 to w̄ at 1.
+
+    A blade that bends in rotation has several equilibria: that from rest is followed.
+    """
+
+    w_bar: float
+
+    def angle(self, t: Any) -> Any:
+        return 0.0
+
+    def rate(self, t: Any) -> Any:
+        return self.w_bar * t
+
+    def acceleration(self, t: Any) -> Any:
+        return 0.0

@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
-from analytic.beam import warn_if_rpm
+from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState, stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
@@ -181,6 +181,7 @@ def _start(
         initial_state = partial(stretched_state, case.beam, turning)
     if initial_state is None:
         return reference, np.zeros_like(reference)
+    require_planar(case.beam)
     x = np.linspace(0.0, 1.0, len(reference))
     state = units.state(initial_state(case.beam.length * x))
     return case.model.coordinates(case.beam.unit.hub + x, state)

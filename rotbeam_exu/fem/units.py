@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from typing import Any, TypeVar
+from typing import Any
 
 from analytic import AnyBlade
 from analytic.exact.beam.state import BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
-
-StateT = TypeVar("StateT", bound=BeamState)
-"""A state of the plane, or of space."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +56,7 @@ class Units:
         """Return the rotation over time in these units."""
         return _Rescaled(rotation, self.time)
 
-    def state(self, state: StateT) -> StateT:
+    def state(self, state: BeamState) -> BeamState:
         """Return the state in these units; slopes and angles have none."""
         per_second = 1.0 / self.time
         units = {

@@ -10,8 +10,11 @@ import numpy as np
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...line import STRAIGHT, Line, Offset, scaled
-from ...profiles import Profile
+from ...profiles import Profile, evaluated
 from ...unit_blade import UnitBlade
+from .vectors import Frames, about_axis, turned
+
+_POINTS = 40  # on each panel, for the unloaded line
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +66,19 @@ class SpaceUnit(UnitBlade):
         """The clamp's place from the axis of rotation in the root frame, (3,)."""
         cone = self.line.precone
         return self.hub * np.array([math.cos(cone), 0.0, -math.sin(cone)])
+
+    def unloaded(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the unloaded line at `x`, (places, 3), and its sections' axes (places, 3, 3).
+
+        From the clamp and over L, in the root frame; axes in columns.
+        """
+        line, grid = self.line, self.grid(_POINTS, 0)
+        angle, angle_x = (self.angle + evaluated(line.twist, at) for at in (grid.points, x))
+        bows = np.stack([evaluated(one, grid.points) for one in (0.0, line.prebend, line.sweep)])
+        frame, frame_x = Frames(grid, x).of(turned(about_axis(angle), bows)[:, None])
+        place = grid.integral(x) @ frame[:, 0, 0].T
+        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], about_axis(angle_x))
+        return place, sections
 
     @property
     def bodies(self) -> list[tuple[float, float, float, Offset]]:

@@ -23,20 +23,15 @@ _ELEMENTS: tuple[type[Formulation], ...] = (
     Cable, Exact, Ancf3, Linear, Substructures, SpaceCable, SpaceExact,
 )  # fmt: skip
 
-FORMULATIONS, SPACE_FORMULATIONS = (
-    {cls.name: cls for cls in _ELEMENTS if cls.leaves_plane is leaves} for leaves in (False, True)
-)
-"""The class of each formulation in the plane, and in space; its fields are its options."""
+FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
+"""The class of each formulation, in the plane or in space; its fields are its options."""
 
 ALIASES = {"reissner": "exact"}
 """Other names of formulations: "exact" is Reissner's beam, not the exact continuum."""
 
 
 def formulation(
-    element: str | Formulation,
-    options: Mapping[str, object] | None = None,
-    *,
-    in_space: bool = False,
+    element: str | Formulation, options: Mapping[str, object] | None = None
 ) -> Formulation:
     """Return the formulation called `element`, with `options`; a Formulation is passed through.
 
@@ -54,14 +49,13 @@ def formulation(
             )
         return element
     element = ALIASES.get(element, element)
-    known = SPACE_FORMULATIONS if in_space else FORMULATIONS
-    if element not in known:
-        names = ", ".join(map(repr, known))
+    if element not in FORMULATIONS:
+        names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(
-            f"unknown element {'in space ' if in_space else ''}{element!r}; known are {names}; "
-            "other codes are in rotbeam_exu.verification.peers"
+            f"unknown element {element!r}; known are {names}; other codes are in "
+            "rotbeam_exu.verification.peers"
         )
-    cls: Any = known[element]
+    cls: Any = FORMULATIONS[element]
     fields = [field.name for field in dataclasses.fields(cls)]
     for name in options or {}:
         if name not in fields:
@@ -88,26 +82,11 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
     ValueError
         It names the property of the blade, and the formulations that take it.
     """
-    require_frame(beam, frame)
-    if frame not in model.frames:
-        raise ValueError(
-            f"element {model.name!r} is solved in the {' or '.join(model.frames)} frame, its "
-            f"inertia being no constant matrix: take frame={model.frames[0]!r}"
-        )
     model.require_section(beam)
+    require_frame(model.setting(beam), frame)
     unit = beam.unit
     if unit == UNIFORM:
         return
-    if model.leaves_plane and any(unit.damping):
-        raise ValueError(
-            "simulate_3d is for undamped blades, as Exudyn's geometrically exact beam ignores its "
-            f"damping: this one has {unit.differences}; take "
-            "blade.with_damping(Damping())"
-        )
-    if model.leaves_plane and unit.masses:
-        raise ValueError(
-            f"simulate_3d is for blades without point masses, and this one has {unit.differences}"
-        )
     if not model.takes_blades:
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
@@ -122,7 +101,7 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
 
 
 def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
-    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls)]
+    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls) and not cls.leaves_plane]
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
@@ -132,7 +111,7 @@ def options_of(element: Formulation) -> dict[str, Any]:
 
 
 __all__ = [
-    "ALIASES", "FORMULATIONS", "SPACE_FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
+    "ALIASES", "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
     "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
     "options_of", "require_modeled",
 ]  # fmt: skip

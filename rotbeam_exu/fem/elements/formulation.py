@@ -11,11 +11,12 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.beam import require_planar
 from analytic.description import Described
 from analytic.lazily import sparse
+from analytic.motion import Rotation
 from analytic.theory import Theory
 
-from ..frame import Frame
 from ..lazily import exudyn, items
 from .point_masses import TurningNode, spins
 
@@ -55,15 +56,16 @@ class Chain:
 class Formulation(Described, abstract=True):
     """A beam element: its chain, its clamp, what its coordinates mean, and its abilities.
 
-    A formulation is a frozen dataclass whose fields are its options; its class and its options
-    say how to make it again. It inherits from a kind of node (`node_kinds`), and defines `lay` and
-    `axial_strain`. The coordinates of a node are Exudyn's, reference values included, as arrays of
-    shape (..., nodes, n). A rotation by θ about the axis takes them, and mass matrix and elastic
-    forces with them, to exp(θJ) e + θ a: J turns positions and slopes, a adds to angles.
+    A formulation is a frozen dataclass whose fields are its options; its class and its options say
+    how to make it again. It inherits from a kind of node (`node_kinds`), by which it lives in the
+    plane or in space, and defines `lay` and `axial_strain`. The coordinates of a node are Exudyn's,
+    reference values included, as arrays of shape (..., nodes, n). A rotation by θ about the axis
+    takes them, and mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions
+    and slopes, a adds to angles.
     """
 
     name: ClassVar[str]
-    """Name that the user gives; an element in space may have that of one in the plane."""
+    """Name that the user gives."""
     summary: ClassVar[str]
     """One line that names the formulation."""
 
@@ -73,8 +75,8 @@ class Formulation(Described, abstract=True):
     """Whether it has bending and axial damping."""
     leaves_plane: ClassVar[bool] = False
     """Whether it lives in space: z is across the plane of rotation."""
-    frames: ClassVar[tuple[Frame, ...]] = ("inertial", "rotating")
-    """Frames in which it can be solved."""
+    constant_mass: ClassVar[bool] = True
+    """Whether the mass matrix of all coordinates is constant, as the rotating frame asks for."""
     new_jacobians: ClassVar[bool] = False
     """Whether the solver is to make a new Jacobian in each step."""
     spectral_radius: ClassVar[float] = 0.9
@@ -88,8 +90,8 @@ class Formulation(Described, abstract=True):
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
     angles: ClassVar[FloatArray]
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
-    fixed_at_root: ClassVar[tuple[int, ...]]
-    """Root coordinates held at their reference values, whatever the angle: the position's."""
+    clamped: ClassVar[tuple[int, ...]]
+    """Root coordinates, besides its place, that the clamp holds at the angle zero."""
 
     @property
     def order(self) -> float | None:
@@ -114,7 +116,8 @@ class Formulation(Described, abstract=True):
     @property
     def theory(self) -> Theory:
         """Theory of its beam."""
-        return Theory(shear=self.shear_share, rotary_inertia=self.shear_share is not None)
+        sheared = self.shear_share is not None
+        return Theory(shear=self.shear_share, rotary_inertia=sheared, trapeze=not self.leaves_plane)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
@@ -127,9 +130,23 @@ class Formulation(Described, abstract=True):
         node = getattr(items, self.node)
         return tuple(mbs.AddNode(node(referenceCoordinates=[x, *self.straight])) for x in positions)
 
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
-        raise NotImplementedError
+    @property
+    def dimensions(self) -> int:
+        """Dimensions of the space in which it lives; as many coordinates come first, of r."""
+        return 3 if self.leaves_plane else 2
+
+    def held(self, root: FloatArray) -> FloatArray:
+        """Return the directions (m, n) of the root's coordinates that the clamp holds at rest."""
+        return np.eye(root.size)[list(self.clamped)]
+
+    def clamp(self, root: FloatArray, angle: float) -> tuple[FloatArray, FloatArray]:
+        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root by θ.
+
+        From its reference coordinates `root` (n,).
+        """
+        held = self.held(root)
+        turned = self.turned(held[:, None], np.full(len(held), angle))[:, 0]
+        return turned, held @ (root + angle * self.angles)
 
     def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.
@@ -147,14 +164,24 @@ class Formulation(Described, abstract=True):
         return math.inf
 
     def require_section(self, blade: AnyBlade) -> None:
-        """Refuse a blade whose section the element does not model."""
+        """Refuse a blade whose line or section the element does not model."""
+        require_planar(blade)
 
-    def twist(self, coordinates: FloatArray) -> FloatArray | None:
-        """Return the twist [rad] of the tip's section about its normal, (samples,), if any."""
-        return None
+    def setting(self, blade: AnyBlade) -> float:
+        """Cosine of the angle between the plane in which J turns and that of rotation."""
+        return blade.unit.setting
 
-    def upright(self, coordinates: FloatArray) -> FloatArray | None:
-        """Return the axis of the sections that is along z at rest, (samples, nodes, 3), if any."""
+    def line_frame(self, blade: AnyBlade) -> FloatArray:
+        """Return the axes of the clamp in columns, (dimensions, dimensions), at the angle zero."""
+        return np.eye(self.dimensions)
+
+    def add_spin_forces(
+        self, mbs: exudyn.MainSystem, chain: Chain, beam: Any, rotation: Rotation
+    ) -> None:
+        """Add the inertial forces of the rotating frame on coordinates without constant mass."""
+
+    def sections(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""
         return None
 
     @property
@@ -204,7 +231,7 @@ class Formulation(Described, abstract=True):
         rate : ndarray (samples,)
             w.
         """
-        samples, setting = rate.size, beam.unit.setting
+        samples, setting = rate.size, self.setting(beam)
         v = velocities.reshape(samples, -1)
         along = (coordinates * self.radial).reshape(samples, -1)
         momentum = v @ mass
