@@ -90,7 +90,9 @@ GROUPS = (
         rotbeam_exu__fem__stability="divergence_speed",
         rotbeam_exu__fem__picture="ray_traced",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
-        rotbeam_exu__fem__elements="Cable Exact Ancf3 Linear Substructures SpaceExact SpaceCable Formulation",
+        rotbeam_exu__fem__elements=(
+            "Cable Exact Ancf3 Linear Substructures SpaceExact SpaceCable Formulation"
+        ),
     ),
     _group(
         "Files and sweeps",

@@ -124,8 +124,8 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
         ratio = require_out_of_plane(blade, torsion=False).bending_ratio
         if abs(ratio - 1.0) > 1e-9:
             raise ValueError(
-                f"element 'space_cable' bends alike in all directions, and this blade {ratio:.4g} times "
-                "as stiffly out of the plane as in it: take element='space_exact', or "
+                f"element 'space_cable' bends alike in all directions, and this blade {ratio:.4g} "
+                "times as stiffly out of the plane as in it: take element='space_exact', or "
                 "blade.with_section_out_of_plane(bending_ratio=1.0)"
             )
 
