@@ -99,7 +99,8 @@ class Discretization:
     Parameters
     ----------
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        space space_cable, space_exact.
     option
         Option of the formulation as name=value; may be given again for another.
     elements

@@ -54,7 +54,8 @@ def verify(
     Parameters
     ----------
     element
-        A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
+        A formulation: cable, exact or reissner, ancf3, linear, substructures, or in space
+        space_cable, space_exact; or another code:
         kratos. May be given again; without it all that are at hand.
     cost
         Print the cost at equal error instead.

@@ -12,7 +12,7 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_steady_state, undamped, warn_if_rpm
+from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
@@ -40,6 +40,13 @@ class Linearization:
     units : Units
     mesh : str
         The elements and the speed, in words.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu.fem.linearization import Linearization
+    >>> print(f"{Linearization.of(Beam.reference(), omega=6.0).stretch:.2e} m")
+    2.47e-04 m
     """
 
     mass: FloatArray
@@ -51,7 +58,11 @@ class Linearization:
 
     @classmethod
     def of(
-        cls, beam: AnyBlade, omega: float, element: str | Formulation, elements: int
+        cls,
+        beam: AnyBlade,
+        omega: float,
+        element: str | Formulation = "cable",
+        elements: int = 16,
     ) -> Linearization:
         """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium."""
         with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
@@ -71,12 +82,20 @@ class Linearization:
 
     @property
     def stretch(self) -> float:
-        """Displacement of the tip by the rotation [m]."""
+        """Displacement of the tip along the blade by the rotation [m].
+
+        To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L,
+        with k = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
+        """
         return self.tip * self.units.length
 
     @property
     def growth_rate(self) -> float:
-        """Largest real part of λ [1/s] beyond what round-off gives to undamped modes, else zero."""
+        """Largest real part of λ [1/s] beyond what round-off gives to undamped modes, else zero.
+
+        Zero for every element that describes large deformation; for the linear floating frame it
+        is √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
+        """
         growing = self._inverse[self._inverse.real > 1e-6 * np.abs(self._inverse).max()]
         return float((1.0 / growing).real.max()) / self.units.time if growing.size else 0.0
 
@@ -142,46 +161,9 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
+    require_blade(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return Linearization.of(beam, omega, element, elements).frequencies(count)
-
-
-def growth_rate(
-    beam: AnyBlade, omega: float, *, element: str | Formulation = "linear", elements: int = 16
-) -> float:
-    """Rate [1/s] at which a small disturbance of the steady rotation grows; zero where stable.
-
-    Zero for every element that describes large deformation; for the linear floating frame it is
-    √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
-
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import growth_rate
-    >>> for element in ("linear", "cable"):
-    ...     print(f"{element}: {growth_rate(Beam.reference(), omega=6.0, element=element):.4f} 1/s")
-    linear: 5.2471 1/s
-    cable: 0.0000 1/s
-    """
-    return Linearization.of(beam, omega, element, elements).growth_rate
-
-
-def steady_stretch(
-    beam: AnyBlade, omega: float, *, element: str | Formulation = "cable", elements: int = 16
-) -> float:
-    """Tip displacement [m] along the beam in steady rotation without vibration.
-
-    To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L, with k
-    = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
-
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import steady_stretch
-    >>> print(f"{steady_stretch(Beam.reference(), omega=6.0):.2e} m")
-    2.47e-04 m
-    """
-    return Linearization.of(beam, omega, element, elements).stretch
 
 
 @contextmanager

@@ -9,6 +9,7 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.beam import require_planar
 from analytic.exact.beam.state import BeamState
 from analytic.input_checks import finite_number
 from analytic.lazily import integrate
@@ -55,6 +56,7 @@ def kicked(
     >>> print(f"q {run.q.min().item():.3f} m, w at most {abs(run.w).max().item():.4f} m")
     q -4.652 m, w at most 0.0080 m
     """
+    require_planar(blade)
     if abs(finite_number("kick", kick)) > _LARGEST_KICK:
         raise ValueError(
             f"kick must be at most {_LARGEST_KICK:g} of the length, got {kick:g}: it is to be "

@@ -19,7 +19,7 @@ from analytic.exact.beam.state import BeamState
 from rotbeam_exu import kicked, natural_frequencies, simulate
 from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
-from rotbeam_exu.fem.elements.reissner_in_space import FrameNodes, directors
+from rotbeam_exu.fem.elements.node_kinds import FrameNodes, directors
 from rotbeam_exu.fem.picture import ray_traced
 from rotbeam_exu.runs.check import energy_drift
 from rotbeam_exu.runs.growth import growth_rate_of

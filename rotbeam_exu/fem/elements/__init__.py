@@ -105,13 +105,8 @@ def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def options_of(element: Formulation) -> dict[str, Any]:
-    """Return the options of a formulation by name, such that `formulation` makes it again."""
-    return dataclasses.asdict(element)  # type: ignore[call-overload, no-any-return]
-
-
 __all__ = [
     "ALIASES", "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
     "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
-    "options_of", "require_modeled",
+    "require_modeled",
 ]  # fmt: skip

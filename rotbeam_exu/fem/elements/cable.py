@@ -111,7 +111,16 @@ class Cable(_Cables, SlopeNodes):
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceCable(_Cables, SpaceSlopeNodes):
-    """ObjectANCFCable: nodes carry r and r'; no torsion, and one EI for all directions."""
+    """ObjectANCFCable: nodes carry r and r'; no torsion, and one EI for all directions.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+    >>> print(natural_frequencies(blade, 6.0, element="space_cable", elements=8).round(4))
+    [ 3.7311  7.0656 23.0152]
+    """
 
     name: ClassVar[str] = "space_cable"
     summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"

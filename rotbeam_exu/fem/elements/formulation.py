@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.beam import require_planar
+from analytic.beam import require_blade
 from analytic.description import Described
 from analytic.lazily import sparse
 from analytic.motion import Rotation
@@ -165,7 +165,12 @@ class Formulation(Described, abstract=True):
 
     def require_section(self, blade: AnyBlade) -> None:
         """Refuse a blade whose line or section the element does not model."""
-        require_planar(blade)
+        require_blade(blade)
+        if not blade.is_planar:
+            raise ValueError(
+                f"element {self.name!r} is for a straight blade in its plane, and this one has a "
+                "twist, precone, prebend, sweep or offset: take element='space_exact'"
+            )
 
     def setting(self, blade: AnyBlade) -> float:
         """Cosine of the angle between the plane in which J turns and that of rotation."""

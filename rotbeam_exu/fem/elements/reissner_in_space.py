@@ -11,7 +11,6 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.exact.beam.state import BeamState
 from analytic.exact.space.steady import require_section
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import Lazily
@@ -21,85 +20,14 @@ from analytic.quadrature import gauss_points
 from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .energy_body import Assembly, add_force
-from .formulation import Chain, Formulation
-from .node_kinds import ABOUT_Z, require_bare
+from .formulation import Chain
+from .node_kinds import FrameNodes, directors, require_bare, turning_rate
 from .section import POISSON_RATIO, SHEAR_CORRECTION, Sheared
 
 _turns = Lazily("scipy.spatial.transform")
 
-_HALF_TURN = np.array(
-    [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
-)
-"""Product of the unit vector along z with Euler parameters, as a quaternion from the left."""
-
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
-
-
-class FrameNodes(Formulation, abstract=True):
-    """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
-
-    leaves_plane: ClassVar[bool] = True
-    constant_mass: ClassVar[bool] = False
-    node: ClassVar[str] = "NodeRigidBodyEP"
-    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
-    quarter_turn: ClassVar[FloatArray] = np.block(
-        [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), 0.5 * _HALF_TURN]]
-    )
-    angles: ClassVar[FloatArray] = np.zeros(7)
-
-    def setting(self, blade: AnyBlade) -> float:
-        """All turns about z."""
-        return 1.0
-
-    def line_frame(self, blade: AnyBlade) -> FloatArray:
-        """Tilt the clamp out of the plane of rotation by the precone."""
-        cone = blade.blade.line.precone
-        c, s = math.cos(cone), math.sin(cone)
-        return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
-
-    def held(self, root: FloatArray) -> FloatArray:
-        """Return the three directions across p, p ∘ i and so on; |p| = 1 holds the fourth."""
-        a, b, c, d = root[3:]
-        across = np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
-        return np.hstack((np.zeros((3, 3)), across))
-
-    def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
-        """Return r and p (samples, nodes, 7), rates too, turned about z by angles (samples,)."""
-        half, p = 0.5 * angle[:, None, None], vectors[..., 3:]
-        return np.concatenate(
-            (
-                _about_z(vectors[..., :3], angle[:, None]),
-                np.cos(half) * p + np.sin(half) * (p @ _HALF_TURN.T),
-            ),
-            axis=-1,
-        )
-
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and p of a section turned by φ in the plane and tilted out of it by β.
-
-        tan β = w'/|r'| of the planar r'.
-        """
-        slope = (1.0 + state.u_slope) + 1j * state.v_slope
-        rate = state.u_slope_dot + 1j * state.v_slope_dot
-        phi = np.angle(slope) - state.shear_angle
-        phi_dot = (rate / slope).imag - state.shear_angle_dot
-        tan = state.w_slope / np.abs(slope)
-        tan_dot = state.w_slope_dot / np.abs(slope) - tan * (rate / slope).real
-        beta, beta_dot = np.arctan(tan), tan_dot / (1.0 + tan**2)
-        c, s, C, S = (f(0.5 * a) for a in (phi, beta) for f in (np.cos, np.sin))
-        p = np.stack((c * C, s * S, -c * S, s * C), axis=1)
-        by_phi = np.stack((-s * C, c * S, s * S, c * C), axis=1)
-        by_beta = np.stack((-c * S, s * C, -c * C, -s * S), axis=1)
-        p_dot = 0.5 * (phi_dot[:, None] * by_phi + beta_dot[:, None] * by_beta)
-        zero = np.zeros_like(x)
-        r = np.stack((x + state.u, state.v, state.w + zero), axis=1)
-        r_dot = np.stack((state.u_dot, state.v_dot, state.w_dot + zero), axis=1)
-        return np.concatenate((r, p), axis=1), np.concatenate((r_dot, p_dot), axis=1)
-
-    def sections(self, coordinates: FloatArray) -> FloatArray:
-        """Return the axes of the sections."""
-        return directors(coordinates[..., 3:])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +52,7 @@ class SpaceExact(Sheared, FrameNodes):
     >>> blade = Beam.reference().with_section_out_of_plane(0.0625, 0.08)
     >>> blade = blade.with_twist(0.5).with_precone(0.04)
     >>> print(natural_frequencies(blade, 6.0, element="space_exact", elements=16).round(3))
-    [ 3.785]
+    [ 3.728  6.243 15.91 ]
     """
 
     poisson_ratio: float = POISSON_RATIO
@@ -351,22 +279,3 @@ def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
     flat = _turns.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))
-
-
-def directors(p: FloatArray) -> FloatArray:
-    """Return the rotations (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
-    flat = _turns.Rotation.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
-    return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
-
-
-def turning_rate(p: FloatArray, p_dot: FloatArray) -> FloatArray:
-    """Return the angular velocity (..., 3) by the axes of the section, 2 p* ∘ ṗ."""
-    scalar, vector = p[..., :1], p[..., 1:]
-    rate, turning = p_dot[..., :1], p_dot[..., 1:]
-    return np.asarray(2.0 * (scalar * turning - rate * vector - np.cross(vector, turning)))
-
-
-def _about_z(vectors: FloatArray, angle: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned about z by `angle` (...)."""
-    seen = (vectors[..., 0] + 1j * vectors[..., 1]) * np.exp(1j * angle)
-    return np.stack((seen.real, seen.imag, vectors[..., 2]), axis=-1)
