@@ -74,14 +74,10 @@ def columns(
         power -= units.time**2 * case.rotation.acceleration(time) * momentum
         supplied = _integral(t, power)
         values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
-    turn = model.sections(coordinates)
+    turn = model.sections(np.concatenate((trajectory.reference[None], coordinates)))
     if turn is not None:
-        unloaded = model.sections(trajectory.reference[-1])
-        values["twist"] = (
-            twist(frame.T @ turn[:, -1] @ unloaded.T @ frame),
-            "rad",
-            "twist of the tip's section about its normal",
-        )
+        turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
+        values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     run = xr.Dataset(
         {
@@ -98,7 +94,7 @@ def columns(
     run["axis"] = dims, units.length * axis, {"units": "m", "long_name": label}
     if turn is not None:
         label = "third axis of the sections, across their chord"
-        run["upright"] = dims, turn[..., 2] @ frame, {"units": "1", "long_name": label}
+        run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
     return run.assign_coords(direction=["x", "y", "z"])
 
 

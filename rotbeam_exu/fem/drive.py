@@ -34,12 +34,7 @@ from .lazily import exudyn, items
 def hold_root(mbs: exudyn.MainSystem, chain: Chain, element: Formulation) -> None:
     """Hold the root at its reference values: its place and its direction."""
     root = chain.reference(mbs)[0]
-    _hold(mbs, chain, np.vstack((_place(element, root), element.held(root))))
-
-
-def _place(element: Formulation, root: FloatArray) -> FloatArray:
-    """Return the directions of the coordinates that are the place, (dimensions, n)."""
-    return np.eye(element.dimensions, root.size)
+    _hold(mbs, chain, np.vstack((np.eye(element.dimensions, root.size), element.held(root))))
 
 
 def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> None:
@@ -66,7 +61,7 @@ def prescribe_rotation(
     """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame)."""
     root = chain.reference(mbs)[0]
     if not radius:
-        _hold(mbs, chain, _place(element, root))
+        _hold(mbs, chain, np.eye(element.dimensions, root.size))
     # Each constraint holds a few coordinates, the same at every angle.
     rows_at_1 = _clamp(element, root, radius, 1.0)[0]
     held = [np.flatnonzero(row).tolist() for row in rows_at_1]
@@ -121,7 +116,8 @@ def _clamp(
     x, y, *up = root[: element.dimensions]
     cosine, sine = math.cos(angle), math.sin(angle)
     around = [x * cosine - y * sine, x * sine + y * cosine, *up]
-    return np.vstack([_place(element, root), gradient]), np.concatenate([around, target])
+    place = np.eye(element.dimensions, root.size)
+    return np.vstack([place, gradient]), np.concatenate([around, target])
 
 
 def add_inertial_forces(

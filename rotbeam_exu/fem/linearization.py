@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,7 +16,7 @@ from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
 from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
-from .elements import Chain, Formulation, formulation
+from .elements import Formulation, formulation
 from .lazily import exudyn
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
@@ -65,14 +63,35 @@ class Linearization:
         elements: int = 16,
     ) -> Linearization:
         """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium."""
-        with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
-            tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
+        omega = rotation_speed(omega)
+        warn_if_rpm(beam, omega)
+        require_steady_state(beam, omega)
+        require_feasible(elements)
+        require_stretch(beam)
+        model, units = formulation(element), Units.of(beam)
+        unit_beam, rotation = units.beam(undamped(beam)), _Raised(omega * units.time)
+        settings = static_settings(unit_beam, elements)
+        with exudyn_system() as mbs:
+            built = add_rotating_beam(
+                mbs, unit_beam, rotation, element=model, elements=elements, frame="rotating"
+            )
+            mbs.Assemble()
+            try:
+                mbs.SolveStatic(settings, updateInitialValues=True)
+            except Exception as error:
+                raise SimulationError(
+                    f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
+                    f"EA = {beam.axial_stiffness:g} N and the speed"
+                ) from error
+            moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Displacement)
+            settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+        along = model.line_frame(beam)[:, 0]
         return cls(
-            mass=mass, stiffness=stiffness, gyroscopic=gyroscopic, tip=float(tip[0]),
-            units=Units.of(beam),
-            mesh=f"{elements} {formulation(element).name!r} elements at omega = {omega:g} rad/s",
+            mass=mass, stiffness=stiffness, gyroscopic=gyroscopic,
+            tip=float(moved[: model.dimensions] @ along), units=units,
+            mesh=f"{elements} {model.name!r} elements at omega = {omega:g} rad/s",
         )  # fmt: skip
 
     @cached_property
@@ -164,38 +183,6 @@ def natural_frequencies(
     require_blade(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return Linearization.of(beam, omega, element, elements).frequencies(count)
-
-
-@contextmanager
-def steady_system(
-    beam: AnyBlade, omega: float, element: str | Formulation, elements: int
-) -> Iterator[tuple[exudyn.MainSystem, Chain, exudyn.SimulationSettings]]:
-    """Give the model in the rotating frame and the beam's units, at its equilibrium at ω [rad/s].
-
-    With its chain and the settings of a static solution.
-    """
-    omega = rotation_speed(omega)
-    warn_if_rpm(beam, omega)
-    require_steady_state(beam, omega)
-    require_feasible(elements)
-    require_stretch(beam)
-    model, unit_beam = formulation(element), Units.of(beam).beam(undamped(beam))
-    rotation = _Raised(omega / beam.frequency_scale)
-    with exudyn_system() as mbs:
-        built = add_rotating_beam(
-            mbs, unit_beam, rotation, element=model, elements=elements, frame="rotating"
-        )
-        mbs.Assemble()
-        settings = static_settings(unit_beam, elements)
-        try:
-            mbs.SolveStatic(settings, updateInitialValues=True)
-            settings.staticSolver.loadStepStart = 1.0  # when to linearize
-        except Exception as error:
-            raise SimulationError(
-                f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
-                f"EA = {beam.axial_stiffness:g} N and the speed"
-            ) from error
-        yield mbs, built.chain, settings
 
 
 @dataclass(frozen=True)

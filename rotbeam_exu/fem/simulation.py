@@ -52,13 +52,14 @@ def simulate(
     Parameters
     ----------
     beam : Beam or Blade
-        The beam.
+        The beam; in space with a section out of the plane, as ``beam.with_shape(Rectangle())``.
     spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
         speed from the start.
     element : str or Formulation
         Beam formulation: a key of `rotbeam_exu.fem.elements.FORMULATIONS`, or an instance with its
-        options, such as `Exact(nodes=3)`.
+        options, such as `Exact(nodes=3)`. It lives in the plane, or in space: "space_exact", for
+        blades with twist, precone, prebend and sweep, and "space_cable".
     elements : int
         Number of elements of equal length.
     duration : float
@@ -68,7 +69,7 @@ def simulate(
     frame : {"inertial", "rotating"}
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule; only
-        there may the blade have a setting angle. The step error of the paper's beam at 2, 6 and 8
+        there may the blade have a setting angle in the plane. The step error of the paper's beam at 2, 6 and 8
         rad/s is then 3.5, 14 and 19 times smaller.
     loads : sequence of SpeedRipple, TipForce, DistributedForce and Gravity
         Loads on the blade from t = 0 on; harmonic loads with their frequency. The frame of the
@@ -77,7 +78,7 @@ def simulate(
         Gives the state at material points x [m] at t = 0, as
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does. By default the beam
         is straight and at rest in the frame of the clamp, and stretched if a change of the speed
-        begins in rotation.
+        begins in rotation. `kicked` bends it out of its plane.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -89,7 +90,10 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. The attributes hold every input, versions, settings, wall time and
+        jacobi_energy changes. In space also w [m] and w_dot [m/s] of the tip out of the plane,
+        normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section about
+        its normal; axis [m], the places of the nodes, and upright, the third axes of their
+        sections, (time, node, direction) in that frame. The attributes hold every input, versions, settings, wall time and
         the verdict. `out_of_plane` is there if the section out of the plane is known and planar
         orbits as large as the motion after the ramp leave the plane.
 

@@ -13,12 +13,19 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.description import Described
+from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 from analytic.theory import Theory
 
 from ..lazily import exudyn, items
 from .point_masses import TurningNode, spins
+
+POISSON_RATIO = 0.3
+"""Default ν of beams that shear; the paper gives neither ν nor a shear modulus."""
+
+SHEAR_CORRECTION = 5.0 / 6.0
+"""Default k_s of a rectangle whose section stays plane; an element may have reason for another."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +95,8 @@ class Formulation(Described, abstract=True):
     """Reference coordinates of a node of the straight beam, but for its x, the first."""
     quarter_turn: ClassVar[FloatArray]
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
+    pace: ClassVar[FloatArray | float] = 1.0
+    """Angle by which J turns coordinates over that of the rotation, (n,): half for Euler's."""
     angles: ClassVar[FloatArray]
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
@@ -196,7 +205,7 @@ class Formulation(Described, abstract=True):
 
     def spun(self, coordinates: FloatArray) -> FloatArray:
         """Return J e + a, the rates of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
-        return coordinates @ self.quarter_turn.T + self.angles
+        return self.pace * (coordinates @ self.quarter_turn.T) + self.angles
 
     def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
         """Return exp(θJ) v = v + sin θ J v + (1 - cos θ) J² v of vectors (samples, nodes, n).
@@ -205,8 +214,8 @@ class Formulation(Described, abstract=True):
         """
         once = vectors @ self.quarter_turn.T
         twice = once @ self.quarter_turn.T
-        sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
-        return vectors + sine * once + versine * twice
+        angle = self.pace * angle[:, None, None]
+        return vectors + np.sin(angle) * once + (1.0 - np.cos(angle)) * twice
 
     def energy_and_momentum(
         self,
@@ -247,3 +256,22 @@ class Formulation(Described, abstract=True):
             twice += inertia * spin**2
         normal = (1.0 - setting**2) * rate * np.sum(along * (along @ mass), axis=1)
         return 0.5 * (twice + rate * normal), setting * about_normal + normal
+
+
+class Sheared:
+    """An element with the options ν and k_s, G = E/(2 (1 + ν))."""
+
+    poisson_ratio: float
+    shear_correction: float
+
+    def __post_init__(self) -> None:
+        if not -1.0 < finite_number("poisson_ratio", self.poisson_ratio) < 0.5:
+            raise ValueError(
+                f"poisson_ratio must lie between -1 and 0.5, got {self.poisson_ratio!r}"
+            )
+        positive("shear_correction", self.shear_correction)
+
+    @property
+    def shear_share(self) -> float:
+        """k_s G A over EA."""
+        return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))

@@ -104,8 +104,9 @@ class FrameNodes(Formulation, abstract=True):
     node: ClassVar[str] = "NodeRigidBodyEP"
     straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = np.block(
-        [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), 0.5 * _HALF_TURN]]
+        [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), _HALF_TURN]]
     )
+    pace: ClassVar[FloatArray] = np.array(3 * [1.0] + 4 * [0.5])
     angles: ClassVar[FloatArray] = np.zeros(7)
 
     def setting(self, blade: AnyBlade) -> float:
@@ -124,17 +125,6 @@ class FrameNodes(Formulation, abstract=True):
         across = np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
         return np.hstack((np.zeros((3, 3)), across))
 
-    def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
-        """Return r and p (samples, nodes, 7), rates too, turned about z by angles (samples,)."""
-        half, p = 0.5 * angle[:, None, None], vectors[..., 3:]
-        return np.concatenate(
-            (
-                _about_z(vectors[..., :3], angle[:, None]),
-                np.cos(half) * p + np.sin(half) * (p @ _HALF_TURN.T),
-            ),
-            axis=-1,
-        )
-
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and p of a section turned by φ in the plane and tilted out of it by β.
 
@@ -149,9 +139,8 @@ class FrameNodes(Formulation, abstract=True):
         beta, beta_dot = np.arctan(tan), tan_dot / (1.0 + tan**2)
         c, s, C, S = (f(0.5 * a) for a in (phi, beta) for f in (np.cos, np.sin))
         p = np.stack((c * C, s * S, -c * S, s * C), axis=1)
-        by_phi = np.stack((-s * C, c * S, s * S, c * C), axis=1)
-        by_beta = np.stack((-c * S, s * C, -c * C, -s * S), axis=1)
-        p_dot = 0.5 * (phi_dot[:, None] * by_phi + beta_dot[:, None] * by_beta)
+        tilted = p[:, [2, 3, 0, 1]] * [1.0, 1.0, -1.0, -1.0]
+        p_dot = 0.5 * (phi_dot[:, None] * (p @ _HALF_TURN.T) + beta_dot[:, None] * tilted)
         zero = np.zeros_like(x)
         r = np.stack((x + state.u, state.v, state.w + zero), axis=1)
         r_dot = np.stack((state.u_dot, state.v_dot, state.w_dot + zero), axis=1)
@@ -200,9 +189,3 @@ def turning_rate(p: FloatArray, p_dot: FloatArray) -> FloatArray:
     scalar, vector = p[..., :1], p[..., 1:]
     rate, turning = p_dot[..., :1], p_dot[..., 1:]
     return np.asarray(2.0 * (scalar * turning - rate * vector - np.cross(vector, turning)))
-
-
-def _about_z(vectors: FloatArray, angle: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned about z by `angle` (...)."""
-    seen = (vectors[..., 0] + 1j * vectors[..., 1]) * np.exp(1j * angle)
-    return np.stack((seen.real, seen.imag, vectors[..., 2]), axis=-1)

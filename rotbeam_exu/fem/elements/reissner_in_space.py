@@ -20,9 +20,8 @@ from analytic.quadrature import gauss_points
 from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .energy_body import Assembly, add_force
-from .formulation import Chain
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import FrameNodes, directors, require_bare, turning_rate
-from .section import POISSON_RATIO, SHEAR_CORRECTION, Sheared
 
 _turns = Lazily("scipy.spatial.transform")
 
