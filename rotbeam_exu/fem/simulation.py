@@ -69,8 +69,8 @@ def simulate(
     frame : {"inertial", "rotating"}
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule; only
-        there may the blade have a setting angle in the plane. The step error of the paper's beam at 2, 6 and 8
-        rad/s is then 3.5, 14 and 19 times smaller.
+        there may a planar element have a setting angle. The step error of the paper's beam at 2, 6
+        and 8 rad/s is then 3.5, 14 and 19 times smaller.
     loads : sequence of SpeedRipple, TipForce, DistributedForce and Gravity
         Loads on the blade from t = 0 on; harmonic loads with their frequency. The frame of the
         clamp includes the ripples of its speed.
@@ -93,9 +93,9 @@ def simulate(
         jacobi_energy changes. In space also w [m] and w_dot [m/s] of the tip out of the plane,
         normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section about
         its normal; axis [m], the places of the nodes, and upright, the third axes of their
-        sections, (time, node, direction) in that frame. The attributes hold every input, versions, settings, wall time and
-        the verdict. `out_of_plane` is there if the section out of the plane is known and planar
-        orbits as large as the motion after the ramp leave the plane.
+        sections, (time, node, direction) in that frame. The attributes hold every input, versions,
+        settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
+        is known and planar orbits as large as the motion after the ramp leave the plane.
 
     Raises
     ------
