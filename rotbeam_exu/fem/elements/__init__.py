@@ -11,7 +11,7 @@ from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ..frame import Frame, require_frame
+from ..frame import Frame
 from .ancf3 import Ancf3
 from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation
@@ -83,7 +83,13 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
         It names the property of the blade, and the formulations that take it.
     """
     model.require_section(beam)
-    require_frame(model.setting(beam), frame)
+    if frame not in ("inertial", "rotating"):
+        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
+    if frame == "inertial" and (setting := model.setting(beam)) != 1.0:
+        raise ValueError(
+            "in the inertial frame the models turn in their plane of bending, and this blade has a "
+            f"setting angle with the cosine {setting:.4g}: take frame='rotating'"
+        )
     unit = beam.unit
     if unit == UNIFORM:
         return

@@ -140,7 +140,8 @@ class SpaceExact(Sheared, FrameNodes):
         row = _Row(self, beam, coordinates.shape[-2] - 1)
         r, v = (np.stack((e[:, :-1, :3], e[:, 1:, :3])) for e in (coordinates, velocities))
         m = row.mass[:, None]
-        spin, moment = row.spin(*(_by_element(e) for e in (coordinates, velocities)))
+        _, spin, inertia = row.turning(*(_by_element(e) for e in (coordinates, velocities)))
+        moment = (inertia @ spin[..., None])[..., 0]
         kinetic = 0.5 * _linear(v, m * v) + 0.25 * np.sum(spin * moment, axis=(1, 2, 3))
         around = np.cross([0.0, 0.0, 1.0], r)
         momentum = _linear(around, m * v) + 0.5 * np.sum(moment[..., 2], axis=(1, 2))
@@ -213,18 +214,13 @@ class _Row:
         bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
         return np.concatenate((d - 0.5 * across + bent * np.cross(psi, across), psi), axis=-1)
 
-    def spin(self, e: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return spins and their angular momenta by the axes of space, (..., elements, 2, 3).
-
-        At the two Gauss points, from coordinates and rates of the elements (..., elements, 14).
-        """
-        _, spin, inertia = self._turning(e, rates)
-        return spin, np.asarray((inertia @ spin[..., None])[..., 0])
-
-    def _turning(
+    def turning(
         self, e: FloatArray, rates: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return frames of the ends, and spins and inertias at the Gauss points."""
+        """Return frames of the ends, and spins and inertias at both Gauss points, in space's axes.
+
+        From coordinates and rates of the elements (..., elements, 14).
+        """
         p, p_dot = (v.reshape(*v.shape[:-1], 2, 7)[..., 3:] for v in (e, rates))
         turn = directors(p)
         ends = (turn @ turning_rate(p, p_dot)[..., None])[..., 0]
@@ -239,7 +235,7 @@ class _Row:
 
         J (ω + W)' + (ω + W) × J (ω + W) is their balance; Exudyn has J ω' + ω × J ω of it.
         """
-        turn, spin, inertia = self._turning(e, rates)
+        turn, spin, inertia = self.turning(e, rates)
         W, W_dot = np.array([[0.0, 0.0, w], [0.0, 0.0, w_dot]])
 
         def times(vector: FloatArray) -> FloatArray:
