@@ -13,6 +13,7 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.beam import require_blade
 from analytic.exact.beam.state import BeamState
 from analytic.lazily import Lazily
 
@@ -153,6 +154,7 @@ class FrameNodes(Formulation, abstract=True):
 
 def require_bare(element: Formulation, blade: AnyBlade) -> None:
     """Refuse damping and point masses, which Exudyn's elements in space do not have."""
+    require_blade(blade)
     if any(blade.unit.damping):
         raise ValueError(
             f"element {element.name!r} is undamped, as Exudyn's geometrically exact beam ignores "

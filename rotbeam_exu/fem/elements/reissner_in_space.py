@@ -11,7 +11,6 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.exact.space.steady import require_section
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import Lazily
 from analytic.motion import Rotation
@@ -68,13 +67,14 @@ class SpaceExact(Sheared, FrameNodes):
     def require_section(self, blade: AnyBlade) -> None:
         """Refuse centers off the line, and a section whose torsion is not a finite number."""
         require_bare(self, blade)
-        require_section(blade)
         out, line = blade.blade.section.out_of_plane, blade.blade.line
-        if out is not None and out.torsion_ratio == math.inf:
+        torsion = None if out is None else out.torsion_ratio
+        if torsion is None or math.isinf(torsion):
             raise ValueError(
-                "element 'space_exact' twists, and the torsion_ratio of this blade is infinite: "
-                "take a number for it, as blade.with_shape(Tube()) has, or element='space_cable' "
-                "where bending_ratio is 1"
+                "element 'space_exact' twists, and the torsion_ratio of this blade is "
+                f"{'unknown' if torsion is None else 'infinite'}: give a number by "
+                "blade.with_section_out_of_plane(bending_ratio, torsion_ratio) or "
+                "blade.with_shape(Tube()), or take element='space_cable' where bending_ratio is 1"
             )
         if any(line.mass_offset) or any(line.tension_offset):
             raise ValueError(
