@@ -128,7 +128,7 @@ def run_case(
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return what `simulate` does, of a case; of an element in space what `simulate_3d` does."""
+    """Return what `simulate` does, of a case."""
     warn_if_rpm(case.beam, case.fastest)
     units, model = Units.of(case.beam, case.step), case.model
     beam = units.beam(case.beam)
