@@ -100,7 +100,8 @@ class Discretization:
     Parameters
     ----------
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        space space_cable, space_exact.
     option
         Option of the formulation as name=value; repeat it for several.
     elements

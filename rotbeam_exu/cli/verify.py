@@ -53,8 +53,9 @@ def verify(
     Parameters
     ----------
     element
-        A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
-        kratos. Repeat it for several; by default all that are installed.
+        A formulation: cable, exact or reissner, ancf3, linear, substructures; in space
+        space_cable, space_exact; or another code: kratos. Repeat it for several; by default all
+        that are installed.
     cost
         Print the cost at equal error instead.
     error

@@ -3,7 +3,7 @@
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` a `Campbell`,
 `forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
-`divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
+`divergence_speed` what `rotbeam_exu.fem.elements.linear_frames.divergence_speeds` returns.
 """
 
 from __future__ import annotations

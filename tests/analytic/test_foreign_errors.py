@@ -35,7 +35,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )  # fmt: skip
-from rotbeam_exu import natural_frequencies, simulate, simulate_3d, sweep
+from rotbeam_exu import natural_frequencies, simulate, sweep
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
@@ -160,8 +160,6 @@ def test_a_theory_is_a_theory(name, wrong):
         ),
         (lambda: linear_modes(BEAM, np.timedelta64(6, "s")), "omega must be a number in rad/s"),
         (lambda: linear_modes(BEAM, 6.0, np.timedelta64(2)), "count must be a whole number"),
-        (lambda: simulate_3d(STRIP, None), "spin_up must be a SpinUp"),
-        (lambda: simulate_3d(STRIP, SLOW, element=3), "element must be the name of a formulation"),
         (lambda: simulate(BEAM, SLOW, element=3), "element must be the name of a formulation"),
         (lambda: simulate(BEAM, None), "spin_up must be a SpinUp"),
         (lambda: natural_frequencies(BEAM, 6.0, element=None), "element must be the name"),

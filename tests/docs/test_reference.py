@@ -38,7 +38,7 @@ BEYOND = {
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.speeds", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
-    "rotbeam_exu.fem.picture", "rotbeam_exu.fem.stability", "rotbeam_exu.files.beam_file",
+    "rotbeam_exu.fem.picture", "rotbeam_exu.files.beam_file",
     "rotbeam_exu.runs.growth", "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
     "rotbeam_exu.verification.submission_files", "rotbeam_exu.verification.verify",

@@ -19,7 +19,7 @@ from rotbeam_exu import (
 from rotbeam_exu.cli import main
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
-from rotbeam_exu.fem.linearization import steady_stretch
+from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.runs.attributes import beam_of
@@ -47,8 +47,8 @@ def test_a_hub_and_a_tip_mass_stretch_the_blade_as_they_should(beam):
     steady = steady_rotation(blade, 6.0, exact.model)
     wanted = blade.length * (exact.model.tip(steady.equilibrium[None])[0].real - 1.0)
     # The difference of two lengths: 1e-15 of one of them.
-    assert steady_stretch(blade, 6.0, elements=32) == pytest.approx(wanted, abs=1e-12)
-    assert wanted > 1.5 * steady_stretch(beam, 6.0)
+    assert Linearization.of(blade, 6.0, elements=32).stretch == pytest.approx(wanted, abs=1e-12)
+    assert wanted > 1.5 * Linearization.of(beam, 6.0).stretch
 
 
 def test_a_taper_in_steps_is_of_second_order(beam, fitted_order):

@@ -38,7 +38,6 @@ from rotbeam_exu import (
     natural_frequencies,
     save,
     simulate,
-    simulate_3d,
 )
 from rotbeam_exu.fem.case import Case
 from rotbeam_exu.fem.elements import Cable, SpaceCable
@@ -196,7 +195,7 @@ def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(be
 
 def test_a_run_in_space_says_so(tmp_path):
     tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
-    run = simulate_3d(tube, MOTION, element="cable", elements=2, duration=2.5, step=5e-3, kick=0.0)
+    run = simulate(tube, MOTION, element="space_cable", elements=2, duration=2.5, step=5e-3)
     path = save(run, tmp_path / "space.nc")
     assert type(Case.described(load(path).attrs).model) is SpaceCable
 

@@ -10,7 +10,7 @@ from analytic import SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Ancf3, Chain, Exact
 from rotbeam_exu.fem.elements.point_masses import add_point_inertias, spins
-from rotbeam_exu.fem.linearization import steady_stretch
+from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.fem.solver import Sensors, exudyn_system, solve, solver_settings
 
 
@@ -95,7 +95,8 @@ def test_inertia_alone_stretches_nothing(beam, element):
     turning = beam.with_tip_mass(0.0, 0.1 * beam.mass_per_length * beam.length**3)
     omega = 4.0 * beam.frequency_scale
     one, other = (
-        steady_stretch(blade, omega, element=element, elements=16) for blade in (turning, beam)
+        Linearization.of(blade, omega, element=element, elements=16).stretch
+        for blade in (turning, beam)
     )
     assert one == pytest.approx(other, rel=1e-9)
     one, other = (

@@ -4,7 +4,7 @@ import pytest
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import simulate
-from rotbeam_exu.fem.linearization import steady_stretch
+from rotbeam_exu.fem.linearization import Linearization
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +16,7 @@ def classic():
 
 def test_steady_stretch(classic):
     # Printed in the literature as 5.14e-4; five digits from tan(kL)/k - L.
-    assert steady_stretch(classic, 6.0) == pytest.approx(5.1432e-4, abs=5e-9)
+    assert Linearization.of(classic, 6.0).stretch == pytest.approx(5.1432e-4, abs=5e-9)
 
 
 def test_largest_lag_of_the_tip(classic):

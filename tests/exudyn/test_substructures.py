@@ -12,25 +12,28 @@ from rotbeam_exu import (
     simulate,
 )
 from rotbeam_exu.fem.elements import Substructures, formulation
-from rotbeam_exu.fem.linearization import growth_rate
-from rotbeam_exu.fem.stability import divergence_speed, divergence_speeds
+from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
+from rotbeam_exu.fem.linearization import Linearization
 
 
 @pytest.mark.parametrize("frame", ["tangent", "pinned"])
 def test_divergence_speed_grows_with_the_number(beam, frame):
-    speeds = [divergence_speed(beam, n, frame) for n in (1, 2, 3, 4, 6, 8)]
+    speeds = [Substructures(frame=frame).divergence_speed(beam, n) for n in (1, 2, 3, 4, 6, 8)]
     assert np.all(np.diff(speeds) > 0.0)
 
 
 def test_the_divergence_speed_depends_on_the_frame(beam):
     """Pinned frames see half the rotation from chord to tangent, and hold out longer."""
     for n in (1, 2, 4):
-        assert divergence_speed(beam, n, "pinned") > 2.0 * divergence_speed(beam, n, "tangent")
+        pinned, tangent = (
+            Substructures(frame=f).divergence_speed(beam, n) for f in ("pinned", "tangent")
+        )
+        assert pinned > 2.0 * tangent
 
 
 def test_one_tangent_frame_is_the_linear_beam(beam):
     # Eight cubic cells are within 4e-6 of the beam.
-    assert divergence_speed(beam, 1, cells=8) == pytest.approx(beam.omega_0, rel=5e-6)
+    assert Substructures(cells=8).divergence_speed(beam, 1) == pytest.approx(beam.omega_0, rel=5e-6)
 
 
 @pytest.mark.parametrize(
@@ -38,13 +41,13 @@ def test_one_tangent_frame_is_the_linear_beam(beam):
 )
 def test_it_is_where_growth_sets_in(beam, frame, n):
     """All eigenvalues about the steady state, with Coriolis terms, through Exudyn."""
-    model, speed = Substructures(frame=frame), divergence_speed(beam, n, frame)
-    assert growth_rate(beam, 0.999 * speed, element=model, elements=n) == 0.0
-    above = growth_rate(beam, 1.0002 * speed, element=model, elements=n)
+    model, speed = Substructures(frame=frame), Substructures(frame=frame).divergence_speed(beam, n)
+    assert Linearization.of(beam, 0.999 * speed, element=model, elements=n).growth_rate == 0.0
+    above = Linearization.of(beam, 1.0002 * speed, element=model, elements=n).growth_rate
     # Divergence sets in like a square root.
-    assert growth_rate(beam, 1.0008 * speed, element=model, elements=n) == pytest.approx(
-        2.0 * above, rel=0.02
-    )
+    assert Linearization.of(
+        beam, 1.0008 * speed, element=model, elements=n
+    ).growth_rate == pytest.approx(2.0 * above, rel=0.02)
 
 
 def test_stable_below_and_unstable_above(beam):
@@ -82,14 +85,18 @@ def test_figure(beam):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"substructures": 0}, "substructures must be at least 1, got 0"),
-        ({"substructures": 2, "frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
-        ({"substructures": 2, "cells": 0}, "cells must be at least 1, got 0"),
+        ({"frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
+        ({"cells": 0}, "cells must be at least 1, got 0"),
     ],
 )
-def test_refuses(beam, options, sentence):
+def test_refuses(options, sentence):
     with pytest.raises(ValueError, match=sentence):
-        divergence_speed(beam, **options)
+        Substructures(**options)
+
+
+def test_refuses_a_row_of_no_elements(beam):
+    with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
+        Substructures().divergence_speed(beam, 0)
 
 
 def test_refuses_options_that_it_does_not_have():
