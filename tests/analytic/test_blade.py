@@ -21,10 +21,8 @@ from analytic import (
 )
 from analytic.exact.beam.continuum import Continuum
 from analytic.quadrature import gauss_points
+from tests.beams import UNIT
 
-UNIFORM = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
-UNIT = Blade(length=1.0, section=UNIFORM)
-"""EI = m = L = 1, so that ω is w̄."""
 HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2, 0.3)
 FLAP = 0.5 * math.pi
 

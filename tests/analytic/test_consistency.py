@@ -5,7 +5,6 @@ import pytest
 from scipy.linalg import eigh
 
 from analytic import (
-    Beam,
     Theory,
     Variant,
     linear_modes,
@@ -21,6 +20,7 @@ from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
 from analytic.reduced.speeds import softening_speed
 from analytic.unit_blade import UNIFORM
+from tests.beams import unit_beam
 
 STATIC = Variant(name="static", shape="rotating", axial="static")
 
@@ -102,9 +102,7 @@ def test_frc_is_the_lagrangian_with_the_rotating_mode(w_bar):
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 @pytest.mark.parametrize("w_bar", [100.0, 500.0])
 def test_frm_goes_far_beyond_the_power_series(w_bar):
-    beam = Beam.from_stiffness(
-        length=1.0, axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0
-    )
+    beam = unit_beam(1e-9)
     model = reduced_model(beam, w_bar, "FrM")
     orbits = periodic_orbits(beam, w_bar, [0.05], theory=Theory(extension=False))
     assert model.omega_n == pytest.approx(orbits.omega_n, rel=1e-10)

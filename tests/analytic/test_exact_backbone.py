@@ -10,8 +10,6 @@ import analytic
 from analytic import (
     AmplitudeNotReachedError,
     Beam,
-    Blade,
-    Section,
     Theory,
     linear_modes,
     periodic_orbits,
@@ -21,6 +19,7 @@ from analytic.methods import harmonic_balance
 from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
+from tests.beams import UNIT, unit_beam
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -125,8 +124,7 @@ def test_an_orbit_takes_the_functions_that_its_frequency_needs(beam, functions):
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_near_a_resonance_no_orbit_depends_on_the_functions():
     """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24."""
-    section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
-    blade = Blade(length=1.0, section=section, hub_radius=5.0)
+    blade = UNIT.with_hub_radius(5.0)
     found = []
     for functions in (20, 24):
         try:
@@ -168,9 +166,7 @@ def test_the_difference_from_perturbation_theory_is_extensibility(beam, fitted_o
     slenderness = 1e-6 * 2.0 ** np.arange(4)
     apart = []
     for mu in slenderness:
-        unit = Beam.from_stiffness(
-            length=1.0, axial_stiffness=1.0 / mu, bending_stiffness=1.0, mass_per_length=1.0
-        )
+        unit = unit_beam(mu)
         apart.append(abs(periodic_orbits(unit, 8.0, [0.05]).lambda_omega - theory))
     assert fitted_order(slenderness, apart) == pytest.approx(1.0, abs=0.02)
 

@@ -4,16 +4,10 @@ import warnings
 
 import pytest
 
-from analytic import VARIANTS, Beam, Theory, periodic_orbits, reduced_model
+from analytic import VARIANTS, Theory, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.speeds import softening_speed
-
-
-def unit_beam(slenderness):
-    """EI = ρA = L = 1, so that ω is w̄."""
-    return Beam.from_stiffness(
-        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
-    )
+from tests.beams import unit_beam
 
 
 def test_a_stocky_beam_is_named_with_the_two_numbers():

@@ -7,18 +7,12 @@ from scipy import linalg
 from analytic import Beam, Theory, campbell, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 from analytic.quadrature import gauss_points, transverse_basis
+from tests.beams import unit_beam
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore:{text}:analytic.input_checks.RotbeamWarning")
     for text in (".*rpm", "internal resonance")
 ]
-
-
-def unit_beam(slenderness):
-    """EI = ρA = L = 1, so that ω is w̄."""
-    return Beam.from_stiffness(
-        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
-    )
 
 
 def deflection_frequencies(rate, count=160):

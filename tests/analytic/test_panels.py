@@ -17,11 +17,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.exact.linear.unstretched import unstretched_frequencies
-
-UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0),
-)
+from tests.beams import UNIT
 
 
 def shot(pieces, jumps):

@@ -19,13 +19,6 @@ from analytic import (
 from analytic.plotting import apart
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 def test_a_backbone_starts_at_the_linear_frequency(beam):
     found = periodic_orbits(beam, 6.0, [0.2, 0.1])
     ax = found.plot(color="k")

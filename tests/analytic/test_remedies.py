@@ -20,13 +20,7 @@ from analytic import (
 )
 from analytic.input_checks import RotbeamWarning, finite_array
 from analytic.methods.continuation import Care
-
-
-def unit_beam(slenderness):
-    """EI = ρA = L = 1, so that ω is w̄."""
-    return Beam.from_stiffness(
-        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
-    )
+from tests.beams import unit_beam
 
 
 def complaint(function, *arguments, **options):

@@ -9,7 +9,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from analytic import (
-    Beam,
     SpinUp,
     Theory,
     periodic_orbits,
@@ -18,12 +17,10 @@ from analytic import (
 from analytic.exact.beam.discretization import continuum, finer_model
 from analytic.methods.collocation import radau
 from analytic.quadrature import axial_basis, gauss_points
+from tests.beams import SHARE, unit_beam
 
-SHARE = (5.0 / 6.0) / 2.6
 MU = 1e-3
-STUBBY = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1.0 / MU, bending_stiffness=1.0, mass_per_length=1.0
-)
+STUBBY = unit_beam(MU)
 """EI = m = L = 1: shear takes 0.7 % off its first frequency."""
 
 

@@ -10,18 +10,10 @@ from analytic import Beam, Damping, ResponseNotReachedError, SpeedRipple, forced
 from rotbeam_exu import load
 from rotbeam_exu.cli import respond as job
 from rotbeam_exu.runs.attributes import beam_of
+from tests.beams import BLADE_TOML
 
 RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.6")
 QUICK = ("--to", "3.8", "--points", "3")
-BLADE = """
-[blade]
-length = 8.0
-
-[blade.section]
-axial_stiffness = 5.0e6
-bending_stiffness = 566.0
-mass_per_length = 0.2
-"""
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +79,7 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
 
 def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
     config = tmp_path / "blade.toml"
-    config.write_text(f"{BLADE}\n[blade.damping]\nbending = 0.02\n")
+    config.write_text(f"{BLADE_TOML}\n[blade.damping]\nbending = 0.02\n")
     drive = ("--omega", "3", "--tip-force", "0.01", "--from", "2", "--to", "2.5", "--points", "2",
              "--no-figure")  # fmt: skip
     found = {}

@@ -14,13 +14,6 @@ from rotbeam_exu.cli import main
 from rotbeam_exu.comparison.runs import reference_displacement, reference_velocity
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def data_of():
     """The data of a figure by its number, computed once."""

@@ -5,6 +5,7 @@ import pytest
 from rotbeam_exu import load
 from rotbeam_exu.cli import main
 from rotbeam_exu.sweeps import grid
+from tests.beams import REED_TOML
 
 COARSE = {"--elements": "2", "--step": "0.005", "--duration": "9", "--jobs": "1"}
 
@@ -83,10 +84,7 @@ def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, 
 
     monkeypatch.setattr(grid, "sweep", stop)
     config = tmp_path / "reed.toml"
-    config.write_text(
-        "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
-        "youngs_modulus = 2.1e11\ndensity = 7850\n"
-    )
+    config.write_text(REED_TOML)
     with pytest.raises(SystemExit):
         main(["sweep", "--config", str(config), "--out", str(tmp_path)])
     # ω_0 is 1050.4 rad/s, 361.06 times the paper's.

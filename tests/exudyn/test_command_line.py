@@ -19,11 +19,6 @@ REPOSITORY = Path(__file__).parents[2]
 SHORT = ["--elements", "4", "--step", "0.005", "--duration", "8"]
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-
-
 def refused(capsys, *arguments):
     with pytest.raises(SystemExit) as stop:
         main(arguments)

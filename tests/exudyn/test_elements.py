@@ -24,6 +24,7 @@ from rotbeam_exu.fem.elements.linear_frames import FrameRow
 from rotbeam_exu.fem.mesh import Mesh
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.fem.units import Units
+from tests.beams import THICK
 
 BEAM = Beam.reference()
 MODELS = [cls() for cls in FORMULATIONS.values()]
@@ -133,9 +134,6 @@ def test_tangent_and_force_are_derivatives(row, reference):
     slopes = np.stack([row.force(a) - row.force(b) for a, b in zip(*ends, strict=True)])
     assert np.abs(slopes / (2 * step) - tangent).max() < 1e-8 * np.abs(tangent).max()
     assert np.abs(tangent - tangent.T).max() < 1e-14 * np.abs(tangent).max()
-
-
-THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
 
 
 @pytest.mark.parametrize(

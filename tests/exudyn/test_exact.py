@@ -10,8 +10,7 @@ from analytic.description import from_description
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Exact, formulation
 from rotbeam_exu.runs.check import energy_drift
-
-THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
+from tests.beams import THICK
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ import sys
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -111,13 +110,6 @@ class SoftCable(Cable):
 
 MOTION = HalfSine(omega=4.0, ramp_time=2.0)
 PULL = TipPull(amplitude=20.0, frequency=0.0)
-
-
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])

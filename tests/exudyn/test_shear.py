@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from analytic import (
-    Beam,
     SpinUp,
     SteadyRotation,
     Theory,
@@ -17,10 +16,9 @@ from analytic import (
 )
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Ancf3, Exact
+from tests.beams import SHARE, THICK
 
-SHARE = (5.0 / 6.0) / 2.6
 REISSNER = Theory(rotary_inertia=True, shear=SHARE)
-THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
 
 
 @pytest.mark.parametrize(

@@ -12,15 +12,13 @@ from analytic import Beam, SpinUp, SteadyRotation, linear_modes, periodic_orbits
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.linearization import steady_stretch
 from rotbeam_exu.fem.units import Units
+from tests.beams import REED
 
 STEEL_BAR = Beam(
     length=2.0, area=2.5e-3, second_moment=5.2083e-7, youngs_modulus=2.1e11, density=7850.0
 )
 BLADE = Beam.from_stiffness(
     length=60.0, axial_stiffness=2e9, bending_stiffness=2e8, mass_per_length=200.0
-)
-REED = Beam(
-    length=0.05, area=2.5e-6, second_moment=5.208e-14, youngs_modulus=2.1e11, density=7850.0
 )
 
 

@@ -12,11 +12,6 @@ from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-
-
 @pytest.fixture(scope="module")
 def response(beam):
     times, points = np.linspace(0.0, 4.0, 21), np.linspace(0.0, beam.length, 41)

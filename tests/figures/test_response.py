@@ -10,13 +10,6 @@ from rotbeam_exu import dataset_of, figures
 BEAM = Beam.reference()
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def curves():
     return [
