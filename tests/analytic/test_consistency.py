@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from analytic import (
-    Theory,
-    Variant,
-    linear_modes,
-    periodic_orbits,
-    reduced_model,
-)
+from analytic import Theory, Variant, linear_modes, periodic_orbits, reduced_model
 from analytic.beam import BETA_1
 from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points, transverse_basis

@@ -1,7 +1,5 @@
 """The equations of motion of the exact beam against the energies in displacements."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from numpy.polynomial import Legendre
@@ -10,27 +8,6 @@ from analytic import periodic_orbits
 from analytic.exact.beam.discretization import continuum
 from analytic.quadrature import axial_basis, gauss_points
 from analytic.unit_blade import UNIFORM
-
-
-@pytest.mark.parametrize("shear_share", [None, 0.3])
-@pytest.mark.parametrize("derivative", ["stiffness", "damping", "mass"])
-def test_tangent_is_the_derivative_of_the_residual(derivative, shear_share):
-    model = continuum(1e-2, 6, 5, replace(UNIFORM, rotary=1e-2), shear_share)
-    rng = np.random.default_rng(1)
-    state = [0.4 * rng.normal(size=(3, model.size)) for _ in range(3)]
-    which = ["stiffness", "damping", "mass"].index(derivative)
-    h = 1e-5
-    columns = []
-    for k in range(model.size):
-        sides = []
-        for sign in (1.0, -1.0):
-            moved = [part.copy() for part in state]
-            moved[which][:, k] += sign * h
-            sides.append(model.residual(*moved, 2.0, 0.3))
-        columns.append((sides[0] - sides[1]) / (2.0 * h))
-    tangent = getattr(model.tangent(*state, 2.0, 0.3), derivative)
-    # Central differences are good to h² and to round-off over h.
-    assert tangent == pytest.approx(np.stack(columns, axis=-1), abs=1e-8)
 
 
 def test_an_orbit_makes_the_action_stationary(beam):

@@ -7,16 +7,9 @@ import pytest
 from scipy import linalg
 
 import analytic
-from analytic import (
-    AmplitudeNotReachedError,
-    Beam,
-    Theory,
-    linear_modes,
-    periodic_orbits,
-)
+from analytic import AmplitudeNotReachedError, Theory, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
-from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
 from tests.beams import UNIT, unit_beam
@@ -238,20 +231,6 @@ def test_state_is_consistent_in_space_and_time(beam):
     assert straight.u[0] == straight.u_slope_dot[0] == 0.0
 
 
-def test_scaling_the_beam_leaves_the_nondimensional_backbone():
-    one = periodic_orbits(Beam.reference(), 4.0, [0.2])
-    beam = Beam.reference()
-    large = Beam(
-        length=beam.length * 2.0,
-        area=beam.area * 4.0,
-        second_moment=beam.second_moment * 16.0,
-        youngs_modulus=beam.youngs_modulus * 3.0,
-        density=beam.density * 5.0,
-    )
-    other = periodic_orbits(large, 4.0 * large.frequency_scale / beam.frequency_scale, [0.2])
-    assert other.frequency / other.omega_n == pytest.approx(one.frequency / one.omega_n, rel=1e-12)
-
-
 def test_orbits_of_the_first_mode_are_stable(beam):
     b = periodic_orbits(beam, 8.0, [0.1, 0.3])
     assert b.stable.all()
@@ -278,12 +257,6 @@ def test_amplitudes_in_any_order(beam):
     assert b.frequency[0] == b.frequency[2]
     assert b.amplitude.tolist() == [0.2, 0.01, 0.2]
     assert b.frequency[1] == pytest.approx(b.omega_n * (1.0 - b.lambda_omega * 1e-4), rel=1e-8)
-
-
-def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
-    with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
-        periodic_orbits(beam, 4.0, [0.2], mode=3, theory=Theory(extension=False))
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):

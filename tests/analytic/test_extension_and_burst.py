@@ -12,8 +12,7 @@ from tests.beams import unit_beam
 
 def test_a_stocky_beam_is_named_with_the_two_numbers():
     with pytest.warns(
-        RotbeamWarning,
-        match=r"μ = .* = 0\.001: its λ_ω .* than FrM's -0\.0174 .* = 4\.0e-03",
+        RotbeamWarning, match=r"μ = .* = 0\.001: its λ_ω .* than FrM's -0\.0174 .* = 4\.0e-03"
     ) as caught:
         model = reduced_model(unit_beam(1e-3), 1.0, "FrM")
     assert caught[0].filename == __file__

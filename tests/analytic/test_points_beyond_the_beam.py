@@ -21,16 +21,13 @@ def methods(beam):
 
 
 @pytest.mark.parametrize("method", ["state", "axis", "shapes", "axial_shapes", "spin_up"])
-@pytest.mark.parametrize("x", [-1.0, 9.0, [0.0, 8.001]])
-def test_beyond_the_ends(methods, method, x):
-    with pytest.raises(ValueError, match=r"must lie on the beam, from 0 to its length of 8 m, got"):
-        methods[method](x)
-
-
-@pytest.mark.parametrize("method", ["state", "axis", "shapes", "axial_shapes"])
-def test_not_a_number(methods, method):
-    with pytest.raises(ValueError, match="x must be finite"):
-        methods[method]([0.0, np.nan])
+def test_beyond_the_ends_and_not_a_number(methods, method):
+    for x in (-1.0, 9.0, [0.0, 8.001]):
+        with pytest.raises(ValueError, match=r"on the beam, from 0 to its length of 8 m, got"):
+            methods[method](x)
+    if method != "spin_up":
+        with pytest.raises(ValueError, match="x must be finite"):
+            methods[method]([0.0, np.nan])
 
 
 def test_the_ends_themselves(methods):

@@ -35,8 +35,7 @@ def complaint(function, *arguments, **options):
 
 
 @pytest.mark.parametrize(
-    ("omega", "advice"),
-    [(10.0, "take FrM"), (400.0, "take FrM"), (1000.0, "rotate slower")],
+    ("omega", "advice"), [(10.0, "take FrM"), (400.0, "take FrM"), (1000.0, "rotate slower")]
 )
 def test_one_mode_is_not_enough(omega, advice):
     beam = unit_beam(1e-10)

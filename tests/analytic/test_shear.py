@@ -8,12 +8,7 @@ from numpy.polynomial import Legendre
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from analytic import (
-    SpinUp,
-    Theory,
-    periodic_orbits,
-    spin_up_response,
-)
+from analytic import SpinUp, Theory, periodic_orbits, spin_up_response
 from analytic.exact.beam.discretization import continuum, finer_model
 from analytic.methods.collocation import radau
 from analytic.quadrature import axial_basis, gauss_points

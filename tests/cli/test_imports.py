@@ -86,7 +86,7 @@ NEEDS_EXUDYN = (
 
 
 # A second each, of the theory that the others ask as well.
-DEAR = ("campbell", "ramp", "respond", "figure")
+DEAR = ("campbell", "ramp", "respond", "figure", "table", "kit", "judge")
 
 
 def ask_theory(commands, folder):

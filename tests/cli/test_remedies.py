@@ -118,10 +118,12 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
         assert small_sweep("--shard", f"{part}/2")[0] == 0
 
 
-def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):
+def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path, monkeypatch):
     (tmp_path / "taken").write_text("a file")
     short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure", "--out")
-    code, _, error = call(*short, tmp_path / "taken")
+    with monkeypatch.context() as patch:
+        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
+        code, _, error = call(*short, tmp_path / "taken")
     assert code != 0
     assert "taken: File exists; choose another" in error
     assert call(*short, tmp_path / "free")[0] == 0

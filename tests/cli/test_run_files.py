@@ -116,18 +116,8 @@ def test_the_summary_of_a_run(call, tmp_path):
 
 
 def test_the_reference_is_the_exact_spin_up(call, tmp_path):
-    quick = (
-        "--omega",
-        "2",
-        "--ramp-time",
-        "4",
-        "--duration",
-        "6",
-        "--samples",
-        "7",
-        "--tolerance",
-        "1e-6",
-    )
+    quick = ("--omega", "2", "--ramp-time", "4", "--duration", "6", "--samples", "7",
+             "--tolerance", "1e-6")  # fmt: skip
     code, _, _ = call("reference", *quick, "-o", tmp_path)
     assert code == 0
     data = load(tmp_path / "exact-omega-2-ramp-4.nc")

@@ -64,11 +64,7 @@ def says(page, words):
 
 
 def elements_by_quadrature():
-    return (
-        (0, OtherQuadrature(quadrature=0)),
-        (1, OtherQuadrature(quadrature=1)),
-        (2, Cable()),
-    )
+    return ((0, OtherQuadrature(quadrature=0)), (1, OtherQuadrature(quadrature=1)), (2, Cable()))
 
 
 def test_reduced_integration_costs_accuracy_in_linear_frequencies(beam):
@@ -131,6 +127,7 @@ def test_gravity_would_bend_and_buckle_the_strip(beam):
     assert beam.area / height == pytest.approx(width, rel=0.01)
 
 
+@pytest.mark.slow  # designed ramps are tested in test_residual
 def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
     page, readme = "theory/spin_up.md", "../README.md"
     assert says(page, "the tip goes to $-0.71L$")

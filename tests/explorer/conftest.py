@@ -1,4 +1,5 @@
 import shutil
+from contextlib import contextmanager
 from functools import cache
 
 import numpy as np
@@ -66,9 +67,9 @@ def context(browser):
     return of
 
 
-@pytest.fixture
-def open_page(context):
-    """Return a function that opens a URL and refuses noise: messages, errors, the network."""
+@contextmanager
+def pages_of(context):
+    """Give a function that opens a URL and refuses noise: messages, errors, the network."""
     noise, pages = [], []
 
     def opened(url, *, phone=False, dark=False, motion=False, width=None):
@@ -93,6 +94,19 @@ def open_page(context):
     for page in pages:
         page.close()
     assert noise == []
+
+
+@pytest.fixture
+def open_page(context):
+    with pages_of(context) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def page(context, url):
+    """One page for all tests of a module that do no more than move its sliders."""
+    with pages_of(context) as opened:
+        yield opened(url)
 
 
 def settle(page):

@@ -15,12 +15,11 @@ def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
     assert [path.name for path in out.parent.iterdir()] == ["explorer.html"]
 
 
-def test_another_ending_is_refused_before_any_work(tmp_path, capsys, monkeypatch):
+def test_another_ending_is_refused_before_any_work(call, tmp_path, monkeypatch):
     monkeypatch.setattr(explorer, "explorer_page", lambda **_: pytest.fail("computed first"))
-    with pytest.raises(SystemExit) as stop:
-        main(["explore", "--out", str(tmp_path / "explorer.pdf")])
-    assert stop.value.code == 2
-    assert "the ending must be .html" in capsys.readouterr().err
+    code, _, error = call("explore", "--out", tmp_path / "explorer.pdf")
+    assert code == 2
+    assert "the ending must be .html" in error
 
 
 @pytest.mark.slow

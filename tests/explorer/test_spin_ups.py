@@ -82,8 +82,7 @@ def test_what_is_left_lies_where_the_decades_say(open_page, url, data):
     assert page.locator("#ramp-value").inner_text() == "6.5 s"
 
 
-def test_other_speeds_show_the_nearest_and_say_so(open_page, url, at):
-    page = open_page(url)
+def test_other_speeds_show_the_nearest_and_say_so(page, at):
     about = page.locator("#about-spin-up")
     at(page, 6.0, 0.2)
     assert "nearest" not in about.inner_text()

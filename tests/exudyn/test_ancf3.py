@@ -32,7 +32,8 @@ def test_sixteen_elements_have_the_papers_coordinates(beam):
 
 def test_three_elements(beam, spin_up):
     """The mesh of the paper's Figs. 3 and 4."""
-    run = simulate(beam, spin_up, element="ancf3", elements=3, step=4e-3, frame="rotating")
+    run = simulate(beam, spin_up, element="ancf3", elements=3, step=4e-3, duration=9.0,
+                   frame="rotating")  # fmt: skip
     assert steady_oscillation(run).frequency == pytest.approx(3.751, abs=1e-4)
 
 
@@ -61,16 +62,6 @@ def test_coupled_law_locks_in_thickness(beam):
         # Shear compliance is 1e-5 of the frequency here.
         assert free / exact == pytest.approx(1.0, abs=3e-5)
         assert locked / exact == pytest.approx(1.0 / np.sqrt(1.0 - nu**2), abs=3e-5)
-
-
-def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(beam, fitted_order):
-    """At rest, the gap is shear compliance, 1/k_s; the limit comes from the continuum."""
-    limit = linear_modes(beam, 0.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
-    stiffness = np.array([0.01, 0.1, 1.0])
-    gaps = [
-        1.0 - first_frequency(beam, 0.0, Ancf3(shear_correction=k), 32) / limit for k in stiffness
-    ]
-    assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.01)
 
 
 def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):

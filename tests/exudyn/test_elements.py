@@ -1,12 +1,14 @@
 """What every formulation keeps: rigid motion, frames, the potential of its forces, its order."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 
-from analytic import Beam, Rectangle
+from analytic import Beam, Rectangle, Theory, linear_modes
 from rotbeam_exu import natural_frequencies
 from rotbeam_exu.fem.elements import (
     FORMULATIONS,
@@ -160,3 +162,24 @@ def test_the_order_is_the_declared_one(model, blade, omega, coarsest, limit, fit
     )
     errors = np.abs(np.array(found) / exact - 1.0)
     assert -fitted_order(meshes, errors) == pytest.approx(model.order, abs=0.15)
+
+
+@pytest.mark.parametrize(
+    ("model", "blade", "omega", "stiffness", "elements"),
+    [
+        (partial(Exact, nodes=3), THICK, 5.0, (1.0, 10.0, 100.0), 64),
+        (Ancf3, BEAM, 0.0, (0.01, 0.1, 1.0), 32),
+    ],
+    ids=["exact", "ancf3"],
+)
+def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(
+    model, blade, omega, stiffness, elements, fitted_order
+):
+    """The gap is shear compliance, 1/k_s; the limit comes from another theory and another code."""
+    limit = linear_modes(blade, omega, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
+    found = [
+        natural_frequencies(blade, omega, element=model(shear_correction=k), elements=elements)[0]
+        for k in stiffness
+    ]
+    gaps = 1.0 - np.array(found) / limit
+    assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.02)

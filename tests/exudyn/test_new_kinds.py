@@ -305,10 +305,7 @@ class Heavy(Beam):
     [
         ({"spin_up": Quick(omega=2.0, ramp_time=1.0)}, "Quick be a frozen dataclass that inherits"),
         ({"spin_up": Listed(np.array([0.0, 2.0]))}, "the fields of .*Listed be numbers, text"),
-        (
-            {"spin_up": Foreign()},
-            "must be a SpinUp, a FourierRamp, a SpeedTable, another Speed",
-        ),
+        ({"spin_up": Foreign()}, "must be a SpinUp, a FourierRamp, a SpeedTable, another Speed"),
         (
             {"spin_up": Rippled(rotation=SteadyRotation(omega=1.0), amplitude=1.0, frequency=1.0)},
             "a ripple of it is one of the loads",

@@ -24,7 +24,7 @@ def test_largest_lag_of_the_tip(classic):
         classic,
         SpinUp(omega=6.0, ramp_time=15.0),
         elements=16,
-        duration=20.0,
+        duration=15.5,
         step=2e-3,
         frame="rotating",
     )

@@ -8,14 +8,12 @@ import xarray as xr
 
 from analytic import Beam, spin_up_response
 from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.cases import CASES, frequency_case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import peer
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
 
@@ -114,36 +112,22 @@ def test_cost_is_read_off_a_ladder():
 
 
 @pytest.mark.slow
-def test_command_line(capsys, monkeypatch):
+def test_command_line(call, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(room, "DEFAULT", ("L", "S1"))
-    main(["verify", "--element", "linear"])
-    out = capsys.readouterr().out
+    out = call("verify", "--element", "linear")[1]
     assert "does not converge (L, S1" in out
     assert "linear: does not converge: the tip's distance from the clamp" in out
 
 
-def test_command_line_refuses_what_it_does_not_know(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["verify", "--element", "shell"])
-    assert stop.value.code == 2
-    assert "unknown element 'shell'; known are 'cable'," in capsys.readouterr().err
-
-
-def test_unknown_peer():
-    with pytest.raises(ValueError, match="unknown code 'ansys'; known are 'kratos'"):
-        peer("ansys")
-
-
 @pytest.mark.slow
-def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys, monkeypatch):
+def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(call, tmp_path, monkeypatch):
     """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 0.4\naxial_stiffness = 2e9\n"
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
     )
-    main(["verify", "--element", "cable", "--config", str(tmp_path / "beam.toml")])
-    shown = capsys.readouterr().out
+    shown = call("verify", "--element", "cable", "--config", tmp_path / "beam.toml")[1]
     assert "ω = 2400 rad/s in T = 0.0075 s" in shown
     assert "converges to the reference (L, S)" in shown
