@@ -92,7 +92,11 @@ def tried(arguments):
     return code, *streams
 
 
-@settings(deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+# 25 by default, 625 by `make test-all`.
+@settings(
+    max_examples=settings().max_examples ** 2 // 16, deadline=None, derandomize=True,
+    suppress_health_check=list(HealthCheck),
+)  # fmt: skip
 @given(command_lines())
 def test_a_command_line_answers_or_says_why_not(arguments):
     code, out, err = tried(arguments)

@@ -1,10 +1,14 @@
 import shutil
-from contextlib import contextmanager
+import warnings
+from concurrent.futures import Executor, Future
+from contextlib import contextmanager, nullcontext
 from functools import cache
 
 import numpy as np
 import pytest
 
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu.explorer import data as room
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
 OMEGAS = tuple(np.arange(0.0, 12.5, 2.0).tolist())
@@ -17,19 +21,30 @@ ARGUMENTS = [
 ]  # fmt: skip
 
 
+class AtOnce(Executor):
+    """Computes in this process: one of its own would only import the same again."""
+
+    def submit(self, function, /, *arguments, **options):
+        future = Future()
+        future.set_result(function(*arguments, **options))
+        return future
+
+
 @pytest.fixture(scope="session")
 def data():
     """The Explorer's data on a coarser grid and mesh."""
-    return explorer_data(
-        omegas=OMEGAS,
-        amplitudes=AMPLITUDES,
-        finite_element_omegas=(6.0,),
-        ramp_times=(3.0, 2.5),
-        exact_ramp_times=RAMPS,
-        elements=4,
-        step=2e-3,
-        jobs=1,  # processes of its own would only import the same again
-    )
+    with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings():
+        patch.setattr(room, "worker_pool", lambda *_: nullcontext(AtOnce()))
+        warnings.simplefilter("ignore", RotbeamWarning)
+        return explorer_data(
+            omegas=OMEGAS,
+            amplitudes=AMPLITUDES,
+            finite_element_omegas=(6.0,),
+            ramp_times=(3.0, 2.5),
+            exact_ramp_times=RAMPS,
+            elements=4,
+            step=2e-3,
+        )
 
 
 @pytest.fixture(scope="session")

@@ -196,13 +196,22 @@ def test_sliders_move_the_curves(page, at):
     assert page.locator("#beam path.beam").get_attribute("d") != moved
 
 
-def test_an_orbit_that_is_not_found_is_a_gap(open_page, data, tmp_path):
+def test_what_is_not_found_is_a_gap(open_page, data, tmp_path):
+    """An orbit, a model's oscillation, a spin-up."""
     gap = data.copy(deep=True)
     for name in ("exact_frequency", "harmonics", "axis_x", "axis_y"):
         gap[name].loc[{"omega": 6.0, "a": 0.6}] = np.nan
+    for name in ("omega_n", "lambda_omega", "lambda_x", "kappa", "h2", "first_harmonic"):
+        gap[name].loc[{"model": "CI"}] = np.nan
+    for name in ("spin_up", "exact_left"):
+        gap[name].loc[{"exact_ramp_time": 3.0}] = np.nan
     path = tmp_path / "gap.html"
     path.write_text(explorer_page(gap), encoding="utf-8")
-    page = open_page(f"{path.as_uri()}#a=0.6", motion=True)  # the fixture listens
+    page = open_page(f"{path.as_uri()}#omega=6&a=0.6&T=3", motion=True)  # the fixture listens
+    assert cells(page, "CI") == ["–"] * 3
+    assert not curve(page, "backbone", "CI")
+    assert "Too violent" in page.locator("#about-spin-up").inner_text()
+    assert not page.locator("#spin-up path[data-model=exact]").get_attribute("d")
     assert "No exact orbit was found" in page.locator("#warning").inner_text()
     assert cells(page, "exact")[2] == "–"
     assert not page.locator("#beam circle").is_visible()
@@ -262,17 +271,6 @@ def test_motion_in_real_time_unless_unwanted(open_page, url, beam):
     at_rest = page.evaluate("state.phase")
     page.wait_for_timeout(100)
     assert page.evaluate("state.phase") == at_rest
-
-
-def test_a_model_without_oscillation_has_no_curve(open_page, data, tmp_path):
-    broken = data.copy(deep=True)
-    for name in ("omega_n", "lambda_omega", "lambda_x", "kappa", "h2", "first_harmonic"):
-        broken[name].loc[{"model": "CI"}] = np.nan
-    path = tmp_path / "broken.html"
-    path.write_text(explorer_page(broken), encoding="utf-8")
-    page = open_page(path.as_uri())
-    assert cells(page, "CI") == ["–"] * 3
-    assert not curve(page, "backbone", "CI")
 
 
 def test_what_the_exact_orbits_warn_of_is_said(page, at, beam):

@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.exact.beam.steady import steady_rotation
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation, sweep
@@ -14,7 +14,6 @@ from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.linearization import steady_stretch
 from rotbeam_exu.fem.solver import exudyn_system
-from rotbeam_exu.files.beam_file import load_beam
 
 BEAM = Beam.reference()
 HEAVY = BEAM.with_hub_radius(0.8).with_tip_mass(0.5)
@@ -140,50 +139,3 @@ def test_the_model_in_a_system_of_ones_own_is_that_of_simulate(beam, solve_as_a_
     here = run[["tip_x", "tip_y"]].interp(time=stored[:, 0], method="cubic")
     for k, name in ((1, "tip_x"), (2, "tip_y")):
         assert stored[:, k] == pytest.approx(here[name].to_numpy(), abs=1e-5)
-
-
-TOML = """
-[blade]
-length = 8.0
-hub_radius = 0.5
-
-[blade.section]
-axial_stiffness = 5.03e6
-bending_stiffness = [[0.0, 600.0], [4.0, 550.0], [8.0, 500.0]]
-mass_per_length = [0.2, -0.02]
-
-[[blade.point_mass]]
-position = 4.0
-mass = 0.1
-"""
-
-
-def test_a_blade_is_read_from_toml(tmp_path):
-    (tmp_path / "blade.toml").write_text(TOML)
-    blade = load_beam(tmp_path / "blade.toml")
-    assert blade == Blade(
-        length=8.0,
-        hub_radius=0.5,
-        section=Section(
-            axial_stiffness=5.03e6,
-            bending_stiffness=((0.0, 600.0), (4.0, 550.0), (8.0, 500.0)),
-            mass_per_length=(0.2, -0.02),
-        ),
-    ).with_point_mass(0.1, 4.0)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "sentence"),
-    [
-        ("hub_radius", "hub_radios", r"unknown key 'hub_radios' in \[blade\]; did you mean 'hub_r"),
-        ("mass_per_length", "mass_length", r"did you mean 'mass_per_length'\?"),
-        ("position = 4.0", "", r"\[\[blade.point_mass\]\] lacks position"),
-        ("[4.0, 550.0]", "[9.0, 550.0]", "must ascend"),
-        ("0.5", "-0.5", "hub_radius must not be negative"),
-        ("[blade.section]", "[beam]", r"has both \[beam\] and \[blade\]"),
-    ],
-)
-def test_a_bad_blade_file_is_one_sentence(tmp_path, old, new, sentence):
-    (tmp_path / "blade.toml").write_text(TOML.replace(old, new, 1))
-    with pytest.raises(ValueError, match=sentence):
-        load_beam(tmp_path / "blade.toml")

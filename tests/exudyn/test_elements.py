@@ -29,6 +29,8 @@ from rotbeam_exu.fem.units import Units
 from tests.beams import THICK
 
 BEAM = Beam.reference()
+TAPERED = BEAM.with_hub_radius(0.8).with_taper(0.3, 0.5).with_tip_mass(0.1)
+TURNING = BEAM.with_tip_mass(BEAM.mass, 0.1 * BEAM.mass * BEAM.length**2)
 MODELS = [cls() for cls in FORMULATIONS.values()]
 MODELS += [Exact(nodes=3), Ancf3(law="coupled"), Substructures(frame="pinned")]
 CASES = [(model, BEAM) for model in MODELS]
@@ -147,6 +149,9 @@ def test_tangent_and_force_are_derivatives(row, reference):
         (Exact(nodes=3), THICK, 5.0, 4, Exact(nodes=3)),
         # Soft in shear, for which round-off stays below the error of 32 elements.
         (Ancf3(shear_correction=0.1), BEAM, 6.0, 8, Ancf3(shear_correction=0.1)),
+        # Its section is that of each Gauss point, and it turns with a tip mass.
+        (Ancf3(shear_correction=0.1), TAPERED, 6.0, 8, Ancf3(shear_correction=0.1)),
+        (Ancf3(shear_correction=0.01), TURNING, 3.3, 8, Ancf3(shear_correction=0.01)),
         (Linear(), BEAM, 2.0, 4, Linear()),
         (Substructures(cells=1), BEAM, 4.0, 8, Cable()),
         (Substructures(frame="pinned", cells=1), BEAM, 4.0, 8, Cable()),

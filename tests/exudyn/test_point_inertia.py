@@ -28,16 +28,9 @@ def test_reissners_beam_has_it_on_its_angle(heavy):
     assert found == pytest.approx(exact, rel=2e-5)
 
 
-def test_the_papers_element_has_it_on_its_section(heavy, fitted_order):
+def test_the_papers_element_has_it_on_its_section(heavy):
     """As above but for the law of strain: Green-Lagrange's bending is stiffer by 3ε, 4e-5 here."""
     omega = 4.0 * heavy.frequency_scale
-    # Soft in shear, round-off stays below the error of 32 elements.
-    soft, meshes = Ancf3(shear_correction=0.01), np.array([8, 16, 32])
-    fine, *found = (
-        natural_frequencies(heavy, omega, element=soft, elements=n, count=2) for n in (64, *meshes)
-    )
-    for mode in np.abs(np.array(found) / fine - 1.0).T:
-        assert fitted_order(1.0 / meshes, mode) == pytest.approx(4.0, abs=0.2)
     stiff = Ancf3(shear_correction=100.0)
     exact = linear_modes(heavy, omega, 2).frequencies
     assert natural_frequencies(heavy, omega, element=stiff, elements=32, count=2) == pytest.approx(

@@ -108,7 +108,10 @@ def datasets(draw):
     )
 
 
-@settings(max_examples=settings().max_examples // 2, suppress_health_check=[HealthCheck.too_slow])
+# 8 by default, 200 by `make test-all`.
+@settings(
+    max_examples=settings().max_examples ** 2 // 50, suppress_health_check=[HealthCheck.too_slow]
+)
 @given(data=datasets())
 def test_any_dataset_loads_equal(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("any") / "any.nc"

@@ -164,13 +164,6 @@ def test_nothing_to_animate_is_refused(beam):
         animate(response)
 
 
-def test_the_command_writes_a_gif(call, tmp_path):
-    out = tmp_path / "beam.gif"
-    assert "beam.gif" in call("animate", "--duration", "3.2", "--rate", "2", "--out", out)[1]
-    with Image.open(out) as picture:
-        assert picture.n_frames == 7
-
-
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
