@@ -169,7 +169,8 @@ def test_a_blade_that_is_the_beam_has_its_numbers(beam):
 
 def test_stations_of_a_taper_come_near_it(fitted_order):
     smooth = lag(UNIT.with_taper(width=0.5), 4.0)[0]
-    counts, errors = np.array([4, 8, 16]), []
+    # Beyond 64 the functions smooth the smallest kinks.
+    counts, errors = np.array([4, 8, 16, 60, 180]), []
     for n in counts:
         at = [(x, 1.0 - 0.5 * x) for x in np.linspace(0.0, 1.0, n + 1)]
         flat = Section(axial_stiffness=tuple((x, 1e9 * y) for x, y in at), bending_stiffness=at,

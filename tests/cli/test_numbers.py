@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from rotbeam_exu import comparison, load
+from rotbeam_exu import load
 from rotbeam_exu.cli.output import print_columns
 
 
@@ -83,16 +83,6 @@ def test_what_no_memory_holds_is_one_sentence(call, tmp_path, arguments):
     assert error.startswith("rotbeam: there is not enough memory (")
     assert len(error.splitlines()) == 1
     assert not list(tmp_path.iterdir())
-
-
-def test_what_takes_long_begins_and_ctrl_c_ends_it(call, tmp_path, monkeypatch):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(comparison, "residual", stopped)
-    # A million transients are days.
-    code, _, error = call("ramp", "--points", "1000000", "--out", tmp_path)
-    assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
 
 
 def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):

@@ -76,16 +76,6 @@ def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(
     assert fine[2] == ""
 
 
-def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
-    short = ("run", "--elements", "1", "--duration", "8", "--no-figure")
-    assert call(*short, "--step", "0.01", "--out", tmp_path)[0] == 0
-    code, _, error = call(*short, "--step", "0.02", "--out", tmp_path)
-    assert code == 2
-    assert "choose another folder with --out, or --force" in error
-    assert call(*short, "--step", "0.02", "--out", tmp_path / "other")[0] == 0
-    assert call(*short, "--step", "0.02", "--out", tmp_path, "--force")[0] == 0
-
-
 def test_more_functions_are_on_offer(call):
     code, out, _ = call(
         "backbone", "--omega", "6", "--amplitude", "0.1", "--exact", "--functions", "20"

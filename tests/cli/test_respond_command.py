@@ -137,17 +137,3 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
     kept = tmp_path / "response-omega-6-ripple-0.002-from-3.6-to-3.8-failed.nc"
     assert f"after 3.7 rad/s; what was found is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"
-
-
-def test_other_inputs_do_not_replace_it(call, tmp_path, monkeypatch):
-    lone = ("respond", "--tip-force", "0.01", "--omega", "6", "--from", "4.5", "--to", "5",
-            "--points", "2", "--no-figure", "--out", tmp_path)  # fmt: skip
-    assert call(*lone, "--external-damping", "0.5")[0] == 0
-    assert call(*lone, "--external-damping", "0.5")[0] == 0
-    monkeypatch.setattr(
-        job.analytic, "forced_response", lambda *_, **__: pytest.fail("computed first")
-    )
-    code, _, error = call(*lone, "--external-damping", "0.6")
-    assert code == 2
-    assert "damping_external 0.5 instead of 0.6" in error
-    assert "--force" in error

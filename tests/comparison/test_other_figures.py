@@ -235,13 +235,6 @@ def test_figure_15_shows_where_each_orbit_ends():
     assert low < float(data["q_dot_bar"][2, -1]) < high
 
 
-def test_captions_call_no_curve_the_truth():
-    for figure in figures.PAPER_FIGURES.values():
-        assert "truth" not in figure.claim
-    assert "lacks" in figures.PAPER_FIGURES[14].claim
-    assert "excess" not in figures.PAPER_FIGURES[14].claim
-
-
 @pytest.mark.parametrize("number", ["7", "16", "x", "-3"])
 def test_unknown_figures_are_refused(number, call):
     code, _, error = call("figure", "--", number)
