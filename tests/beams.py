@@ -1,6 +1,7 @@
 """Beams and blades that tests in several folders share."""
 
 from analytic import Beam, Blade, Section
+from analytic.quadrature import gauss_points, transverse_basis
 
 SHARE = (5.0 / 6.0) / 2.6
 """Shear stiffness over axial stiffness, of a rectangle with Poisson's ratio 0.3."""
@@ -25,3 +26,12 @@ def unit_beam(slenderness):
     return Beam.from_stiffness(
         length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
     )
+
+
+def deflection_matrices(w_bar, count):
+    """K and M of the inextensible beam in rotation, on polynomials of v: K c = w̄_j² M c."""
+    x, weights = gauss_points(count + 4)
+    phi, slope, curvature = transverse_basis(count, x)
+    M = phi.T * weights @ phi
+    stiffening = 0.5 * w_bar**2 * slope.T * (weights * (1.0 - x**2)) @ slope
+    return curvature.T * weights @ curvature + stiffening - w_bar**2 * M, M

@@ -12,7 +12,7 @@ from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
-from tests.beams import UNIT, unit_beam
+from tests.beams import UNIT, deflection_matrices, unit_beam
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -32,10 +32,8 @@ def perturbed_lambda(rate):
     count = 16
     x, weights = gauss_points(60)
     basis = transverse_basis(count, x)
-    mass = basis.value.T @ (weights[:, None] * basis.value)
     tension = 0.5 * (1.0 - x**2) * weights
-    stiffness = np.eye(count) - rate**2 * mass
-    stiffness += rate**2 * basis.slope.T @ (tension[:, None] * basis.slope)
+    stiffness, mass = deflection_matrices(rate, count)
     inverse, vectors = linalg.eigh(mass, stiffness)
     square = 1.0 / inverse[-1]
     c = vectors[:, -1] / (transverse_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])

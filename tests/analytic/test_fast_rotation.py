@@ -6,8 +6,7 @@ from scipy import linalg
 
 from analytic import Beam, Theory, campbell, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
-from analytic.quadrature import gauss_points, transverse_basis
-from tests.beams import unit_beam
+from tests.beams import deflection_matrices, unit_beam
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore:{text}:analytic.input_checks.RotbeamWarning")
@@ -17,12 +16,7 @@ pytestmark = [
 
 def deflection_frequencies(rate, count):
     """Inextensible modes by a Galerkin basis for v: nothing of the solver under test."""
-    x, weights = gauss_points(count + 4)
-    phi = transverse_basis(count, x)
-    tension = 0.5 * rate**2 * (1.0 - x**2) * weights
-    mass = phi.value.T @ (weights[:, None] * phi.value)
-    stiffness = phi.curvature.T @ (weights[:, None] * phi.curvature) - rate**2 * mass
-    stiffness += phi.slope.T @ (tension[:, None] * phi.slope)
+    stiffness, mass = deflection_matrices(rate, count)
     return 1.0 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True)[:-4:-1])
 
 

@@ -6,6 +6,7 @@ import io
 import pytest
 
 from analytic import VARIANTS, Beam, paper_table, periodic_orbits, reduced_model
+from analytic.methods.continuation import Care
 from analytic.reduced.model import model_at
 
 BLADE = """
@@ -90,7 +91,9 @@ def test_an_amplitude_without_an_orbit_is_a_dash_and_a_sentence(call):
     assert call("backbone", *arguments[:-2])[1].splitlines()[-4].count(" - ") == 3
 
 
-def test_the_exact_backbone_of_a_higher_mode_comes_alone(call):
+def test_the_exact_backbone_of_a_higher_mode_comes_alone(call, monkeypatch):
+    # What is not found is given up sooner.
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     arguments = ("backbone", "--omega", "6", "--mode", "2", "--amplitude", "0.02", "0.2")
     code, out, error = call(*arguments, "--format", "csv")
     near, far = csv.DictReader(io.StringIO(out))

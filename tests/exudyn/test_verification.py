@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from analytic import Beam, spin_up_response
+from analytic import Beam
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import verify as room
@@ -15,7 +14,7 @@ from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
+from rotbeam_exu.verification.verify import handed_in, verify
 
 
 def finding(entry, speeds=(0.0, 6.0)):
@@ -93,22 +92,6 @@ def test_each_element_that_is_right_converges_to_the_reference(model):
 def test_the_locking_law_shows_in_the_history_too():
     found = verify(formulation_entry(Ancf3(law="coupled")))
     assert found.outcome_of("S1") is Outcome.ANOTHER_LIMIT, str(found)
-
-
-def of_second_order(case, *, elements, step):
-    time = np.linspace(0.0, case.duration, round(case.duration / 0.01) + 1)
-    exact = spin_up_response(case.blade, case.motion, time, tolerance=1e-6)
-    q = exact.q * (1.0 + step**2 + 1e-2 / elements**2)
-    return xr.Dataset({"q": ("time", q), "q_dot": ("time", exact.q_dot)}, {"time": time})
-
-
-def test_cost_is_read_off_a_ladder():
-    """An error of second order in a ladder that halves the mesh falls by four a rung."""
-    entry = Entry(name="mine", simulate=of_second_order)
-    seconds, ladder = cost_at_error(entry, 2e-4)
-    assert ladder[:-1, 0] / ladder[1:, 0] == pytest.approx(4.0, rel=1e-2)
-    assert ladder[:, 1].min() <= seconds <= ladder[:, 1].max()
-    assert np.isnan(cost_at_error(entry, 1e-9)[0])
 
 
 @pytest.mark.slow
