@@ -61,10 +61,9 @@ def divergent(beam, spin_up):
 
     @cache
     def of(frame):
+        options = {"elements": 4, "duration": 3.5 if frame == "inertial" else 6.5, "step": 2e-3}
         with pytest.raises(SimulationError) as failed:
-            simulate(
-                beam, spin_up, element="linear", elements=4, duration=8.0, step=2e-3, frame=frame
-            )
+            simulate(beam, spin_up, element="linear", frame=frame, **options)
         return failed.value
 
     return of
@@ -82,7 +81,7 @@ def test_divergent_above(divergent, frame):
 
 
 def test_a_run_grows_at_that_rate(beam, divergent):
-    late = divergent("rotating").run["q"].sel(time=slice(6.0, 8.0))
+    late = divergent("rotating").run["q"].sel(time=slice(4.5, 6.5))
     slope = np.polyfit(late["time"], np.log(np.abs(late)), 1)[0]
     assert slope == pytest.approx(np.sqrt(36.0 - beam.omega_0**2), rel=1e-3)
     # The trapezoidal rule adds (σh)²/12 = 9e-6 to the rate of the mesh itself.
