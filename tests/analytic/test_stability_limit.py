@@ -174,6 +174,14 @@ def test_the_limit_is_found_between_the_amplitudes_that_tell(beam):
     assert "up to the 0.45 looked at, by 0.001 per radian and more" in str(limit)
 
 
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:internal resonance")
+def test_a_rectangle_of_three_to_one_has_a_tongue_of_the_sum(beam):
+    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=3.0)), 2.0, largest=0.36).tongues
+    (tongue,) = [one for one in found if one.kind == "sum resonance"]
+    assert (tongue.low, tongue.high) == pytest.approx((0.2955, 0.3532), rel=2e-4)
+
+
 def test_on_either_side_of_the_limit_an_orbit_leaves_its_plane_or_stays(beam):
     blade = beam.with_section_out_of_plane(0.01, math.inf)
     found = planar_stability(blade, 2.0, [LIMIT_OF_SOFT_FLAP + 1e-3, LIMIT_OF_SOFT_FLAP - 1e-3])

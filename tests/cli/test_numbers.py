@@ -1,4 +1,4 @@
-"""Numbers on the command line: what is none is refused, and what would never end."""
+"""Numbers and options of an element: what is none is refused, and what would never end."""
 
 import json
 import math

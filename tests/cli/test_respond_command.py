@@ -13,14 +13,14 @@ from rotbeam_exu.runs.attributes import beam_of
 from tests.beams import BLADE_TOML
 
 RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.6")
-QUICK = ("--to", "3.8", "--points", "3")
+QUICK = ("--to", "3.8", "--points", "3", "--functions", "8")
 
 
 @pytest.fixture(scope="module")
 def exact():
     beam = Beam.reference()
     damped = beam.with_damping(Damping.from_ratio(beam, 1, 0.0008))
-    return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.6, 3.7, 3.8])
+    return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.6, 3.7, 3.8], functions=8)
 
 
 def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_path, exact):
@@ -67,7 +67,7 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--inextensible", "--out", tmp_path,
+        "--points", "2", "--functions", "8", "--inextensible", "--out", tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))
