@@ -102,6 +102,7 @@ def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(be
     assert [text.get_text() for text in diagram.plot().texts] == ["1ω", "lag 1"]
 
 
+@pytest.mark.slow  # that names are apart is tested above
 def test_no_mode_crosses_the_name_of_a_line(beam):
     # Here the third mode runs along 5ω to the end.
     blade = beam.with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)
@@ -115,6 +116,7 @@ def test_no_mode_crosses_the_name_of_a_line(beam):
         assert not box.count_contains(seen)
 
 
+@pytest.mark.slow  # what a user asks to be cut off
 def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
     diagram = campbell(beam.with_shape(Rectangle()), [0.0, 4.0], 2, planes=("flap", "torsion"))
     ax = diagram.plot(highest=100.0)

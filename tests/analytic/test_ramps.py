@@ -135,6 +135,7 @@ def test_bad_input(make, sentence):
         make()
 
 
+@pytest.mark.slow  # its convergence is tested above, and Exudyn agrees
 def test_a_table_drives_the_exact_beam_as_what_it_tabulates(beam, spin_up):
     times = np.linspace(0.0, 4.0, 81)
     one = spin_up_response(beam, spin_up, times, tolerance=1e-6)

@@ -97,5 +97,6 @@ def test_resonance_with_another_mode_warns():
 
 def test_a_model_introduces_itself(beam):
     text = repr(reduced_model(beam, 6.0, "FrE"))
+    assert reduced_model(beam, 6.0, "FrI").largest_amplitude == pytest.approx(0.98721, abs=5e-6)
     for part in ("FrE", "Ω = 2.062", "ω_n = 3.730549 rad/s", "g1 =", "g2 =", "0.0235487", "λ_x ="):
         assert part in text

@@ -198,6 +198,7 @@ def test_bad_input(beam):
         quiet_ramp_times(beam, 6.0, longest=1e9)
 
 
+@pytest.mark.slow  # spin-ups in any units are in test_random_units
 def test_quiet_ramps_do_not_depend_on_the_unit_of_time(beam):
     """They were sought to 1e-8 s, which a period of 1e-5 s, as of a MEMS blade, is 1000 of."""
     faster = 2.0e5

@@ -23,8 +23,11 @@ WRITTEN = {
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 @pytest.mark.parametrize(
     "name",
-    # What a ramp leaves of any blade is tested in the theory.
-    [pytest.param(one, marks=pytest.mark.slow if one == "ramp" else ()) for one in WRITTEN],
+    # What a ramp leaves of any blade, and how this one responds, is tested in the theory.
+    [
+        pytest.param(one, marks=pytest.mark.slow if one in ("ramp", "tip force") else ())
+        for one in WRITTEN
+    ],
 )
 def test_a_command_writes_its_results(call, tmp_path, name):
     code, out, error = call(*WRITTEN[name], "--config", NREL, "--out", tmp_path)

@@ -85,6 +85,7 @@ def test_a_section_out_of_a_file(call, tmp_path, monkeypatch):
     ("options", "sentence"),
     [
         ((), "give --section rectangle or --section tube"),
+        (("--section", "tub"), "--section must be "),
         (("--section", "tube", "--ratio", "2"), "--section tube has none: leave it out"),
         (("--section", "rectangle", "--ratio", "0"), "ratio must be positive"),
         (("--section", "tube", "--mode", "0"), "mode must be at least 1"),

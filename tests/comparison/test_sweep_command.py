@@ -33,6 +33,7 @@ def test_table_files_and_failures_by_cause(swept, tmp_path):
     assert len(lines) == 5
 
 
+@pytest.mark.slow  # test_sweep has them through Python
 def test_shards_share_a_cache(swept, tmp_path):
     grid = ("--omega", "4", "6", "--ramp-time", "3")
     assert "pending" in swept(*grid, "--shard", "1/2")[1]

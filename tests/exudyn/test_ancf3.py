@@ -30,6 +30,7 @@ def test_sixteen_elements_have_the_papers_coordinates(beam):
         natural_frequencies(beam, 0.0, element="ancf3", count=129)
 
 
+@pytest.mark.slow  # an orbit in time, and linear frequencies, are tested by default
 def test_three_elements(beam, spin_up):
     """The mesh of the paper's Figs. 3 and 4."""
     run = simulate(beam, spin_up, element="ancf3", elements=3, step=4e-3, duration=9.0,

@@ -193,6 +193,7 @@ def test_a_run_in_space_says_so(tmp_path):
     assert type(Case.described(load(path).attrs).model) is SpaceCable
 
 
+@pytest.mark.slow  # a child; every load of ours is an option in the same way
 def test_a_new_load_is_an_option_of_the_command(tmp_path):
     code = f"""
 import sys

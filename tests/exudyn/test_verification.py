@@ -58,6 +58,7 @@ def test_the_linear_frame_does_not_converge():
     assert "is unstable" in found.note
 
 
+@pytest.mark.slow  # test_orbits_in_exudyn starts there, test_judgement judges it
 def test_the_cable_converges_to_the_reference_from_an_orbit():
     """Without a ramp, where the beam hardens: ω_NL/ω_n - 1 of its own, 1.5e-3, to a twentieth."""
     entry = formulation_entry(Cable(), elements=8, step=4e-3)
