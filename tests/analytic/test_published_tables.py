@@ -9,12 +9,8 @@ from scipy.linalg import eigh
 from analytic import Blade, Section, Theory, linear_modes
 from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.quadrature import gauss_points, transverse_basis
+from tests.beams import UNIT
 
-UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0),
-)
-"""EI = m = L = 1, so that ω is w̄."""
 FLAP = UNIT.with_setting_angle(0.5 * math.pi)
 PRINTED = 5e-5 * (1.0 + 1e-3)
 """Half of the fourth decimal, the last that the tables print."""

@@ -73,16 +73,6 @@ def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(
     assert fine[2] == ""
 
 
-def test_another_folder_or_force_replaces_the_refusal(call, tmp_path):
-    short = ("run", "--elements", "1", "--duration", "8", "--no-figure")
-    assert call(*short, "--step", "0.01", "--out", tmp_path)[0] == 0
-    code, _, error = call(*short, "--step", "0.02", "--out", tmp_path)
-    assert code == 2
-    assert "choose another folder with --out, or --force" in error
-    assert call(*short, "--step", "0.02", "--out", tmp_path / "other")[0] == 0
-    assert call(*short, "--step", "0.02", "--out", tmp_path, "--force")[0] == 0
-
-
 def test_more_functions_are_on_offer(call):
     code, out, _ = call(
         "backbone", "--omega", "6", "--amplitude", "0.1", "--exact", "--functions", "20"
@@ -115,10 +105,12 @@ def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
         assert small_sweep("--shard", f"{part}/2")[0] == 0
 
 
-def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path):
+def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path, monkeypatch):
     (tmp_path / "taken").write_text("a file")
     short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure", "--out")
-    code, _, error = call(*short, tmp_path / "taken")
+    with monkeypatch.context() as patch:
+        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
+        code, _, error = call(*short, tmp_path / "taken")
     assert code != 0
     assert "taken: File exists; choose another" in error
     assert call(*short, tmp_path / "free")[0] == 0

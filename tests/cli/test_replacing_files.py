@@ -37,7 +37,7 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             code, _, error = call("run", *sum(arguments.items(), ()), "--out", tmp_path)
             assert code == 2
             assert sentence in error
-            assert "--force" in error
+            assert "choose another folder with --out, or --force" in error
             assert len(error.strip().splitlines()) == 1
     assert all(path.read_bytes() == text for path, text in before.items())
     other = ("--frame", "rotating", "--no-figure", "--force")

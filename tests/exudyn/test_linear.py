@@ -40,11 +40,11 @@ def test_frequency_softens_to_zero_below_the_divergence_speed(beam):
     assert Linear().divergence_speed(beam, 16) == pytest.approx(beam.omega_0, rel=3e-7)
 
 
-# Both frames are compared above the divergence speed.
-@pytest.mark.parametrize("frame", [pytest.param("inertial", marks=pytest.mark.slow), "rotating"])
+@pytest.mark.slow  # frequencies below the divergence speed, and what diverges above it, are here
+@pytest.mark.parametrize("frame", ["inertial", "rotating"])
 def test_bounded_below(beam, frame):
     run = simulate(
-        beam, SpinUp(omega=2.0, ramp_time=6.0), element="linear", elements=4, step=4e-3, frame=frame
+        beam, SpinUp(omega=2.0, ramp_time=6.0), element="linear", elements=4, step=6e-3, frame=frame
     )
     half = 0.5 * run["time"][-1]
     late, early = (abs(run["q"].where(part)).max() for part in (run.time > half, run.time <= half))
@@ -63,10 +63,9 @@ def divergent(beam, spin_up):
 
     @cache
     def of(frame):
+        options = {"elements": 4, "duration": 3.5 if frame == "inertial" else 6.5, "step": 2e-3}
         with pytest.raises(SimulationError) as failed:
-            simulate(
-                beam, spin_up, element="linear", elements=4, duration=8.0, step=2e-3, frame=frame
-            )
+            simulate(beam, spin_up, element="linear", frame=frame, **options)
         return failed.value
 
     return of
@@ -84,7 +83,7 @@ def test_divergent_above(divergent, frame):
 
 
 def test_a_run_grows_at_that_rate(beam, divergent):
-    late = divergent("rotating").run["q"].sel(time=slice(6.0, 8.0))
+    late = divergent("rotating").run["q"].sel(time=slice(4.5, 6.5))
     slope = np.polyfit(late["time"], np.log(np.abs(late)), 1)[0]
     assert slope == pytest.approx(np.sqrt(36.0 - beam.omega_0**2), rel=1e-3)
     # The trapezoidal rule adds (σh)²/12 = 9e-6 to the rate of the mesh itself.

@@ -21,12 +21,6 @@ def test_steady_rotation_converges_to_the_continuum(beam, omega, exact):
     assert natural_frequencies(beam, omega, elements=64)[0] == pytest.approx(exact, rel=1e-6)
 
 
-def test_axial_motion_and_its_coriolis_coupling_are_in(beam):
-    """They lower the frequency of the inextensible rotating mode, 4.124564 rad/s at 8 rad/s."""
-    first = natural_frequencies(beam, 8.0, elements=64)[0]
-    assert 4.124564 - first == pytest.approx(4.124564 - 4.123895, abs=2e-6)
-
-
 @pytest.mark.parametrize(
     ("omega", "leading"),
     [(2.0, 2.73958e-5), (4.0, 1.095831e-4), (6.0, 2.465620e-4), (8.0, 4.383324e-4)],

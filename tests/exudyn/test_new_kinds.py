@@ -6,7 +6,6 @@ import sys
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -112,13 +111,6 @@ MOTION = HalfSine(omega=4.0, ramp_time=2.0)
 PULL = TipPull(amplitude=20.0, frequency=0.0)
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
 def test_exudyn_and_theory_agree_on_them(beam, frame):
     time = np.linspace(0.0, 3.0, 61)
@@ -200,6 +192,7 @@ def test_a_run_in_space_says_so(tmp_path):
     assert type(Case.described(load(path).attrs).model) is SpaceCable
 
 
+@pytest.mark.slow  # a child; every load of ours is an option in the same way
 def test_a_new_load_is_an_option_of_the_command(tmp_path):
     code = f"""
 import sys
@@ -312,10 +305,7 @@ class Heavy(Beam):
     [
         ({"spin_up": Quick(omega=2.0, ramp_time=1.0)}, "Quick be a frozen dataclass that inherits"),
         ({"spin_up": Listed(np.array([0.0, 2.0]))}, "the fields of .*Listed be numbers, text"),
-        (
-            {"spin_up": Foreign()},
-            "must be a SpinUp, a FourierRamp, a SpeedTable, another Speed",
-        ),
+        ({"spin_up": Foreign()}, "must be a SpinUp, a FourierRamp, a SpeedTable, another Speed"),
         (
             {"spin_up": Rippled(rotation=SteadyRotation(omega=1.0), amplitude=1.0, frequency=1.0)},
             "a ripple of it is one of the loads",

@@ -4,20 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from analytic import Beam, spin_up_response
+from analytic import Beam
 from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.cases import CASES, frequency_case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import peer
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
+from rotbeam_exu.verification.verify import handed_in, verify
 
 
 def finding(entry, speeds=(0.0, 6.0)):
@@ -61,6 +58,7 @@ def test_the_linear_frame_does_not_converge():
     assert "is unstable" in found.note
 
 
+@pytest.mark.slow  # test_orbits_in_exudyn starts there, test_judgement judges it
 def test_the_cable_converges_to_the_reference_from_an_orbit():
     """Without a ramp, where the beam hardens: ω_NL/ω_n - 1 of its own, 1.5e-3, to a twentieth."""
     entry = formulation_entry(Cable(), elements=8, step=4e-3)
@@ -97,53 +95,23 @@ def test_the_locking_law_shows_in_the_history_too():
     assert found.outcome_of("S1") is Outcome.ANOTHER_LIMIT, str(found)
 
 
-def of_second_order(case, *, elements, step):
-    time = np.linspace(0.0, case.duration, round(case.duration / 0.01) + 1)
-    exact = spin_up_response(case.blade, case.motion, time, tolerance=1e-6)
-    q = exact.q * (1.0 + step**2 + 1e-2 / elements**2)
-    return xr.Dataset({"q": ("time", q), "q_dot": ("time", exact.q_dot)}, {"time": time})
-
-
-def test_cost_is_read_off_a_ladder():
-    """An error of second order in a ladder that halves the mesh falls by four a rung."""
-    entry = Entry(name="mine", simulate=of_second_order)
-    seconds, ladder = cost_at_error(entry, 2e-4)
-    assert ladder[:-1, 0] / ladder[1:, 0] == pytest.approx(4.0, rel=1e-2)
-    assert ladder[:, 1].min() <= seconds <= ladder[:, 1].max()
-    assert np.isnan(cost_at_error(entry, 1e-9)[0])
-
-
 @pytest.mark.slow
-def test_command_line(capsys, monkeypatch):
+def test_command_line(call, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(room, "DEFAULT", ("L", "S1"))
-    main(["verify", "--element", "linear"])
-    out = capsys.readouterr().out
+    out = call("verify", "--element", "linear")[1]
     assert "does not converge (L, S1" in out
     assert "linear: does not converge: the tip's distance from the clamp" in out
 
 
-def test_command_line_refuses_what_it_does_not_know(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["verify", "--element", "shell"])
-    assert stop.value.code == 2
-    assert "unknown element 'shell'; known are 'cable'," in capsys.readouterr().err
-
-
-def test_unknown_peer():
-    with pytest.raises(ValueError, match="unknown code 'ansys'; known are 'kratos'"):
-        peer("ansys")
-
-
 @pytest.mark.slow
-def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys, monkeypatch):
+def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(call, tmp_path, monkeypatch):
     """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 0.4\naxial_stiffness = 2e9\n"
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
     )
-    main(["verify", "--element", "cable", "--config", str(tmp_path / "beam.toml")])
-    shown = capsys.readouterr().out
+    shown = call("verify", "--element", "cable", "--config", tmp_path / "beam.toml")[1]
     assert "ω = 2400 rad/s in T = 0.0075 s" in shown
     assert "converges to the reference (L, S)" in shown

@@ -20,7 +20,7 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
-from rotbeam_exu.verification.verify import Entry, handed_in, verify
+from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
 
 S1 = SpinUp(omega=6.0, ramp_time=3.0)
 
@@ -247,3 +247,12 @@ def test_nonlinear_frequencies_are_over_the_linear_one_of_the_same_code():
 
 def test_thresholds_are_asked_of_every_quantity(judged_right):
     assert {quantity for _, quantity in judged_right.by_quantity} < set(THRESHOLDS)
+
+
+def test_cost_is_read_off_a_ladder(made_of_the_exact_answer):
+    """An error of second order in a ladder that halves the mesh falls by four a rung."""
+    entry = made_of_the_exact_answer()
+    seconds, ladder = cost_at_error(entry, 2e-4)
+    assert ladder[:-1, 0] / ladder[1:, 0] == pytest.approx(4.0, rel=1e-2)
+    assert ladder[:, 1].min() <= seconds <= ladder[:, 1].max()
+    assert np.isnan(cost_at_error(entry, 1e-9)[0])
