@@ -72,7 +72,7 @@ class Point:
 
     @cached_property
     def determinant(self) -> float:
-        """Of the matrix, by its N-th root, with its sign: that changes where a branch crosses."""
+        """N-th root of the matrix's, with its sign, which changes where a branch crosses."""
         lu, pivots = self._own or factored(self.matrix())
         swaps = np.count_nonzero(pivots != np.arange(pivots.size))
         diagonal = np.diag(lu)

@@ -21,7 +21,7 @@ from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
-"""Of the tip's places whose peak may be called the amplitude, in the root frame."""
+"""Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...quadrature import Grid
 
-_PICARD, _SETTLED = 100, 2e-15  # iterations at most, and the change after which the next is less
+_PICARD, _SETTLED = 40, 2e-15  # iterations at most, and the change after which the next is less
+_WOUND = 4.0  # ∫|K|dx of a cell
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -139,23 +140,30 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
     """Return Q (4, samples, rows) that starts at 1, by collocation on one cell.
 
     As u + vj with complex u and v. Picard's iteration finds the collocated solution itself: on one
-    cell its errors fall as the terms of exp(|K|/2).
+    cell its errors fall as the terms of exp(|K|/2). Beyond a turn or so round-off grows as that.
     """
     k1, k2, k3 = 0.5 * curvature
     turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.T.astype(np.complex128)
     count = len(onto)
     found = np.zeros((2, *k1.shape), dtype=np.complex128)
     found[0] = 1.0
-    for _ in range(_PICARD):
-        u, v = found
-        rates = np.stack((u * turn - v * bend.conj(), u * bend - v * turn))
-        last, found = found, rates @ onto[:, :count]
-        found[0] += 1.0
-        if np.abs(found - last).max(initial=0.0) < _SETTLED:
-            break
+
+    def rates(of: ComplexArray) -> ComplexArray:
+        u, v = of
+        return np.stack((u * turn - v * bend.conj(), u * bend - v * turn))
+
+    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=0).max() > _WOUND:
+        parts = [[turn, -bend.conj()], [bend, -turn]]
+        system = np.block([[-one[:, None] * integral[:count] for one in row] for row in parts])
+        system += np.eye(2 * count)
+        begin = np.repeat([1.0, 0.0], count)[:, None]
+        solved = np.linalg.solve(system, np.broadcast_to(begin, (len(k1), 2 * count, 1)))
+        found = np.moveaxis(solved.reshape(len(k1), 2, count), 1, 0)
     else:
-        rates = np.full_like(
-            rates, np.nan
-        )  # wound up several times: no step of Newton's leads there
-    u, v = rates @ onto
+        for _ in range(_PICARD):
+            last, found = found, rates(found) @ onto[:, :count]
+            found[0] += 1.0
+            if np.abs(found - last).max(initial=0.0) < _SETTLED:
+                break
+    u, v = rates(found) @ onto
     return np.stack((1.0 + u.real, u.imag, v.real, v.imag))
