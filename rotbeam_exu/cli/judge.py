@@ -28,8 +28,8 @@ def judge(
 ) -> None:
     """Judge the files that any code handed in, by its limits.
 
-    Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
-    malformed, and all their faults are told.
+    Exit code 0: all that was handed in is decided and right; 1: something differs; 2: files are
+    malformed, and all their faults are told; 3: something is undecided.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def judge(
         _write(report_page(record), report)
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
-    sys.exit(0 if found.passed else 1)
+    sys.exit({True: 0, False: 1, None: 3}[found.passed])
 
 
 def _may_write(target: Path, ending: str) -> None:

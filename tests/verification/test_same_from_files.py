@@ -54,7 +54,7 @@ def test_kratos(tmp_path, monkeypatch):
     submission = handed_in(replace(peer("kratos"), elements=8, step=1e-3), [case])
     monkeypatch.setitem(CASES, "S1", case)
     found = the_same(submission, tmp_path)
-    assert found.histories["S1"].rows.finest.elements == 16
+    assert found.histories["S1"].finest.elements == 16
 
 
 def test_steps_that_do_not_end_with_the_case(made_of_the_exact_answer, tmp_path):
