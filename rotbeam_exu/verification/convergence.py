@@ -45,7 +45,6 @@ and with more of them bars of oscillating ones cover less than nine tenths."""
 
 _LIKELY = 1e-3  # of the likeliest: what is less has no part in a bar
 _TELLING = 0.5  # bar of an order over the order, above which it is not measured
-_USUAL = 0.68  # probability that an order lies within its bar
 
 _PROBABILITIES = (np.arange(60) + 0.5) / 60.0
 _STUDENT = {
@@ -65,7 +64,7 @@ class Order:
     Attributes
     ----------
     value, bar : float
-        NaN where the runs do not tell it.
+        And its standard deviation; NaN where the runs do not tell it.
     declared : float or None
     why : str
         Why it is not measured.
@@ -307,27 +306,25 @@ def _density(orders: FloatArray, declared: float | None) -> FloatArray:
 
 def _refined(models: _Models, best: int, moved: FloatArray) -> _Models:
     """Return the likeliest model, its orders sought between those of the grid by zooming in."""
-    gram, width = moved @ moved.T / moved.shape[1], 0.3
-    p, r, *others = (
-        float(one[best])
-        for one in (models.p, models.r, models.ratio, models.variation, models.own)
-    )
-    factors = np.linspace(-1.0, 1.0, 5)
-    stepped = bool(models.ratio.any())
-    for _ in range(12):
-        around = p * np.exp(width * factors), r * np.exp(width * factors) if stepped else [r]
-        powers = [one.ravel() for one in np.meshgrid(*around)]
-        rest = [np.full(powers[0].size, one) for one in others]
-        prior = np.log(_density(powers[0], models.declared[0]))
-        if stepped:
-            prior = prior + np.log(_density(powers[1], models.declared[1]))
-        near = _model(models.x, models.y, models.declared, prior, *powers, *rest)
-        k = int(np.argmax(prior + near.evidence(gram, len(moved))))
-        p, r, width = float(powers[0][k]), float(powers[1][k]), 0.5 * width
-    one = slice(k, k + 1)
-    return _model(
-        models.x, models.y, models.declared, prior[one], *(of[one] for of in (*powers, *rest))
-    )
+    gram = moved @ moved.T / moved.shape[1]
+    grids = models.p, models.r, models.ratio, models.variation, models.own
+    p, r, ratio, *others = (float(one[best]) for one in grids)
+    stepped, width = bool(ratio), 0.3
+    for _ in range(18):
+        near = width * np.array([-1.0, 0.0, 1.0])
+        # Ratios of the grid are farther apart than its orders.
+        around = (
+            p * np.exp(near), r * np.exp(near * stepped), ratio * np.exp(4.0 * near * stepped)
+        )
+        of = [one.ravel() for one in np.meshgrid(*around)]
+        of += [np.full(of[0].size, one) for one in others]
+        prior = np.log(_density(of[0], models.declared[0]))
+        prior = prior + np.log(_density(of[1], models.declared[1])) * stepped
+        nearest = _model(models.x, models.y, models.declared, prior, *of)
+        k = int(np.argmax(prior + nearest.evidence(gram, len(moved))))
+        p, r, ratio, width = *(float(one[k]) for one in of[:3]), 0.6 * width
+    of = [np.array([one]) for one in (p, r, ratio, *others)]
+    return _model(models.x, models.y, models.declared, np.zeros(1), *of)
 
 
 def _bar(
@@ -367,10 +364,7 @@ def _orders(
         place = np.searchsorted(grids, grid)
         free = evidence + np.log(_shares(grids, None) / _shares(grids, stated))[place]
         share = np.exp(free - free.max())
-        off = np.abs(grid - value[0])
-        nearest = np.argsort(off)
-        covered = np.cumsum(share[nearest]) / share.sum()
-        bar = float(off[nearest][np.searchsorted(covered, _USUAL)])
+        bar = math.sqrt(float(share @ (grid - value[0]) ** 2 / share.sum()))
         why = "" if bar <= _TELLING * value[0] else "the runs do not tell it"
         if not seen:
             why = "the changes are below the floor"
