@@ -95,12 +95,15 @@ def found_of(
     differs if the limit is beyond tolerance + d, and does not converge if changes grow twice, or
     once where the finest run is FAR off. In between it is undecided, and the note says which mesh or
     step would decide. Refining lessens d, so it never fails a code whose true limit is within the
-    tolerance. A code that has run with one step only does not differ, for the step may have done it.
+    tolerance. With one step only nothing is decided, for the step may make or hide a difference.
     """
     doubt, difference = runs.bar + bound, abs(runs.limit)
     finest, note = abs(float(runs.values[-1])), ""
     if math.isnan(difference):
         outcome, note = Outcome.UNDECIDED, f"one mesh has no limit {where}: hand in three"
+    elif runs.steps.any() and np.unique(runs.steps).size == 1:
+        outcome = Outcome.UNDECIDED
+        note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
     elif difference + doubt <= tolerance:
         outcome = Outcome.REFERENCE if difference <= doubt else Outcome.AGREES
     elif runs.growths > 1 or (runs.growths and finest > FAR * tolerance):
@@ -108,9 +111,6 @@ def found_of(
     elif difference <= tolerance + doubt:
         outcome = Outcome.UNDECIDED
         note = f"known to {doubt:.0e} only {where}: {_remedy(runs, tolerance, bound, of_what)}"
-    elif runs.steps.any() and np.unique(runs.steps).size == 1:
-        outcome = Outcome.UNDECIDED
-        note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
     else:
         outcome = Outcome.DIFFERS
         note = f"the limit differs from the reference by {runs.limit:+.1e} {where}"

@@ -57,8 +57,9 @@ def test_what_grows_does_not_converge_if_it_grows_twice_or_is_far_off():
     assert found_of(known(0.0, 0.1, growths=2), tolerance=0.25, bound=0.0, where="").outcome.passed
 
 
-def test_one_step_alone_convicts_nobody():
-    runs = known(0.5, 0.0, steps=(1e-3, 1e-3))
+@pytest.mark.parametrize("limit", [0.0, 0.5])
+def test_one_step_alone_decides_nothing(limit):
+    runs = known(limit, 0.0, steps=(1e-3, 1e-3))
     found = found_of(runs, tolerance=0.25, bound=0.0, where="here")
     assert found.outcome is Outcome.UNDECIDED
     assert "refine it" in found.note
