@@ -116,7 +116,9 @@ def _draw_errors(
     """Draw the errors of meshes or steps with the limit's bar, and the declared order above."""
     top, places = 0.0, np.empty(0)
     for (quantity, runs), color, marker in zip(found.items(), cycle(), _MARKERS, strict=False):
-        sizes, parts = (1e3 * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
+        sizes, parts = (
+            (1e3 * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
+        )
         places, first = np.unique(sizes, return_index=True)
         errors = np.maximum(np.abs(parts[first]), 1e-16)
         bars = np.minimum(runs.bar, 0.9 * errors), np.full(errors.size, runs.bar)
@@ -127,7 +129,9 @@ def _draw_errors(
         top = max(top, float(errors.max()))
     if declared:
         falls = (places / places[-1]) ** declared if in_step else (places[0] / places) ** declared
-        ax.plot(places, 2.5 * top * falls, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}")
+        ax.plot(
+            places, 2.5 * top * falls, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}"
+        )
     ax.set(xscale="log", yscale="log")
     ax.set_xticks(places, [f"{float(f'{place:.4g}'):g}" for place in places])
     ax.xaxis.set_minor_locator(mpl.ticker.NullLocator())

@@ -116,7 +116,13 @@ def _finding(found: Finding) -> dict[str, Any]:
 
 
 def _order(order: Order) -> dict[str, Any]:
-    return {"observed": order.value, "bar": order.bar, "declared": order.declared, "low": order.low, "why": order.why}
+    return {
+        "observed": order.value,
+        "bar": order.bar,
+        "declared": order.declared,
+        "low": order.low,
+        "why": order.why,
+    }
 
 
 def _run(run: Run, found: Judgement) -> dict[str, Any]:

@@ -101,8 +101,8 @@ def _about(record: Record) -> str:
 
 def _outcomes(record: Record) -> str:
     header = [
-        "case", "quantity", "outcome", "limit − reference", "at most", "run − limit", "order in mesh / step, of declared",
-        "floor", "reference ±",
+        "case", "quantity", "outcome", "limit − reference", "at most", "run − limit",
+        "order in mesh / step, of declared", "floor", "reference ±",
     ]  # fmt: skip
     rows = [
         _outcome_row(case, quantity, found)

@@ -281,7 +281,7 @@ def _models(
     axes = p, r, ratios, tuple(_VARIATIONS), tuple(_NOISES)
     shares = (
         _shares(p, declared[0]), _shares(r, declared[1]) if stepped else np.ones(1),
-        np.ones(len(ratios)), np.array(list(_VARIATIONS.values())), np.array(list(_NOISES.values())),
+        np.ones(len(ratios)), list(_VARIATIONS.values()), list(_NOISES.values()),
     )  # fmt: skip
     prior = np.log(math.prod(np.meshgrid(*shares, indexing="ij"))).ravel()
     of = (one.ravel() for one in np.meshgrid(*axes, indexing="ij"))
@@ -314,7 +314,9 @@ def _refined(models: _Models, best: int, moved: FloatArray) -> _Models:
         near = width * np.array([-1.0, 0.0, 1.0])
         # Ratios of the grid are farther apart than its orders.
         around = (
-            p * np.exp(near), r * np.exp(near * stepped), ratio * np.exp(4.0 * near * stepped)
+            p * np.exp(near),
+            r * np.exp(near * stepped),
+            ratio * np.exp(4.0 * near * stepped),
         )
         of = [one.ravel() for one in np.meshgrid(*around)]
         of += [np.full(of[0].size, one) for one in others]
@@ -327,9 +329,7 @@ def _refined(models: _Models, best: int, moved: FloatArray) -> _Models:
     return _model(models.x, models.y, models.declared, np.zeros(1), *of)
 
 
-def _bar(
-    models: _Models, evidence: FloatArray, weights: FloatArray, moved: FloatArray
-) -> float:
+def _bar(models: _Models, evidence: FloatArray, weights: FloatArray, moved: FloatArray) -> float:
     """Return how far the limit may be off, of functions at the sample that is known worst."""
     kept = evidence > evidence.max() + math.log(_LIKELY)
     share = np.exp(evidence[kept] - evidence.max())

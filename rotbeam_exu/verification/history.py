@@ -133,7 +133,9 @@ class Histories:
         shift = float(true[-1]) / first - 1.0 if runs else math.nan
         if abs(shift) < LEAST_SHIFT:
             return None
-        of_what = "the linear frequency of L.csv" if doubt > self.reference.bound else "the reference"
+        of_what = (
+            "the linear frequency of L.csv" if doubt > self.reference.bound else "the reference"
+        )
         return self._of_numbers(measured, tolerance, self.reference.bound + doubt, shift, of_what)
 
     def _of_numbers(
@@ -205,7 +207,9 @@ def judged_apart(runs: Sequence[Run], truth: Reference) -> tuple[list[Run], list
         off = float(np.abs(run.q - true).max() / np.abs(true).max())
         same = [one for one in kept if np.array_equal(one.q, run.q)]
         if off < COPY:
-            said.append(f"{name}: the reference itself, to {off:.0e}: hand in what the code computed")
+            said.append(
+                f"{name}: the reference itself, to {off:.0e}: hand in what the code computed"
+            )
         elif same:
             said.append(
                 f"{name}: the history of {same[0].elements} elements at {1e3 * same[0].step:g} ms "

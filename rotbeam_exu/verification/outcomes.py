@@ -93,9 +93,9 @@ def found_of(
     The uncertainty d is the bar of the limit plus the bound. A code is right if its limit is within
     tolerance - d: it converges to the reference if the limit is zero within d, else it agrees. It
     differs if the limit is beyond tolerance + d, and does not converge if changes grow twice, or
-    once where the finest run is FAR off. In between it is undecided, and the note says which mesh or
-    step would decide. Refining lessens d, so it never fails a code whose true limit is within the
-    tolerance. With one step only nothing is decided, for the step may make or hide a difference.
+    once where the finest run is FAR off. In between it is undecided, and the note says which mesh
+    or step would decide. Refining lessens d, so it never fails a code whose true limit is within
+    the tolerance. With one step only nothing is decided: it may make or hide a difference.
     """
     doubt, difference = runs.bar + bound, abs(runs.limit)
     finest, note = abs(float(runs.values[-1])), ""

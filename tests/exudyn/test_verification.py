@@ -50,9 +50,13 @@ def test_a_beam_that_shears_has_its_own_truth(poisson_ratio):
 
 
 def test_each_element_that_converges_is_told_so():
-    for model in (Cable(), Exact(), Ancf3(poisson_ratio=0.0)):
+    for model in (Cable(), Exact()):
         found = finding(formulation_entry(model), (0.0, 8.0))
         assert found.outcome is Outcome.REFERENCE, str(found)
+    # The paper's element is off by 8e-5, which is significant.
+    found = finding(formulation_entry(Ancf3(poisson_ratio=0.0)), (0.0, 8.0))
+    assert found.outcome is Outcome.AGREES, str(found)
+    assert found.within < 1e-4
 
 
 def test_the_linear_frame_does_not_converge():
@@ -120,7 +124,9 @@ def test_command_line(capsys, monkeypatch):
     main(["verify", "--element", "linear"])
     out = capsys.readouterr().out
     assert "2 undecided (L, S1)" in out
-    assert "undecided: no run: 64 elements at 2 ms: failed, the tip's distance from the clamp" in out
+    assert (
+        "undecided: no run: 64 elements at 2 ms: failed, the tip's distance from the clamp" in out
+    )
 
 
 def test_command_line_refuses_what_it_does_not_know(capsys):

@@ -324,7 +324,9 @@ def test_what_is_off_by_half_of_what_passes_agrees_and_does_not_converge_to_the_
 def test_the_headline_counts_all_cases():
     found = judged(Submission(declaration=MINE, runs=exact_runs(*WHOLE)))
     assert found.outcome == "1 of 12 agrees, 11 not submitted"
-    coarse = replace(found, findings={**found.findings, "O": {"history": Finding(outcome=Outcome.UNDECIDED)}})
+    coarse = replace(
+        found, findings={**found.findings, "O": {"history": Finding(outcome=Outcome.UNDECIDED)}}
+    )
     assert coarse.outcome == "1 of 12 agrees, 1 undecided (O), 10 not submitted"
     assert coarse.passed is None
     wrong = {"history": Finding(outcome=Outcome.DIFFERS)}

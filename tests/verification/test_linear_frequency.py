@@ -50,15 +50,15 @@ def test_another_limit_is_named():
 
 def test_a_judgement_never_gets_worse_by_refining():
     rank = list(Outcome)
-    last = {0.0: Outcome.REFERENCE, 1.5e-4: Outcome.AGREES, 1.9e-4: Outcome.AGREES}
-    for difference in last:
+    lasts = {0.0: Outcome.REFERENCE, 1.5e-4: Outcome.AGREES, 1.9e-4: Outcome.AGREES}
+    for difference, last in lasts.items():
         seen = []
         for elements in 2 ** np.arange(1, 10):
             entry = of_frequency(difference, 2.0, 3.0, -5.0, elements=int(elements))
             seen.append(rank.index(finding(replace(entry, order=2.0)).outcome))
         assert seen == sorted(seen, reverse=True)
         assert seen[0] == rank.index(Outcome.UNDECIDED)
-        assert seen[-1] == rank.index(last[difference])
+        assert seen[-1] == rank.index(last)
 
 
 def test_a_theory_that_refuses_a_speed_is_no_verdict_on_the_code():

@@ -4,6 +4,8 @@ Errors of the finest run are log-uniform from a ten-thousandth of the tolerance 
 in mesh and in step; the tolerance is one. Bounds follow from the binomial distribution.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.stats import binom
@@ -111,6 +113,6 @@ def test_a_correct_run_more_never_makes_a_verdict_worse(count):
             for k in range(3, n.size + 1)
         ]
         assert False not in passed
-        worse += any(before and not after for before, after in zip(passed, passed[1:], strict=False))
+        worse += any(before and not after for before, after in pairwise(passed))
     # Bars are estimates: those of the runs before may have been too small by chance.
     assert worse <= at_most(count, 0.05)
