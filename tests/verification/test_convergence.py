@@ -87,7 +87,7 @@ def test_the_bar_holds_where_the_first_mesh_is_too_coarse(higher, declared):
         values = series(elements, higher=higher)
         found = converged(elements, None, values, declared=(declared, None))
         assert abs(found.limit - LIMIT) <= found.bar
-        assert np.all(np.abs(found.errors - (found.values - LIMIT)) <= found.error_bars)
+        assert np.all(np.abs(found.errors - (found.values - LIMIT)) <= (found.bar + found.noise))
         bars.append(found.bar)
     assert np.all(np.diff(bars[1:]) < 0.0)
 
