@@ -85,7 +85,7 @@ class Models:
         gram = runs @ runs.T / runs.shape[1]
         left = self.projections.reshape(len(self.prior), -1) @ gram.ravel()
         likely = self.volume - 0.5 * (len(runs) - 1) * np.log(np.maximum(left, 1e-300))
-        return self.prior + likely
+        return np.asarray(self.prior + likely)
 
     def parts(self) -> tuple[FloatArray, FloatArray]:
         """Covariances (models, runs, runs) of the errors of mesh and step."""
