@@ -191,30 +191,37 @@ def mending(linear: Convergence | None) -> tuple[float, float]:
 
 
 def judged_apart(runs: Sequence[Run], truth: Reference) -> tuple[list[Run], list[str]]:
-    """Return the runs that are judged, and a sentence on each of the others.
+    """Return the runs that are judged, and why the others are not, each reason once.
 
     Others failed, are the reference itself, or the same as a coarser run to the last digit: a
     script that ignores the mesh has run one only.
     """
     kept: list[Run] = []
-    said = []
+    others: dict[str, list[str]] = {}
     for run in sorted(runs, key=lambda run: (run.elements, -run.step)):
-        name = f"{run.elements} elements at {1e3 * run.step:g} ms"
-        if run.failure:
-            said.append(f"{name}: failed, {run.failure}")
-            continue
-        true = truth.history(run.time)
-        off = float(np.abs(run.q - true).max() / np.abs(true).max())
-        same = [one for one in kept if np.array_equal(one.q, run.q)]
-        if off < COPY:
-            said.append(
-                f"{name}: the reference itself, to {off:.0e}: hand in what the code computed"
-            )
-        elif same:
-            said.append(
-                f"{name}: the history of {same[0].elements} elements at {1e3 * same[0].step:g} ms "
-                "to the last digit: is the mesh or the step ignored?"
-            )
+        reason = _reason(run, kept, truth)
+        if reason:
+            others.setdefault(reason, []).append(_name(run))
         else:
             kept.append(run)
-    return kept, said
+    return kept, [f"{reason}: {', '.join(names)}" for reason, names in others.items()]
+
+
+def _reason(run: Run, kept: Sequence[Run], truth: Reference) -> str:
+    """Return why a run is not judged beside those kept; nothing of one that is."""
+    if run.failure:
+        return f"failed, {run.failure}"
+    if any((one.elements, one.step) == (run.elements, run.step) for one in kept):
+        return "handed in twice"
+    true = truth.history(run.time)
+    off = float(np.abs(run.q - true).max() / np.abs(true).max())
+    if off < COPY:
+        return f"the reference itself, to {off:.0e}: hand in what the code computed"
+    same = [one for one in kept if np.array_equal(one.q, run.q)]
+    if same:
+        return f"the history of {_name(same[0])} to the last digit, mesh or step ignored"
+    return ""
+
+
+def _name(run: Run) -> str:
+    return f"{run.elements} elements at {1e3 * run.step:g} ms"
