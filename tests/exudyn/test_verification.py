@@ -89,9 +89,13 @@ def test_a_case_that_an_element_does_not_do_is_not_submitted():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("model", [Cable(), Exact(), Exact(nodes=3), Ancf3(poisson_ratio=0.0)])
-def test_each_element_that_is_right_converges_to_the_reference(model):
-    found = verify(formulation_entry(model))
+@pytest.mark.parametrize(
+    ("model", "step"),
+    # With steps of 1 ms the cable's S4 is known to 1e-2 only.
+    [(Cable(), 5e-4), (Exact(), 1e-3), (Exact(nodes=3), 1e-3), (Ancf3(poisson_ratio=0.0), 1e-3)],
+)
+def test_each_element_that_is_right_passes(model, step):
+    found = verify(formulation_entry(model, step=step))
     assert found.passed, str(found)
 
 
