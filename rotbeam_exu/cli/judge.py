@@ -29,8 +29,8 @@ def judge(
 ) -> None:
     """Judge the result files of any code by their limits.
 
-    Exit code 0: all quantities that can be decided converge to the reference; 1: one does not;
-    2: files are malformed, and all their faults are printed.
+    Exit code 0: all that was handed in is decided and right; 1: something differs; 2: files are
+    malformed, and all their faults are printed; 3: something is undecided.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def judge(
         _write(report_page(record), report)
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
-    sys.exit(0 if found.passed else 1)
+    sys.exit({True: 0, False: 1, None: 3}[found.passed])
 
 
 def _write(text: str, target: Path) -> None:

@@ -12,8 +12,9 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 from analytic.input_checks import positive
 
+from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS, Judgement
-from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .motion import Config, Motion, configured, motion_of, slower_than_paper
 from .options import Flag, element_names, spelled_as
@@ -187,7 +188,7 @@ def _limit(found: Finding | None) -> str:
     if found is None or found.outcome is Outcome.NOT_SUBMITTED:
         return "-"
     if not math.isfinite(found.model_difference):
-        return "none!" if found.outcome is Outcome.NO_LIMIT else "none?"
+        return "none!" if found.outcome is Outcome.DIFFERS else "none?"
     mark = {True: "", False: "!", None: "?"}[found.outcome.passed]
     return _signed(found.model_difference) + mark
 
@@ -209,7 +210,7 @@ def _largest(values: Iterable[float]) -> str:
 
 def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
     """Return what there is to say of the finest run of the first history."""
-    return cell(next(iter(one.histories.values())).rows.finest) if one.histories else "-"
+    return cell(next(iter(one.histories.values())).finest) if one.histories else "-"
 
 
 def _order(one: Judgement, name: str) -> str:
@@ -221,11 +222,12 @@ def _order(one: Judgement, name: str) -> str:
 
 
 def _sentences(found: Judgement) -> list[str]:
-    """Return why a code fails or cannot be judged; each sentence once."""
+    """Return what differs, what would decide, and runs left out; each sentence once."""
     said = [
-        f"{finding.outcome}: {finding.note}"
-        for finding in found.by_quantity.values()
-        if finding.outcome is not Outcome.REFERENCE and finding.note
+        f"{finding.said}: {finding.note}" if finding.note else f"{case} {quantity} {finding.said}"
+        for (case, quantity), finding in found.by_quantity.items()
+        if finding.outcome is not Outcome.REFERENCE
     ]
+    said += [f"{case}: {one}" for case, of in found.remarks.items() for one in of]
     remarks = [run.remark for one in found.histories.values() for run in one.runs if run.remark]
     return list(dict.fromkeys([*said, *remarks]))

@@ -32,7 +32,7 @@ def test_the_quadratic_exact_element_converges_on_any_meshes(elements):
 def test_the_locking_law_converges_to_another_limit():
     """Its bending stiffness is E/(1 - ν²): frequencies higher by (1 - ν²)^(-1/2) at rest."""
     found = finding(formulation_entry(Ancf3(law="coupled")), (0.0, 2.0))
-    assert found.outcome is Outcome.ANOTHER_LIMIT
+    assert found.outcome is Outcome.DIFFERS
     assert found.model_difference == pytest.approx((1.0 - 0.3**2) ** -0.5 - 1.0, rel=1e-4)
 
 
@@ -47,14 +47,18 @@ def test_a_beam_that_shears_has_its_own_truth(poisson_ratio):
 
 
 def test_each_element_that_converges_is_told_so():
-    for model in (Cable(), Exact(), Ancf3(poisson_ratio=0.0)):
+    for model in (Cable(), Exact()):
         found = finding(formulation_entry(model), (0.0, 8.0))
         assert found.outcome is Outcome.REFERENCE, str(found)
+    # The paper's element is off by 8e-5, which is significant.
+    found = finding(formulation_entry(Ancf3(poisson_ratio=0.0)), (0.0, 8.0))
+    assert found.outcome is Outcome.AGREES, str(found)
+    assert found.within < 1e-4
 
 
 def test_the_linear_frame_does_not_converge():
     found = finding(formulation_entry(Linear()))
-    assert found.outcome is Outcome.NO_LIMIT
+    assert found.outcome is Outcome.UNDECIDED
     assert "is unstable" in found.note
 
 
@@ -63,7 +67,7 @@ def test_the_cable_converges_to_the_reference_from_an_orbit():
     """Without a ramp, where the beam hardens: ω_NL/ω_n - 1 of its own, 1.5e-3, to a twentieth."""
     entry = formulation_entry(Cable(), elements=8, step=4e-3)
     found = judged(handed_in(entry, [CASES["O"]]))
-    assert found.outcome == "converges to the reference (O)", str(found)
+    assert found.outcome == "1 of 12 agrees, 11 not submitted", str(found)
     assert abs(found.findings["O"]["nonlinear shift"].model_difference) < 0.02
 
 
@@ -83,16 +87,20 @@ def test_a_case_that_an_element_does_not_do_is_not_submitted():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("model", [Cable(), Exact(), Exact(nodes=3), Ancf3(poisson_ratio=0.0)])
-def test_each_element_that_is_right_converges_to_the_reference(model):
-    found = verify(formulation_entry(model))
+@pytest.mark.parametrize(
+    ("model", "step"),
+    # With steps of 1 ms the cable's S4 is known to 1e-2 only.
+    [(Cable(), 5e-4), (Exact(), 1e-3), (Exact(nodes=3), 1e-3), (Ancf3(poisson_ratio=0.0), 1e-3)],
+)
+def test_each_element_that_is_right_passes(model, step):
+    found = verify(formulation_entry(model, step=step))
     assert found.passed, str(found)
 
 
 @pytest.mark.slow
 def test_the_locking_law_shows_in_the_history_too():
     found = verify(formulation_entry(Ancf3(law="coupled")))
-    assert found.outcome_of("S1") is Outcome.ANOTHER_LIMIT, str(found)
+    assert found.outcome_of("S1") is Outcome.DIFFERS, str(found)
 
 
 @pytest.mark.slow
@@ -100,8 +108,8 @@ def test_command_line(call, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(room, "DEFAULT", ("L", "S1"))
     out = call("verify", "--element", "linear")[1]
-    assert "does not converge (L, S1" in out
-    assert "linear: does not converge: the tip's distance from the clamp" in out
+    assert "1 undecided (S1), 1 differs (L)" in out
+    assert "undecided: no run: failed, the tip's distance from the clamp" in out
 
 
 @pytest.mark.slow
@@ -114,4 +122,4 @@ def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(call, tmp_path, monkeypa
     )
     shown = call("verify", "--element", "cable", "--config", tmp_path / "beam.toml")[1]
     assert "ω = 2400 rad/s in T = 0.0075 s" in shown
-    assert "converges to the reference (L, S)" in shown
+    assert "2 of 2 agree" in shown
