@@ -8,14 +8,13 @@ from functools import cached_property
 from typing import ClassVar
 
 from .arrays import FloatArray
-from .blade import Blade
+from .blade import Blade, Variations
 from .damping import UNDAMPED, Damping
 from .input_checks import positive, shown, warn_if_giga
 from .point_mass import PointMass
 from .section import Section
 from .section_shapes import Gyration
 from .unit_blade import UNIFORM, UnitBlade
-from .variations import Variations
 from .warning import warn
 
 BETA_1 = 1.8751040687119611
