@@ -17,7 +17,7 @@ from .exact.linear.damped import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes
 from .exact.plane.planarity import planar_stability as planar_stability
 from .exact.plane.stability_limit import stability_limit as stability_limit
-from .exact.space.steady import steady_state as steady_state
+from .exact.space.steady_state import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
 from .loads import SpeedRipple as SpeedRipple

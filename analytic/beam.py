@@ -234,9 +234,9 @@ def require_planar(beam: AnyBlade) -> None:
     require_blade(beam)
     if not beam.is_planar:
         raise ValueError(
-            "this answer is of a straight blade in its plane, and this one has a twist, precone, "
-            "prebend, sweep or offset: take linear_modes, steady_state or spin_up_response, which "
-            "have it in space"
+            "this answer is of a straight blade in its plane, and this one is from stations or "
+            "has a twist, precone, prebend, sweep, kink or offset: take linear_modes, steady_state "
+            "or spin_up_response, which have it in space"
         )
 
 

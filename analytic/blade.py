@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
@@ -25,6 +26,7 @@ from .profiles import Profile, evaluated, in_units
 from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
+from .station_section import StationSection, mass_of, moved, nested, stiffness_of
 from .unit_blade import UnitBlade
 from .warning import warn
 
@@ -96,6 +98,13 @@ class Variations(Described, abstract=True):
         """Return the blade whose unloaded line is curved about the thickness [1/m], chordwise."""
         return self._with_line(sweep=curvature)
 
+    def with_kink(self, position: float, prebend: float = 0.0, sweep: float = 0.0) -> Blade:
+        """Return the blade with one kink more of its line at `position` [m] from the clamp.
+
+        By angles [rad] about the chord and about the thickness.
+        """
+        return self._with_line(kinks=(*self.blade.line.kinks, (position, prebend, sweep)))
+
     def with_offsets(self, mass: Offset = (0.0, 0.0), tension: Offset = (0.0, 0.0)) -> Blade:
         """Return the blade whose centers of mass and of tension are so far [m] from the line.
 
@@ -108,9 +117,10 @@ class Variations(Described, abstract=True):
 
     @property
     def is_planar(self) -> bool:
-        """Whether the blade is straight and flat: no twist, precone, prebend, sweep or offset."""
+        """Whether the blade is straight and flat, and not from stations, which may couple all."""
         blade = self.blade
-        return blade.line == STRAIGHT and not any(any(m.offset) for m in blade.point_masses)
+        offset = any(any(one.offset) for one in blade.point_masses)
+        return blade.line == STRAIGHT and not offset and not blade.section.at_stations
 
     def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
         """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
@@ -146,13 +156,9 @@ class Variations(Described, abstract=True):
             raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
         return self._with_out_of_plane(shape.out_of_plane(self.gyration))
 
-    def in_its_plane(self) -> Blade:
-        """Return the blade of whose section nothing is known out of the plane."""
-        return self._with_out_of_plane(None)
-
     def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
         blade = self.blade
-        return replace(blade, section=replace(blade.section, out_of_plane=out_of_plane))
+        return replace(blade, section=blade.section.with_out_of_plane(out_of_plane))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -215,6 +221,18 @@ class Blade(Variations):
                     f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
                 )
         self.section.require_along(self.length)
+        told = (*self.line.mass_offset, *self.line.tension_offset)
+        if self.section.at_stations and any(told):
+            raise ValueError(
+                "the stations tell where the centers are: leave with_offsets out, or give "
+                "from_stations the offsets tension, shear and center"
+            )
+        for x, *_ in self.line.kinks:
+            if not x < self.length:
+                raise ValueError(
+                    f"a kink at {x:g} m is not between clamp and tip, at {self.length:g} m: take "
+                    "its place from the clamp, not from the axis"
+                )
         self._require_masses()
 
     def _require_masses(self) -> None:
@@ -230,6 +248,68 @@ class Blade(Variations):
                     f"a point mass of {one.mass:g} kg is {one.mass / own:.3g} times the blade's "
                     f"{own:.4g} kg: give it in kg, or clamp the blade there"
                 )
+
+    @classmethod
+    def from_stations(
+        cls,
+        x: ArrayLike,
+        stiffness: ArrayLike,
+        mass: ArrayLike,
+        *,
+        twist: ArrayLike = 0.0,
+        tension: ArrayLike = 0.0,
+        shear: ArrayLike = 0.0,
+        center: ArrayLike = 0.0,
+        axis: ArrayLike = 0.0,
+    ) -> Blade:
+        """Return a blade in space from a table of its sections, linear between its stations.
+
+        Axis 1 of a section is normal to it, 2 along the chord, 3 along the thickness. Rows of
+        a matrix are force and moment, or velocity and spin, each along axis 1, 2 and 3.
+
+        Parameters
+        ----------
+        x : array_like (stations,)
+            From the clamp, 0, to the tip [m].
+        stiffness : array_like (stations, 6) or (stations, 6, 6)
+            EA [N], GA2, GA3 [N], GJ, EI2 (flap) and EI3 (lag) [N m²], or matrices. A theory without
+            shear does not use GA2 and GA3: give EA where they are not known.
+        mass : array_like (stations, 4) or (stations, 6, 6)
+            m [kg/m], and j1 (torsion), j2 and j3 [kg m] about the center of mass, or matrices.
+        twist : array_like (stations,)
+            [rad], from the chord towards the thickness.
+        tension, shear, center : array_like (stations, 2)
+            (c2, c3) [m] of the centers of tension, shear and mass, about which columns are given,
+            from the axis of the table.
+        axis : array_like (stations, 2)
+            (c2, c3) [m] of the table's axis from the blade's line, by which matrices are moved.
+
+        Raises
+        ------
+        ValueError
+            If a matrix is not symmetric or not positive, or the stations do not ascend from 0.
+
+        Examples
+        --------
+        >>> from analytic import Blade, linear_modes
+        >>> stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]
+        >>> mass = [[8.0, 0.3, 0.02, 0.28], [4.0, 0.1, 0.01, 0.09]]
+        >>> blade = Blade.from_stations([0.0, 10.0], stiffness, mass, twist=[0.2, 0.0])
+        >>> linear_modes(blade.with_hub_radius(1.0), omega=6.0, count=2).frequencies.round(3)
+        array([5.356, 6.891])
+        """
+        at, angle = np.asarray(x, dtype=float).ravel(), np.asarray(twist, dtype=float)
+        S, M = np.asarray(stiffness, dtype=float), np.asarray(mass, dtype=float)
+        if S.ndim == 2:
+            S = stiffness_of(S, tension, shear)
+        if M.ndim == 2:
+            M = mass_of(M, center)
+        places = tuple(at.tolist())
+        section = StationSection(
+            x=places, stiffness=nested(moved(S, axis)), mass=nested(moved(M, axis))
+        )
+        turned = zip(places, np.broadcast_to(angle, at.shape).tolist(), strict=True)
+        return cls(length=places[-1], section=section, line=Line(twist=tuple(turned)))
 
     @property
     def blade(self) -> Blade:

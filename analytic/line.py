@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .description import Described
-from .input_checks import finite_number
+from .input_checks import finite_number, positive
 from .profiles import Profile, checked_profile, in_units
 
 Offset = tuple[float, float]
@@ -29,6 +29,20 @@ def scaled(offset: Offset, length: float) -> Offset:
     return offset[0] / length, offset[1] / length
 
 
+def _checked_kink(kink: Any) -> tuple[float, float, float]:
+    try:
+        x, about_chord, about_thickness = kink
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"a kink must be its place [m] and two angles [rad], got {kink!r}: as (5.0, 0.0, 0.3)"
+        ) from None
+    return (
+        positive("place of a kink", x, "m"),
+        finite_number("angle of a kink", about_chord, "rad"),
+        finite_number("angle of a kink", about_thickness, "rad"),
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class Line(Described):
     """The unloaded line of a blade, through its shear centers, and the sections along it.
@@ -43,6 +57,9 @@ class Line(Described):
         Curvatures of the unloaded line [1/m], about the chord and about the thickness.
     mass_offset, tension_offset : tuple
         (c2, c3) of the centers of mass and of tension [m].
+    kinks : tuple
+        Of each kink of the line its place [m], and its angles about the chord and the thickness
+        [rad], as prebend and sweep.
 
     Examples
     --------
@@ -58,6 +75,7 @@ class Line(Described):
     sweep: Profile = 0.0
     mass_offset: Offset = (0.0, 0.0)
     tension_offset: Offset = (0.0, 0.0)
+    kinks: tuple[tuple[float, float, float], ...] = ()
 
     def __post_init__(self) -> None:
         self._keep(
@@ -67,6 +85,7 @@ class Line(Described):
             precone=finite_number("precone", self.precone, "rad"),
             mass_offset=checked_offset("mass_offset", self.mass_offset),
             tension_offset=checked_offset("tension_offset", self.tension_offset),
+            kinks=tuple(map(_checked_kink, self.kinks)),
         )
 
     def in_units(self, length: float) -> Line:
@@ -78,6 +97,7 @@ class Line(Described):
             sweep=in_units(self.sweep, length, 1.0 / length),
             mass_offset=scaled(self.mass_offset, length),
             tension_offset=scaled(self.tension_offset, length),
+            kinks=tuple((x / length, a, b) for x, a, b in self.kinks),
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -91,6 +91,19 @@ class Section(Described):
     mass_per_length: Profile
     rotary_inertia: Profile | None = None
     out_of_plane: OutOfPlane | None = None
+
+    at_stations: ClassVar[bool] = False
+    """Whether 6x6 matrices tell stiffness and mass, so that the blade lives in space."""
+
+    @property
+    def knows_space(self) -> bool:
+        """Whether it is known how slices bend out of the plane, and twist."""
+        out = self.out_of_plane
+        return out is not None and out.torsion_ratio is not None
+
+    def with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Self:
+        """Return the section with these ratios out of the plane."""
+        return replace(self, out_of_plane=out_of_plane)
 
     def __post_init__(self) -> None:
         self._keep(**{name: checked_profile(name, p) for name, p in self.profiles().items()})

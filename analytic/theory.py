@@ -20,9 +20,10 @@ class Theory:
     ----------
     extension : bool
         Whether the axis stretches; False is the limit of the slenderness μ → 0.
-    shear : float, optional
+    shear : float or True, optional
         Shear stiffness over axial stiffness, k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the
-        blade, of Reissner's beam. None of a beam whose slices stay normal to the axis.
+        blade, of Reissner's beam. True takes that of a blade from stations, which tell it. None of
+        a beam whose slices stay normal to the axis.
     rotary_inertia : bool
         Whether slices have inertia against rotation in the plane: that of a homogeneous section,
         ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
@@ -47,7 +48,7 @@ class Theory:
     """
 
     extension: bool = True
-    shear: float | None = None
+    shear: float | None = None  # True is a number too
     rotary_inertia: bool = False
     trapeze: bool = True
 
@@ -56,7 +57,8 @@ class Theory:
             object.__setattr__(self, name, flag(name, getattr(self, name)))
         if self.shear is None:
             return
-        object.__setattr__(self, "shear", positive("shear", self.shear))
+        if self.shear is not True:
+            object.__setattr__(self, "shear", positive("shear", self.shear))
         if not self.extension:
             raise ValueError(
                 "extension=False is the limit of the slender beam, which does not shear either: "
@@ -74,6 +76,15 @@ class Theory:
         """Return μ = I/(AL²) of a blade, zero for a blade that does not stretch."""
         return beam.slenderness if self.extension else 0.0
 
+    def require_shear(self, beam: AnyBlade) -> None:
+        """Refuse a number for sections that tell their shear stiffness, and True for others."""
+        if self.shear is not None and (self.shear is True) != beam.section.at_stations:
+            raise ValueError(
+                f"shear = {self.shear} does not fit the blade: a blade from stations tells its "
+                "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
+                "Theory(shear=0.32)"
+            )
+
     def unit(self, beam: AnyBlade) -> UnitBlade:
         """Return a blade without dimensions, with the rotary inertia of its slices.
 
@@ -82,6 +93,7 @@ class Theory:
         ValueError
             If the section tells no rotary inertia, and has no one ρ/E to take it from.
         """
+        self.require_shear(beam)
         blade = beam.unit
         told = beam.section.rotary_inertia is not None
         if told or not self.rotary_inertia:

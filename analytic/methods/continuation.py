@@ -47,12 +47,15 @@ class Care(NamedTuple):
         Of a step that finds nothing.
     functions : int
         The most that are taken.
+    tail : float
+        Times `RESIDUAL_BOUND`, the residual that is left where kinks of the section cause one.
     """
 
     drift: float = 2e-11
     harmonics: int = 64
     halvings: int = 5
     functions: int = 128
+    tail: float = 1.0
 
 
 THOROUGH = Care()
@@ -74,9 +77,9 @@ def linear_orbit(system: S, shape: FloatArray, frequency: float, amplitude: floa
     return Orbit(system=system, amplitude=amplitude, frequency=frequency, coefficients=coefficients)
 
 
-def meets_the_equations(orbit: Orbit[Any]) -> bool:
+def meets_the_equations(orbit: Orbit[Any], care: Care) -> bool:
     """Return whether the functions suffice, by the residual on half as many again."""
-    return bool(orbit.residual <= RESIDUAL_BOUND)
+    return bool(orbit.residual <= care.tail * RESIDUAL_BOUND)
 
 
 @dataclass(kw_only=True)
@@ -120,7 +123,7 @@ class Path(Generic[S]):
         NoOrbitError
             If there is none, or none is found: where and why.
         """
-        while self.nodes[-1].amplitude < amplitude:
+        while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
         below = self.nodes[max(place - 1, 0)]
@@ -147,7 +150,7 @@ class Path(Generic[S]):
         NoOrbitError
             As `at` does.
         """
-        while self.nodes[-1].amplitude < amplitude:
+        while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend(amplitude)
         last = self.nodes[-1]
         return last if abs(last.amplitude - amplitude) < _SAME_AMPLITUDE else self.at(amplitude)
@@ -253,10 +256,10 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
         lacks = orbit.invariant_drift > care.drift + orbit.invariant_noise
         left = f"the Jacobi integral drifting by {orbit.invariant_drift:.1e}"
     if not lacks:
-        return None if meets_the_equations(orbit) else _on_more_functions(orbit, care)
+        return None if meets_the_equations(orbit, care) else _on_more_functions(orbit, care)
     last = orbit.harmonics >= care.harmonics
     nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
-    if last and nearly and meets_the_equations(orbit):
+    if last and nearly and meets_the_equations(orbit, care):
         return None
     larger = _on_more_harmonics(orbit, care.harmonics)
     if last or _too_large(larger):
@@ -274,7 +277,7 @@ def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "
-            f"{orbit.residual:.1e} only, not to {RESIDUAL_BOUND:g}",
+            f"{orbit.residual:.1e} only, not to {care.tail * RESIDUAL_BOUND:g}",
             remedy="no damping helps where functions are missing: smooth the steps of the section, "
             "or rotate slower",
         )

@@ -61,7 +61,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
-    [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m];
+    [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
+    [blade.stations], in place of length and section, the keywords of `Blade.from_stations`;
     [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
     and not of point masses, each zero where it is not given.
 
@@ -178,30 +179,45 @@ def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
 
 
 def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
-    _require_keys(
-        table, "[blade]", source, ("length", "section"),
-        ("hub_radius", "setting_angle", "point_mass", "damping", "line"),
-    )  # fmt: skip
-    _require_keys(
-        table["section"], "[blade.section]", source, _STIFFNESS[1:],
-        ("rotary_inertia", "out_of_plane", "shape"),
-    )  # fmt: skip
-    section, parts = dict(table["section"]), dict(table)
-    shape, masses = section.pop("shape", None), parts.pop("point_mass", [])
+    wanted = ("stations",) if "stations" in table else ("length", "section")
+    optional = ("hub_radius", "setting_angle", "point_mass", "damping", "line")
+    _require_keys(table, "[blade]", source, wanted, optional)
+    parts, line, shape = dict(table), table.get("line", {}), None
+    masses = parts.pop("point_mass", [])
     if not isinstance(masses, list):
         raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
-    if "out_of_plane" in section:
-        title = "[blade.section.out_of_plane]"
-        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
-        if shape is not None:
-            raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
-    parts["section"] = Section(**section)
+    if "stations" in table:
+        blade = _at_stations(parts.pop("stations"), source)
+        parts |= {"length": blade.length, "section": blade.section}
+        line = {"twist": blade.line.twist, **line}
+    else:
+        parts["section"], shape = _section(table["section"], source)
     parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
-    parts["line"] = _part(Line, table.get("line", {}), "[blade.line]", source)
+    parts["line"] = _part(Line, line, "[blade.line]", source)
     parts["point_masses"] = tuple(
         _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )
     return _shaped(Blade(**parts), shape)
+
+
+def _at_stations(table: dict[str, Any], source: Path) -> Blade:
+    known = ("twist", "tension", "shear", "center", "axis")
+    _require_keys(table, "[blade.stations]", source, ("x", "stiffness", "mass"), known)
+    return Blade.from_stations(**table)
+
+
+def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
+    """Return a section, and the table of its shape."""
+    optional = ("rotary_inertia", "out_of_plane", "shape")
+    _require_keys(table, "[blade.section]", source, _STIFFNESS[1:], optional)
+    section = dict(table)
+    shape = section.pop("shape", None)
+    if "out_of_plane" in section:
+        title = "[blade.section.out_of_plane]"
+        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
+        if shape is not None:
+            raise ValueError(f"{source} has {title} and a shape, which say the same: keep one")
+    return Section(**section), shape
 
 
 def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:

@@ -5,12 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from analytic.exact.beam.continuum import Continuum
 from analytic.exact.space.basis import StrainFunctions
 from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
 from analytic.exact.space.unit import SpaceUnit
+from analytic.exact.space.vectors import Frames
 from analytic.line import Line
 from analytic.theory import Theory
 
@@ -19,7 +21,7 @@ ALL = SpaceUnit(
     masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
     line=Line(
         twist=(0.0, 0.7, -0.2), precone=0.1, prebend=0.1, sweep=(0.05, 0.1),
-        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01),
+        mass_offset=(0.03, 0.02), tension_offset=(0.02, -0.01), kinks=((0.3, 0.2, -0.1),),
     ),
 )  # fmt: skip
 """All that a blade may have, but damping."""
@@ -78,7 +80,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(theory):
     model = space(replace(ALL, damping=(0.1, 0.05, 0.2)), theory)
     x, rng = states(model, 0.1), np.random.default_rng(3)
     w, w_dot = rng.normal(size=(2, 2))
-    push = rng.normal(size=(2, 3, 2, model.points.size)) * model.weights
+    push = rng.normal(size=(3, 3, 2, model.points.size)) * model.weights
     push[1] = push[1][..., :1]
     at, h = model.tangent(*x, w, w_dot, push), 1e-6
     for k, name in enumerate(("stiffness", "damping", "mass")):
@@ -164,6 +166,8 @@ def test_forces_are_the_slope_of_the_potential(theory):
     [
         ({"line": Line(twist=(0.0, 0.7)), "angle": 0.4}, "half turn"),
         ({"line": Line(precone=0.2, prebend=0.1, mass_offset=(0.0, 0.05))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.3, 0.0),))}, "mirror"),
+        ({"line": Line(precone=0.2, kinks=((0.5, 0.0, 0.3),))}, None),
         ({"line": Line(twist=(0.0, 0.7), precone=0.2)}, None),
         ({"line": Line(mass_offset=(0.05, 0.0))}, None),
     ],
@@ -185,3 +189,15 @@ def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd
         there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
         off = np.abs(there - sign * here).max()
         assert (off < 1e-12) == (odd is not None)
+
+
+@pytest.mark.parametrize("turns", [0.5, 1.0, 4.0])
+def test_frames_of_a_helix(turns):
+    """With constant curvatures the frame turns evenly about them, wound up by several turns too."""
+    model = space(SpaceUnit(flap=0.5, torsion=0.1), bending=12)
+    frames = Frames(model.functions.grid, np.array([0.5, 1.0]))
+    K = turns * np.array([0.5, -2.0, 3.0])
+    at, places = frames.of(np.broadcast_to(K[:, None, None], (3, 1, model.points.size)))
+    found = np.concatenate((at, places), axis=-1)[:, :, 0]
+    for x, R in zip([*model.points, 0.5, 1.0], np.moveaxis(found, -1, 0), strict=True):
+        assert pytest.approx(Rotation.from_rotvec(x * K).as_matrix(), abs=1e-12) == R

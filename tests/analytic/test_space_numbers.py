@@ -105,6 +105,27 @@ def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
     assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
 
 
+@pytest.mark.parametrize(
+    ("inertia", "known"),
+    [(False, [62.078, 305.481, 949.945, 1221.868]), (True, [62.035, 305.286, 948.202, 1214.672])],
+)
+def test_the_twisted_blade_of_carnegie(inertia, known):
+    """Carnegie (1959), rigid in torsion, without and with the inertia of its sections, in Hz."""
+    width, height, modulus = 0.0254, 0.0017272, 206.85e9
+    area, lag = width * height, width**3 * height / 12.0
+    strip = Beam.from_stiffness(
+        length=0.1524,
+        axial_stiffness=modulus * area,
+        bending_stiffness=modulus * lag,
+        mass_per_length=7857.6 * area,
+    )
+    ratio = (height / width) ** 2
+    blade = strip.with_section_out_of_plane(ratio, math.inf).with_twist(math.pi / 4.0)
+    theory = Theory(extension=False, trapeze=False, rotary_inertia=inertia)
+    found = linear_modes(blade, 0.0, 4, theory=theory).frequencies / (2.0 * math.pi)
+    assert found == pytest.approx(known, abs=6e-4)  # half the last digit
+
+
 def test_a_bar_under_tension_untwists_by_the_trapeze_effect_in_closed_form():
     """N k² θ'/(GJ + N k²) of a rigid bar with a heavy tip, whose tension is nearly constant."""
     blade = BLADE.with_tip_mass(1e3).with_twist(0.1)
@@ -175,22 +196,6 @@ def test_the_polar_inertia_of_a_taper_is_that_of_its_slices():
         blade = Blade(length=1.0, section=section).with_section_out_of_plane(0.0625, 0.08, polar)
         found.append(linear_modes(blade.with_setting_angle(0.3), 1.0, 7, theory=SOLID).frequencies)
     assert found[0] == pytest.approx(found[1], rel=1e-9)
-
-
-@pytest.mark.parametrize("polar", [None, 2e-4])
-def test_torsion_of_a_taper_by_the_plane_and_in_space(polar):
-    """Two derivations: L2 of `beam.space` about the plane, and the whole blade with a cone of 0."""
-    section = Section(
-        mass_per_length=[1.0, -0.5], axial_stiffness=[1e4, -4e3], bending_stiffness=[1.0, -0.6]
-    )
-    blade = Blade(length=1.0, section=section).with_section_out_of_plane(0.0625, 0.08, polar)
-    # In rotation flap's inertia of the sections, which L2 leaves out, has 2e-7 and, of the larger
-    # polar inertia, 7e-7: it goes with the square.
-    for w, apart in ((0.0, 1e-9), (4.0, 1e-6)):
-        found = linear_modes(blade.with_precone(1e-7), w, 14, theory=Theory())
-        torsion = np.sort(np.argsort(-found.shares[:, 2])[:2])
-        known = linear_modes(blade, w, 2, plane="torsion").frequencies
-        assert found.frequencies[torsion] == pytest.approx(known, rel=apart)
 
 
 def test_a_limp_coned_blade_lies_in_the_plane_of_rotation():

@@ -20,7 +20,7 @@ FLOORS = {
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
         {"profiles", "motion", "damping"},
         {"line", "section"},
-        {"point_mass"},
+        {"point_mass", "station_section"},
         {"unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shapes"},
         {"blade", "blade_functions"},

@@ -43,13 +43,18 @@ class AtConstantRate(Discretized):
     rate: float
     driven: ClassVar[bool] = False
 
+    @property
+    def push(self) -> FloatArray | None:
+        """The load, as `model.residual` takes it."""
+        return None
+
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate))
+        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate, push=self.push))
 
     def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate)
+        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate, push=self.push)
         return tangent
 
     def potential(self, q: FloatArray) -> FloatArray:
@@ -119,13 +124,8 @@ BeamOrbit = Orbit[SteadyBeam]
 """A periodic orbit of the beam."""
 
 
-def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
-    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
-    if model.slenderness > 0.0:
-        require_steady_state(beam, omega)
-    return omega / beam.frequency_scale
-
-
 def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:
     """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
-    return SteadyBeam(model, steady_rate(beam, omega, model))
+    if model.slenderness > 0.0:
+        require_steady_state(beam, omega)
+    return SteadyBeam(model, omega / beam.frequency_scale)

@@ -6,22 +6,23 @@ polynomials, in a frame without twist. Twist, kinks and steps of the section cau
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...profiles import evaluated, slope_of
 from ...quadrature import Grid
-from ...shape_functions import ShapeFunctions, shape_functions
+from ...shape_functions import shape_functions
 from ...theory import Theory
 from .unit import SpaceUnit
 from .vectors import about_axis
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
-_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
+_FEW = 6  # on each of many short cells, which turn less
+_MANY_CELLS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +138,8 @@ class StrainFunctions:
     @cached_property
     def grid(self) -> Grid:
         """Points at which fields are evaluated."""
-        return self.blade.grid(2 * self.bending, _MORE, _MOST_CELLS)
+        more = _MORE if self.blade.cells.size <= _MANY_CELLS else _FEW
+        return self.blade.grid(2 * self.bending, more, of_fields=True)
 
     @cached_property
     def viscosity(self) -> FloatArray:
@@ -165,74 +167,92 @@ class StrainFunctions:
         """Return the section's frame in that without twist, (3, 3, places)."""
         return about_axis(self.blade.angle + evaluated(self.blade.line.twist, x))
 
-    def _flexibility(self, x: FloatArray, power: float) -> FloatArray:
-        """Return a power of the flexibility against (κ2, κ3), (places, 2, 2)."""
-        EI3 = evaluated(self.blade.bending, x)
-        turned = self._turned(x)[1:, 1:]
-        own = np.stack((self.blade.flap * EI3, EI3)) ** -power
-        return np.asarray(np.einsum("ikp,kp,jkp->pij", turned, own, turned))
+    def _flexibility(self, x: FloatArray) -> FloatArray:
+        """Return strains over forces in the frame without twist, (places, 6, 6)."""
+        turned = np.zeros((x.size, 6, 6))
+        turned[:, :3, :3] = turned[:, 3:, 3:] = np.moveaxis(self._turned(x), -1, 0)
+        soft = self.blade.flexibility(x, self.theory, self.slenderness)
+        return np.asarray(turned @ soft @ np.swapaxes(turned, 1, 2))
 
-    def _moments(self, count: int) -> ShapeFunctions:
-        return shape_functions(self.blade, count * self.blade.panel_count)
+    def _forces(self, x: FloatArray) -> FloatArray:
+        """Return forces and moments in that frame, (places, 6, n), polynomials or mass times these.
+
+        Those of a family have one component; those of bending have M3 and M2 in turn.
+        """
+        blade, bending = self.blade, self.counts[0]
+        moments = shape_functions(blade, bending // 2)
+        result = np.zeros((x.size, 6, self.size))
+        result[:, 5, 0:bending:2] = result[:, 4, 1:bending:2] = moments.forces(x)
+        for rows, own in self._blocks[1:]:
+            if rows == [3]:
+                result[:, 3, own] = blade.torques(own.stop - own.start, x)
+            else:
+                along = shape_functions(blade, self.axial * blade.panel_count, "axial")
+                result[:, rows[0], own] = along.forces(x)
+        return result
+
+    @cached_property
+    def _blocks(self) -> list[tuple[list[int], slice]]:
+        """The components of the families that there are, and their coordinates."""
+        ends = np.cumsum((0, *self.families)).tolist()
+        kinds = zip(([4, 5], [3], [0], [1], [2]), pairwise(ends), strict=True)
+        return [(rows, slice(*ends)) for rows, ends in kinds if ends[1] > ends[0]]
 
     @cached_property
     def _own(self) -> tuple[FloatArray, FloatArray]:
-        """The triangular matrices that make bending and torsion orthonormal."""
+        """The matrix that makes each family orthonormal, and the stiffness of all, (n, n) each."""
         grid = self.blade.grid(2 * self.bending, 14)
-        root = np.sqrt(grid.weights)
-        bent = root[:, None, None] * self._bent(grid.points, 0.5)
-        flat = np.moveaxis(bent, 1, 0).reshape(-1, bent.shape[-1])
-        if not self.counts[1]:
-            return _triangle(flat), np.zeros((0, 0))
-        GJ = self.blade.torsion * evaluated(self.blade.bending, grid.points)
-        twisted = (root / np.sqrt(GJ))[:, None] * self._moments(self.torsion).forces(grid.points)
-        return _triangle(flat), _triangle(twisted)
+        soft = grid.weights[:, None, None] * self._flexibility(grid.points)
+        forces = self._forces(grid.points)
+        own = np.zeros((self.size, self.size))
+        for rows, block in self._blocks:
+            root = np.linalg.cholesky(soft[:, rows][:, :, rows])
+            columns = np.swapaxes(root, 1, 2) @ forces[:, rows, block]
+            own[block, block] = _triangle(columns.reshape(-1, columns.shape[-1]))
+        forces = forces @ own
+        stiffness = np.einsum("pik,pil->kl", forces, soft @ forces, optimize=True)
+        for _, block in self._blocks:
+            stiffness[block, block] = np.eye(block.stop - block.start)
+        return own, stiffness
 
-    def _bent(self, x: FloatArray, power: float) -> FloatArray:
-        """Return the flexibility times pairs of moments about d3 and d2, (places, 2, 2n)."""
-        forces, soft = self._moments(self.bending).forces(x), self._flexibility(x, power)
-        pairs = np.stack((soft[:, :, 1:] * forces[:, None], soft[:, :, :1] * forces[:, None]), -1)
-        return np.asarray(pairs.reshape(x.size, 2, -1))
+    @property
+    def stiffness(self) -> FloatArray:
+        """The elastic energy is ½ q·K q, (n, n): the identity where the section couples nothing."""
+        return self._own[1]
+
+    @cached_property
+    def damping(self) -> FloatArray:
+        """The viscous resistance to q̇, (n, n)."""
+        root = np.sqrt(self.viscosity)
+        return np.asarray(root[:, None] * self.stiffness * root)
 
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
-        blade, theory = self.blade, self.theory
-        bending, torsion, axial, shear = self.counts
-        gamma, K = np.zeros((2, 3, x.size, self.size))
-        bent, twisted = self._own
-        turned = self._turned(x)
-        K[1:, :, :bending] = np.moveaxis(self._bent(x, 1.0) @ bent, 1, 0)
-        EI3, EA = evaluated(blade.bending, x), evaluated(blade.axial, x)
-        if torsion:
-            GJ = blade.torsion * EI3[:, None]
-            K[0, :, bending : bending + torsion] = (
-                self._moments(self.torsion).forces(x) / GJ @ twisted
-            )
-        # The mean strain is that at the center of tension, (y, z) from the line.
-        y, z = blade.line.tension_offset
-        local = np.einsum("jip,jpk->ipk", turned, K)
-        gamma[0] = y * local[2] - z * local[1]
-        if axial or shear:
-            along = shape_functions(blade, self.axial * blade.panel_count, "axial").strain(x)
-            along = math.sqrt(self.slenderness) * along
-            start = bending + torsion
-            if axial:
-                gamma[0, :, start : start + axial] += along
-            if shear:
-                half, start = shear // 2, start + axial
-                across = along / math.sqrt(theory.shear or 1.0)
-                gamma[1, :, start : start + half] = gamma[2, :, start + half :] = across
+        blade, turned, soft = self.blade, self._turned(x), self._flexibility(x)
+        strains = np.moveaxis(soft @ (self._forces(x) @ self._own[0]), 1, 0).copy()
+        # Of bending about the center of tension, and of axial force there.
+        bends = np.linalg.inv(soft[:, 4:, 4:])
+        beside = soft[:, 0, 4:]
+        along = soft[:, 0, 0] - np.einsum("pi,pij,pj->p", beside, bends, beside)
+        k2 = np.trace(bends, axis1=1, axis2=2) * along
         bows = np.stack(
             (np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x))
         )
-        k2 = self.slenderness * (1.0 + blade.flap) * EI3 / EA
         return Strains(
-            gamma=gamma,
-            K=K,
+            gamma=strains[:3],
+            K=strains[3:],
             initial=np.einsum("ijp,jp->ip", turned, bows),
             twist=slope_of(blade.line.twist, x),
-            trapeze=k2 if theory.trapeze else np.zeros_like(x),
+            trapeze=k2 if self.theory.trapeze else np.zeros_like(x),
         )
+
+    @property
+    def kinks(self) -> list[tuple[float, FloatArray]]:
+        """Places and rotation vectors (3,) of the line's kinks, in the frame without twist."""
+        return [
+            (x, self._turned(np.array([x]))[:, 1:, 0] @ angles)
+            for x, *angles in self.blade.line.kinks
+        ]
 
     @cached_property
     def masses(self) -> Masses:
@@ -244,38 +264,20 @@ class StrainFunctions:
             else (np.empty(0), np.empty(0), np.empty(0), np.empty((0, 2)))
         )
         mass = evaluated(blade.mass, x)
-        j1, j2, j3 = weights * self._inertias(x, mass)
         places = np.concatenate((x, positions))
         turned = self._turned(places)
-        own = np.zeros((3, places.size))
-        own[1:] = np.concatenate((np.tile(blade.line.mass_offset, (x.size, 1)), centers)).T
-        none = np.zeros_like(inertias)
-        J = np.stack([np.concatenate(pair) for pair in ((j1, none), (j2, none), (j3, inertias))])
+        own, J = np.zeros((3, places.size)), np.zeros((3, 3, places.size))
+        own[:, : x.size], about = blade.inertia_about(x, self.theory, self.slenderness)
+        J[:, :, : x.size] = weights * about
+        own[1:, x.size :], J[2, 2, x.size :] = centers.T, inertias
         air = blade.damping[2]
         return Masses(
             places=places,
             mass=np.concatenate((weights * mass, lumped)),
             offset=np.einsum("ijp,jp->ip", turned, own),
-            inertia=np.einsum("ikp,kp,jkp->ijp", turned, J, turned),
-            drag=np.concatenate((air * weights, none)) if air else None,
+            inertia=np.einsum("ikp,klp,jlp->ijp", turned, J, turned),
+            drag=np.concatenate((air * weights, np.zeros_like(lumped))) if air else None,
         )
-
-    def _inertias(self, x: FloatArray, mass: FloatArray) -> FloatArray:
-        """Return j1, j2, j3 of the slices, (3, places)."""
-        blade, theory = self.blade, self.theory
-        solid = mass * evaluated(blade.bending, x) / evaluated(blade.axial, x)
-        told = evaluated(blade.rotary, x)
-        if blade.told_rotary:
-            j3 = told
-        elif theory.rotary_inertia or theory.trapeze:
-            # A polar inertia that is told is parted as 1 to r.
-            own = self.slenderness if blade.polar is None else blade.polar / (1.0 + blade.flap)
-            j3 = own * solid
-        else:
-            j3 = np.zeros_like(x)
-        j2 = blade.flap * j3
-        polar = j2 + j3 if blade.polar is None or not j3.any() else blade.polar * solid
-        return np.stack((polar, j2, j3))
 
 
 def _triangle(columns: FloatArray) -> FloatArray:

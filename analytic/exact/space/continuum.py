@@ -53,7 +53,7 @@ class SpaceContinuum:
         self.points, self.weights = grid.points, grid.weights
         self.inner = grid.integral(grid.points)
         self.outer = grid.integral(masses.places)
-        self._frames = Frames(grid, masses.places)
+        self._frames = Frames(grid, masses.places, functions.kinks)
         self.masses = masses
         self.strains = functions.at(grid.points)
         self.outboard = {
@@ -64,16 +64,16 @@ class SpaceContinuum:
     def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
         own = self.strains
-        K = own.initial[:, None] + np.einsum("ipk,sk->isp", own.K, q)
-        gamma = np.einsum("ipk,sk->isp", own.gamma, q)
+        K = own.initial[:, None] + q @ own.K.swapaxes(1, 2)
+        gamma = q @ own.gamma.swapaxes(1, 2)
         gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
         return gamma, K
 
     def _rates(self, K: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
         own = self.strains
-        change = np.einsum("ipk,sk->isp", own.K, q_dot)
-        gamma = np.einsum("ipk,sk->isp", own.gamma, q_dot)
+        change = q_dot @ own.K.swapaxes(1, 2)
+        gamma = q_dot @ own.gamma.swapaxes(1, 2)
         gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
         return gamma, change
 
@@ -153,11 +153,11 @@ class SpaceContinuum:
                 motion.total_spin, self.inertia(at, motion.total_spin)
             )
         force = -pulled @ self.outer
+        couple = -(rotary + cross(at.offset_m, pulled)) @ self.outer
         if self.masses.drag is not None:
             force = force - (self.masses.drag * motion.velocity_m) @ self.outer
         if push is not None:
-            force = force + push[0]
-        couple = -(rotary + cross(at.offset_m, pulled)) @ self.outer
+            force, couple = force + push[0], couple + push[2]
         moment = cross(at.slope, force) @ self.inner + couple
         return pulled, force, moment
 
@@ -172,8 +172,8 @@ class SpaceContinuum:
     ) -> FloatArray:
         """Return the virtual work (samples, n) of all forces on the basis functions.
 
-        A `push` (2, 3, samples, points) is the load beyond each Gauss point, times its weight, and
-        the acceleration that another one gives to all masses.
+        A `push` (3, 3, samples, points) is the load beyond each Gauss point, times its weight, the
+        acceleration that another one gives to all masses, and the couple beyond each point.
         """
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
@@ -186,9 +186,9 @@ class SpaceContinuum:
         own = self.strains
         inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
         inner_moment[0] -= own.trapeze * (at.K[0] + own.twist) * inner_force[0]
-        work = np.einsum("isp,ipk->sk", inner_moment, own.K)
-        work += np.einsum("isp,ipk->sk", inner_force, own.gamma)
-        return np.asarray(q + q_dot * self.functions.viscosity - work)
+        work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
+        held = q @ self.functions.stiffness + q_dot @ self.functions.damping
+        return np.asarray(held - work)
 
     def tangent(
         self,
@@ -206,9 +206,8 @@ class SpaceContinuum:
         change = Changes(self, at, motion, *self._clamp(rate, rate_dot)[:2])
         mass, damping, stiffness = change.matrices()
         stiffness += change.geometric(pulled, force, moment)
-        n = self.size
-        stiffness[:, range(n), range(n)] += 1.0
-        damping[:, range(n), range(n)] += self.functions.viscosity
+        stiffness += self.functions.stiffness
+        damping += self.functions.damping
         residual = self._work(at, q, q_dot, force, moment)
         return Tangent(residual, stiffness, damping, mass)
 
@@ -262,7 +261,7 @@ class SpaceContinuum:
         """
         cone = self.blade.line.precone
         parts = (math.cos(cone) * force.real, force.imag, -math.sin(cone) * force.real)
-        result = np.zeros((2, 3, force.size, self.points.size))
+        result = np.zeros((3, 3, force.size, self.points.size))
         if acts_on == "mass":
             result[1] = np.stack(parts)[..., None]
         else:
@@ -287,7 +286,10 @@ class SpaceContinuum:
         W, _, hub = self._clamp(rate, 0.0)
         carried = cross(W, hub + at.place_m + at.offset_m)
         spin = np.broadcast_to(W, carried.shape)
-        return np.asarray(0.5 * np.sum(q**2, axis=-1) - 0.5 * self._energy(at, carried, spin))
+        return np.asarray(
+            0.5 * np.sum(q * (q @ self.functions.stiffness), axis=-1)
+            - 0.5 * self._energy(at, carried, spin)
+        )
 
     def _energy(self, at: State, velocity: FloatArray, spin: FloatArray) -> FloatArray:
         energy = np.sum(velocity**2, axis=0) @ self.masses.mass

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_blade, require_steady_state, warn_if_rpm
-from ...input_checks import points_of_beam, rotation_speed
+from ...beam import AnyBlade, require_blade, require_steady_state
 from ...methods.system import Tangent
-from ...settled import refined, settled
-from ...theory import BERNOULLI_EULER, Theory, require_theory
-from ...threads import one_thread
+from ...settled import refined
+from ...theory import Theory, require_theory
 from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
@@ -26,7 +24,6 @@ FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
 MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
-_SETTLED = 1e-9  # change of the steady state, over the length
 _LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
 _SHORTEST = 1e-3
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
@@ -41,7 +38,7 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
         If the stiffness out of the plane, or in torsion, is not known.
     """
     require_section(beam)
-    require_theory(theory)
+    require_theory(theory).require_shear(beam)
     unit = space_unit(beam)
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(
@@ -63,15 +60,13 @@ def lives_in_space(beam: AnyBlade) -> bool:
     """
     require_blade(beam)
     blade = beam.blade
-    known = blade.section.out_of_plane
-    turned = blade.setting_angle != 0.0 and known is not None and known.torsion_ratio is not None
+    turned = blade.setting_angle != 0.0 and blade.section.knows_space
     return turned or not blade.is_planar
 
 
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
-    known = beam.blade.section.out_of_plane
-    if known is None or known.torsion_ratio is None:
+    if not beam.blade.section.knows_space:
         raise ValueError(
             "a blade with twist, precone, prebend, sweep, offsets or a setting angle bends out of "
             "its plane and twists: give its stiffness there by "
@@ -91,14 +86,26 @@ class SpaceBlade(AtConstantRate):
         w̄ = ω/√(EI3/mL³).
     direction : tuple
         Direction of the gauge, the tip's place from the steady state, in the root frame.
-    coarser : SpaceBlade, optional
-        The same on fewer functions, from whose steady state this one's is found.
+    near : ndarray (n,), optional
+        Coordinates from which the steady state is found; from rest by default.
+    load : tuple
+        Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
     """
 
     model: SpaceContinuum
     rate: float
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    coarser: SpaceBlade | None = None
+    near: FloatArray | None = None
+    load: tuple[tuple[float, ...], ...] = ()
+
+    @cached_property
+    def push(self) -> FloatArray | None:
+        """The load, as `model.residual` takes it."""
+        if not self.load:
+            return None
+        result = np.zeros((3, 3, 1, self.model.points.size))
+        result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
+        return result
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -124,26 +131,52 @@ class SpaceBlade(AtConstantRate):
         ValueError
             If it ends, or becomes unstable, at a lower speed.
         """
-        if self.coarser is not None:
-            near = self.coarser.model.padded(self.coarser.equilibrium, self.model)
-            if (found := _newton(self.model, near, self.rate)) is not None:
-                return found
-        q, rate, step = np.zeros(self.size), 0.0, min(_LONGEST, self.rate or _LONGEST)
+        found = None if self.near is None else self._newton(self.near, 1.0)
+        if found is not None:
+            return found
+        unit = self.model.functions.blade
+        # A straight blade stays straight, and nothing is to be followed.
+        straight = unit.half_turn and unit.mirrored and not self.load
+        whole = max(self.rate / _LONGEST, self._loaded)
+        q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
+        step = longest = 1.0 / max(whole, 1.0)
         while True:
-            found = _newton(self.model, q, rate)
+            found = self._newton(q, share)
             if found is not None:
-                q = found
-                if rate >= self.rate:
-                    return q
-                reached, step = rate, min(1.5 * step, _LONGEST)
-            elif rate == 0.0 or step < _SHORTEST:
+                if share == 1.0:
+                    return found
+                q, reached, step = found, share, min(1.5 * step, longest)
+            elif share == 0.0 or step < _SHORTEST * longest:
+                load = f" and at {share:.4g} of the load" if self.load else ""
                 raise ValueError(
-                    f"the steady state ends or becomes unstable at w_bar = {rate:.4g}, before "
-                    f"w_bar = {self.rate:.4g}: rotate slower"
+                    f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
+                    f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
                 )
             else:
                 step *= 0.5
-            rate = min(reached + step, self.rate)
+            share = min(reached + step, 1.0)
+
+    @property
+    def _loaded(self) -> float:
+        """Angle by which the load bends or twists the softest section's blade, about."""
+        own = self.model.functions
+        soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]
+        return float(np.sum(np.abs(self.load)) * np.trace(soft, axis1=1, axis2=2).max())
+
+    def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
+        """Return the state near `q` (n,) at shares of speed and load; None if lost, or unstable."""
+        still, rate = np.zeros((1, self.size)), share * self.rate
+        push = None if self.push is None else share * self.push
+        # A moment that keeps its direction has no potential.
+        values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
+        for _ in range(_STEPS):
+            tangent = self.model.tangent(q[None], still, still, rate, push=push)
+            change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
+            q = q - change
+            if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
+                stable = values(tangent.stiffness[0]).real.min() > 0.0
+                return q if stable else None
+        return None
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's place along the direction, relative to the steady state, (samples,)."""
@@ -163,7 +196,9 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def _finer(self) -> SpaceBlade:
-        return SpaceBlade(self.model.refined(), self.rate, self.direction, self)
+        finer = self.model.refined()
+        near = self.model.padded(self.equilibrium, finer)
+        return replace(self, model=finer, near=near)
 
     @cached_property
     def tip(self) -> FloatArray:
@@ -182,97 +217,8 @@ def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
     return refined(first, SpaceBlade.refined, lambda one: one.functions > MOST_FUNCTIONS)
 
 
-def _newton(model: SpaceContinuum, q: FloatArray, rate: float) -> FloatArray | None:
-    """Return the steady state near `q` (n,); None if it is not found, or unstable."""
-    still = np.zeros((1, model.size))
-    for _ in range(_STEPS):
-        tangent = model.tangent(q[None], still, still, rate)
-        change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
-        q = q - change
-        if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-            stable = np.linalg.eigvalsh(tangent.stiffness[0])[0] > 0.0
-            return q if stable else None
-    return None
-
-
 def space_rotation(beam: AnyBlade, omega: float, model: SpaceContinuum) -> SpaceBlade:
     """Return the blade in steady rotation at ω [rad/s], refusing a speed that tears it."""
     if model.functions.theory.extension:
         require_steady_state(beam, omega)
     return SpaceBlade(model, omega / beam.frequency_scale)
-
-
-@dataclass(frozen=True, kw_only=True)
-class SteadyState:
-    """The steady state of a blade in rotation; made by `steady_state`.
-
-    Attributes
-    ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    theory : Theory
-    tip : ndarray (3,)
-        Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
-        normal to both, up; the precone tilts the first and the last.
-    error : float
-        Its change over the length by the last refinement.
-    """
-
-    blade: AnyBlade
-    omega: float
-    theory: Theory
-    tip: FloatArray
-    error: float
-    _steady: SpaceBlade
-
-    def axis(self, x: ArrayLike) -> FloatArray:
-        """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
-        at = points_of_beam("x", x, self.blade.length)
-        return np.asarray(
-            self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
-        )
-
-
-@one_thread
-def steady_state(blade: AnyBlade, omega: float, *, theory: Theory = BERNOULLI_EULER) -> SteadyState:
-    """Return the steady state of a blade in rotation, straight, bent or twisted.
-
-    Followed from rest in steps of the speed; functions are added until the tip settles.
-
-    Parameters
-    ----------
-    blade : Blade
-        With the stiffness of its section out of the plane.
-    omega : float
-        Rotation speed ω [rad/s].
-    theory : Theory
-        Extension, shear, rotary inertia, trapeze effect.
-
-    Raises
-    ------
-    ValueError
-        If the section out of the plane is not known, or the state ends or becomes unstable at a
-        lower speed.
-
-    Examples
-    --------
-    >>> from analytic import Beam, steady_state
-    >>> blade = Beam.reference().with_section_out_of_plane(0.0625, 0.08).with_precone(0.1)
-    >>> print(steady_state(blade, omega=6.0).tip[[0, 2]].round(4))
-    [ 7.9632 -0.7596]
-    """
-    omega = rotation_speed(omega)
-    warn_if_rpm(blade, omega)
-    first = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
-    _, steady, error = settled(lambda one: one, finer_blades(first), _SETTLED, lambda one: one.tip)
-    if error > _SETTLED:
-        raise ValueError(
-            f"the steady state at omega = {omega:g} rad/s has not settled with "
-            f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "
-            "L; rotate slower"
-        )
-    return SteadyState(
-        blade=blade, omega=omega, theory=theory, tip=blade.length * steady.tip, error=error,
-        _steady=steady,
-    )  # fmt: skip

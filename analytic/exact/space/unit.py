@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...line import STRAIGHT, Line, Offset, scaled
-from ...profiles import Profile
+from ...profiles import Profile, evaluated
+from ...shape_functions import shape_functions
+from ...station_section import StationSection
+from ...theory import Theory
 from ...unit_blade import UnitBlade
+from .vectors import Frames, about_axis, turned
+
+_POINTS = 40  # on each panel, for the unloaded line
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,11 +50,64 @@ class SpaceUnit(UnitBlade):
     told_rotary: bool = False
     body_offsets: tuple[Offset, ...] = ()
 
+    @cached_property
+    def panels(self) -> FloatArray:
+        """Ends of the panels between point masses and kinks, 0 to 1."""
+        return np.union1d(super().panels, [x for x, *_ in self.line.kinks])
+
+    @property
+    def tolerance(self) -> float:
+        """Change by a refinement at which frequencies, and places over the length, have settled."""
+        return 1e-9
+
     @property
     def profiles(self) -> tuple[Profile, ...]:
         """Profiles along the blade."""
         line = self.line
         return (*super().profiles, line.twist, line.prebend, line.sweep)
+
+    @property
+    def tail(self) -> float:
+        """How many times the residual of an orbit may be that of smooth sections."""
+        return 1.0
+
+    def torques(self, count: int, x: FloatArray) -> FloatArray:
+        """Return the torques at `x` from which functions for κ1 are made, (places, count)."""
+        return shape_functions(self, count).forces(x)
+
+    def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
+        """Return the inverse of the stiffness in axes of the section, (places, 6, 6).
+
+        Strains over forces in the order ε, γ2, γ3, κ1, κ2, κ3; what a theory keeps rigid is zero.
+        """
+        EI3, EA = evaluated(self.bending, x), evaluated(self.axial, x) / slenderness
+        soft = np.zeros((x.size, 6))
+        soft[:, 0] = 1.0 / EA
+        if theory.shear is not None:
+            soft[:, 1] = soft[:, 2] = 1.0 / (theory.shear * EA)
+        soft[:, 3:] = 1.0 / np.outer(EI3, [self.torsion, self.flap, 1.0])
+        # The mean strain is that at the center of tension.
+        onto = np.eye(6)
+        onto[0, 5], onto[0, 4] = self.line.tension_offset[0], -self.line.tension_offset[1]
+        return np.asarray(onto * soft[:, None] @ onto.T)
+
+    def inertia_about(
+        self, x: FloatArray, theory: Theory, slenderness: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the centers of mass (3, places) from the line, and j about them (3, 3, places)."""
+        mass = evaluated(self.mass, x)
+        solid = mass * evaluated(self.bending, x) / evaluated(self.axial, x)
+        if self.told_rotary:
+            j3 = evaluated(self.rotary, x)
+        elif theory.rotary_inertia or theory.trapeze:
+            # A polar inertia that is told is parted as 1 to r.
+            j3 = (slenderness if self.polar is None else self.polar / (1.0 + self.flap)) * solid
+        else:
+            j3 = np.zeros_like(x)
+        j2 = self.flap * j3
+        polar = j2 + j3 if self.polar is None or not j3.any() else self.polar * solid
+        center = np.outer((0.0, *self.line.mass_offset), np.ones_like(x))
+        return center, np.stack((polar, j2, j3)) * np.eye(3)[:, :, None]
 
     @property
     def twists(self) -> bool:
@@ -64,6 +125,19 @@ class SpaceUnit(UnitBlade):
         cone = self.line.precone
         return self.hub * np.array([math.cos(cone), 0.0, -math.sin(cone)])
 
+    def unloaded(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the unloaded line at `x`, (places, 3), and its sections' axes (places, 3, 3).
+
+        From the clamp and over L, in the root frame; axes in columns.
+        """
+        line, grid = self.line, self.grid(_POINTS, 0)
+        angle, angle_x = (self.angle + evaluated(line.twist, at) for at in (grid.points, x))
+        bows = np.stack([evaluated(one, grid.points) for one in (0.0, line.prebend, line.sweep)])
+        frame, frame_x = Frames(grid, x).of(turned(about_axis(angle), bows)[:, None])
+        place = grid.integral(x) @ frame[:, 0, 0].T
+        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], about_axis(angle_x))
+        return place, sections
+
     @property
     def bodies(self) -> list[tuple[float, float, float, Offset]]:
         """Position, mass, inertia and offset of each point mass."""
@@ -78,7 +152,7 @@ class SpaceUnit(UnitBlade):
         """Whether a half turn about the blade maps its motions onto motions in reversed time."""
         line = self.line
         straight = line.precone == 0.0 and line.prebend == 0.0 and line.sweep == 0.0
-        return straight and not any(any(one) for one in self._offsets)
+        return straight and not line.kinks and not any(any(one) for one in self._offsets)
 
     @property
     def mirrored(self) -> bool:
@@ -88,23 +162,96 @@ class SpaceUnit(UnitBlade):
         """
         line = self.line
         straight = line.twist == 0.0 and line.sweep == 0.0 and self.angle == 0.0
-        return straight and not any(one[0] for one in self._offsets)
+        across = (*(kink[2] for kink in line.kinks), *(one[0] for one in self._offsets))
+        return straight and not any(across)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StationUnit(SpaceUnit):
+    """A blade in space without dimensions, of 6x6 matrices.
+
+    Attributes
+    ----------
+    section : StationSection
+        In units of L, m0 and EI3 at the root.
+    """
+
+    section: StationSection
+
+    @property
+    def tolerance(self) -> float:
+        """As that of other blades; kinks of the centers of mass leave an algebraic tail."""
+        return 1e-7 if self.section.has_kinks_in_mass else 1e-9
+
+    @property
+    def profiles(self) -> tuple[Profile, ...]:
+        """Profiles along the blade."""
+        return (*super().profiles, *self.section.diagonal(0))
+
+    @property
+    def tail(self) -> float:
+        """More where forces in the frame of a section, which bends by kinks, have kinks too."""
+        return 20.0 if len(self.section.x) > 2 else 1.0
+
+    def torques(self, count: int, x: FloatArray) -> FloatArray:
+        """Return integrals of polynomials times the inertia against torsion, if there is one."""
+        inertia = self.section.diagonal(1)[3]
+        if min(value for _, value in inertia) <= 0.0:
+            return super().torques(count, x)
+        return shape_functions(replace(self, mass=inertia), count, "axial").forces(x)
+
+    def flexibility(self, x: FloatArray, theory: Theory, slenderness: float) -> FloatArray:
+        """Return the inverse of the stiffness, (places, 6, 6); a theory leaves forces out."""
+        del theory, slenderness
+        return np.asarray(np.linalg.inv(self.section.matrices(x)[0]))
+
+    def inertia_about(
+        self, x: FloatArray, theory: Theory, slenderness: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the centers of mass (3, places), and the inertia about them (3, 3, places)."""
+        del theory, slenderness
+        mass = self.section.matrices(x)[1]
+        carried = mass[:, 3:, :3] / mass[:, :1, :1]  # c ×
+        center = np.stack((carried[:, 2, 1], carried[:, 0, 2], carried[:, 1, 0]))
+        about = mass[:, 3:, 3:] + mass[:, :1, :1] * carried @ carried
+        return center, np.moveaxis(about, 0, -1)
+
+    @property
+    def twists(self) -> bool:
+        """True: the matrices tell GJ."""
+        return True
+
+    @property
+    def half_turn(self) -> bool:
+        """Whether a half turn about the blade maps its motions onto motions in reversed time."""
+        return super().half_turn and not self.section.couples((0, 3), (1, 2, 4, 5))
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the mirror through the blade and the axis of rotation does so."""
+        return super().mirrored and not self.section.couples((1, 3, 5), (0, 2, 4))
 
 
 def space_unit(beam: AnyBlade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
     blade = beam.blade
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
-    assert out is not None
+    common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
+    common |= {
+        "angle": blade.setting_angle,
+        "line": blade.line.in_units(length),
+        "body_offsets": tuple(scaled(one.offset, length) for one in blade.point_masses),
+    }
+    if out is None:
+        mass, time = blade.mass_per_length * length, 1.0 / blade.frequency_scale
+        section: Any = blade.section.in_units(length, mass, time)
+        return StationUnit(**common, section=section)
     assert out.torsion_ratio is not None
     polar = out.polar_inertia
     return SpaceUnit(
-        **{field.name: getattr(unit, field.name) for field in fields(unit)},
-        angle=blade.setting_angle,
-        line=blade.line.in_units(length),
+        **common,
         flap=out.bending_ratio,
         torsion=out.torsion_ratio,
         polar=None if polar is None else polar / (blade.mass_per_length * length**2),
         told_rotary=blade.section.rotary_inertia is not None,
-        body_offsets=tuple(scaled(one.offset, length) for one in blade.point_masses),
     )

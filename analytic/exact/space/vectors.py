@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...quadrature import Grid
+
+_PICARD, _SETTLED = 40, 2e-15  # iterations at most, and the change after which the next is less
+_WOUND = 4.0  # ∫|K|dx of a cell
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -62,8 +68,8 @@ def frames(quaternion: FloatArray) -> FloatArray:
 class Frames:
     """Solution of R' = R K̂, R(0) = 1, on the cells of a grid, and at places on it.
 
-    Unit quaternions obey Q' = ½ Q ∘ (0, K), which is linear: one linear system on each cell, by
-    collocation at its Gauss points, and the product of the cells before.
+    Unit quaternions obey Q' = ½ Q ∘ (0, K): collocation at the Gauss points of each cell, and the
+    product of the cells before.
 
     Parameters
     ----------
@@ -71,15 +77,22 @@ class Frames:
         On whose points the curvatures are given.
     places : ndarray (places,)
         Further material points at which the frames are wanted.
+    kinks : list
+        Ends of cells, and rotation vectors (3,) by which the frame jumps there.
     """
 
-    def __init__(self, grid: Grid, places: FloatArray) -> None:
+    def __init__(
+        self, grid: Grid, places: FloatArray, kinks: Sequence[tuple[float, FloatArray]] = ()
+    ) -> None:
         self._grid, self._places = grid, places
         self._cell = np.clip(
             np.searchsorted(grid.ends, places, side="right") - 1, 0, grid.counts.size - 1
         )
         # Integrals from the start of each cell, to its own points, to its end, and to the places.
         inside = grid.integral(np.concatenate((grid.points, grid.ends[1:], places)))
+        self._kinks = {
+            int(np.argmin(np.abs(grid.ends - x))) - 1: _quaternion(vector) for x, vector in kinks
+        }
         self._parts = []
         first = 0
         for k, count in enumerate(grid.counts.tolist()):
@@ -111,31 +124,46 @@ class Frames:
             at[:, :, own] = here[:, :, :count]
             extra[:, :, self._cell == k] = here[:, :, count + 1 :]
             before = here[:, :, count : count + 1]
+            if k in self._kinks:
+                before = product(before, self._kinks[k])
         return frames(at), frames(extra)
 
 
+def _quaternion(vector: FloatArray) -> FloatArray:
+    """Return the quaternion (4, 1, 1) of a rotation vector (3,)."""
+    half = 0.5 * float(np.linalg.norm(vector))
+    # sin(x)/x, of numpy in units of π.
+    return np.array([math.cos(half), *(0.5 * np.sinc(half / math.pi) * vector)])[:, None, None]
+
+
 def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
-    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell."""
-    _, samples, count = curvature.shape
+    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell.
+
+    As u + vj with complex u and v. Picard's iteration finds the collocated solution itself: on one
+    cell its errors fall as the terms of exp(|K|/2). Beyond a turn or so round-off grows as that.
+    """
     k1, k2, k3 = 0.5 * curvature
-    none = np.zeros_like(k1)
-    # ½ Q ∘ (0, K) as a matrix on Q.
-    matrix = np.stack(
-        [
-            np.stack(row, axis=-1)
-            for row in ((none, -k1, -k2, -k3), (k1, none, k3, -k2), (k2, -k3, none, k1),
-                        (k3, k2, -k1, none))
-        ],
-        axis=-2,
-    )  # fmt: skip
-    system = -np.einsum("ij,sjab->siajb", integral[:count], matrix).reshape(
-        samples, 4 * count, 4 * count
-    )
-    system[:, range(4 * count), range(4 * count)] += 1.0
-    start = np.zeros((4 * count, 1))
-    start[::4] = 1.0
-    inside = np.linalg.solve(system, np.broadcast_to(start, (samples, 4 * count, 1)))
-    rates = np.einsum("sjab,sjb->sja", matrix, inside.reshape(samples, count, 4))
-    result: FloatArray = np.einsum("ij,sja->asi", integral, rates)
-    result[0] += 1.0
-    return result
+    turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.T.astype(np.complex128)
+    count = len(onto)
+    found = np.zeros((2, *k1.shape), dtype=np.complex128)
+    found[0] = 1.0
+
+    def rates(of: ComplexArray) -> ComplexArray:
+        u, v = of
+        return np.stack((u * turn - v * bend.conj(), u * bend - v * turn))
+
+    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=0).max() > _WOUND:
+        parts = [[turn, -bend.conj()], [bend, -turn]]
+        system = np.block([[-one[:, None] * integral[:count] for one in row] for row in parts])
+        system += np.eye(2 * count)
+        begin = np.repeat([1.0, 0.0], count)[:, None]
+        solved = np.linalg.solve(system, np.broadcast_to(begin, (len(k1), 2 * count, 1)))
+        found = np.moveaxis(solved.reshape(len(k1), 2, count), 1, 0)
+    else:
+        for _ in range(_PICARD):
+            last, found = found, rates(found) @ onto[:, :count]
+            found[0] += 1.0
+            if np.abs(found - last).max(initial=0.0) < _SETTLED:
+                break
+    u, v = rates(found) @ onto
+    return np.stack((1.0 + u.real, u.imag, v.real, v.imag))

@@ -1,0 +1,125 @@
+"""The steady state of a blade in space, in rotation or under a load at its tip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import FloatArray
+from ...beam import AnyBlade, warn_if_rpm
+from ...input_checks import finite_array, points_of_beam, rotation_speed
+from ...settled import settled
+from ...theory import BERNOULLI_EULER, Theory
+from ...threads import one_thread
+from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadyState:
+    """The steady state of a blade in rotation; made by `steady_state`.
+
+    Attributes
+    ----------
+    blade : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    theory : Theory
+    force, moment : tuple
+        At the tip [N], [N m].
+    tip : ndarray (3,)
+        Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
+        normal to both, up; the precone tilts the first and the last.
+    error : float
+        Its change over the length by the last refinement.
+    """
+
+    blade: AnyBlade
+    omega: float
+    theory: Theory
+    force: tuple[float, ...]
+    moment: tuple[float, ...]
+    tip: FloatArray
+    error: float
+    _steady: SpaceBlade
+
+    def axis(self, x: ArrayLike) -> FloatArray:
+        """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
+        at = points_of_beam("x", x, self.blade.length)
+        return np.asarray(
+            self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
+        )
+
+
+def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:
+    found = finite_array(name, value, unit)
+    if found.shape != (3,):
+        raise ValueError(
+            f"{name} must be three numbers [{unit}], got {value!r}: as (0.0, 0.0, 1.0)"
+        )
+    return tuple(found.tolist())
+
+
+@one_thread
+def steady_state(
+    blade: AnyBlade,
+    omega: float,
+    *,
+    force: ArrayLike = (0.0, 0.0, 0.0),
+    moment: ArrayLike = (0.0, 0.0, 0.0),
+    theory: Theory = BERNOULLI_EULER,
+) -> SteadyState:
+    """Return the steady state of a blade in rotation, or at rest under a load at its tip.
+
+    Followed from rest in steps of the speed and the load; functions are added until the tip
+    settles.
+
+    Parameters
+    ----------
+    blade : Blade
+        With the stiffness of its section out of the plane.
+    omega : float
+        Rotation speed ω [rad/s].
+    force, moment : array_like (3,)
+        On the tip [N], [N m]; in the root frame, as `tip`, they keep their directions.
+    theory : Theory
+        Extension, shear, rotary inertia, trapeze effect.
+
+    Raises
+    ------
+    ValueError
+        If the section out of the plane is not known, or the state ends or becomes unstable at a
+        lower speed.
+
+    Examples
+    --------
+    >>> from analytic import Beam, steady_state
+    >>> blade = Beam.reference().with_section_out_of_plane(0.0625, 0.08).with_precone(0.1)
+    >>> print(steady_state(blade, omega=6.0).tip[[0, 2]].round(4))
+    [ 7.9632 -0.7596]
+    """
+    omega = rotation_speed(omega)
+    warn_if_rpm(blade, omega)
+    force, moment = (
+        _vector(name, value, unit)
+        for name, value, unit in (("force", force, "N"), ("moment", moment, "N m"))
+    )
+    first = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
+    if any((*force, *moment)):
+        EI, L = blade.bending_stiffness, blade.length
+        load = tuple(f * L**2 / EI for f in force), tuple(m * L / EI for m in moment)
+        first = replace(first, load=load)
+    tolerance = first.model.functions.blade.tolerance
+    _, steady, error = settled(lambda one: one, finer_blades(first), tolerance, lambda one: one.tip)
+    if error > tolerance:
+        raise ValueError(
+            f"the steady state at omega = {omega:g} rad/s has not settled with "
+            f"{steady.functions} functions: the last refinement moves the tip by {error:.1e} "
+            "L; rotate slower"
+        )
+    return SteadyState(
+        blade=blade, omega=omega, theory=theory, force=force, moment=moment,
+        tip=blade.length * steady.tip, error=error,
+        _steady=steady,
+    )  # fmt: skip

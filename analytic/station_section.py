@@ -1,0 +1,227 @@
+"""A section by its 6x6 matrices of stiffness and mass at stations along the blade.
+
+Forces N, Q2, Q3, M1, M2, M3 and strains ε, γ2, γ3, κ1, κ2, κ3 stand in this order: axis 1 along the
+blade, 2 along the chord and 3 along the thickness of the section.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar, Never
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import FloatArray
+from .input_checks import finite_array
+from .profiles import Profile
+from .section import OutOfPlane, Section
+
+_EVEN = 1e-6  # of a matrix whose entries a table rounds
+_POSITIVE = 1e-12  # least stiffness, over that of the axes alone
+
+STIFFNESSES = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
+
+Matrix = tuple[tuple[float, ...], ...]
+
+
+def hat(vector: FloatArray) -> FloatArray:
+    """Return the matrices (..., 3, 3) of a × for vectors (..., 3)."""
+    result = np.zeros((*vector.shape, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        result[..., k, j], result[..., j, k] = vector[..., i], -vector[..., i]
+    return result
+
+
+def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
+    """Return matrices (stations, 6, 6) for the line, from which their own axis has an offset.
+
+    The axis has the strain Γ - a × κ and the velocity v - a × ω, a = (0, c2, c3), of a rigid
+    section.
+    """
+    place = np.zeros((len(matrices), 3))
+    place[:, 1:] = offset
+    onto = np.tile(np.eye(6), (len(matrices), 1, 1))
+    onto[:, :3, 3:] = -hat(place)
+    return np.asarray(np.swapaxes(onto, 1, 2) @ matrices @ onto)
+
+
+def _columns(name: str, values: ArrayLike, names: tuple[str, ...]) -> FloatArray:
+    found = finite_array(name, values)
+    if found.shape[1:] != (len(names),):
+        raise ValueError(
+            f"{name} must have the columns {', '.join(names)}, or be 6x6 matrices, at each "
+            f"station, got {found.shape}"
+        )
+    return found
+
+
+def stiffness_of(values: ArrayLike, tension: ArrayLike, shear: ArrayLike) -> FloatArray:
+    """Return the matrices of EA, GA2, GA3, GJ, EI2, EI3 about centers of tension and of shear."""
+    columns = _columns("stiffness", values, STIFFNESSES)
+    axial, across = (columns * mask for mask in ([1, 0, 0, 0, 1, 1], [0, 1, 1, 1, 0, 0]))
+    parts = ((axial, tension), (across, shear))
+    return np.asarray(sum(moved(part[:, :, None] * np.eye(6), at) for part, at in parts))
+
+
+def mass_of(values: ArrayLike, center: ArrayLike) -> FloatArray:
+    """Return the matrices of m, j1, j2, j3 about centers of mass."""
+    columns = _columns("mass", values, ("m", "j1", "j2", "j3"))
+    return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StationSection(Section):
+    """Section by 6x6 matrices at stations, linear in between; made by `Blade.from_stations`.
+
+    Parameters
+    ----------
+    x : tuple
+        Stations from the clamp to the tip [m].
+    stiffness, mass : tuple
+        6x6 matrices at these, about the blade's line in axes of the section; SI units.
+
+    Raises
+    ------
+    ValueError
+        If a matrix is not symmetric, or not positive.
+    """
+
+    x: tuple[float, ...]
+    stiffness: tuple[Matrix, ...] = field(repr=False)
+    mass: tuple[Matrix, ...] = field(repr=False)
+    axial_stiffness: Profile = field(init=False, repr=False)
+    bending_stiffness: Profile = field(init=False, repr=False)
+    mass_per_length: Profile = field(init=False, repr=False)
+    rotary_inertia: Profile | None = field(init=False, default=None)
+    out_of_plane: OutOfPlane | None = field(init=False, default=None)
+
+    at_stations: ClassVar[bool] = True
+
+    @property
+    def knows_space(self) -> bool:
+        """True: the matrices tell it."""
+        return True
+
+    def __post_init__(self) -> None:
+        x = finite_array("x", self.x, "m").ravel()
+        S, M = (_matrices(name, x, getattr(self, name)) for name in ("stiffness", "mass"))
+        for at, one in zip(x, S, strict=True):
+            _require_stiffness(at, one)
+        for at, one in zip(x, M, strict=True):
+            _require_mass(at, one)
+        told = zip(("axial_stiffness", "bending_stiffness", "mass_per_length"),
+                   (S[:, 0, 0], S[:, 5, 5], M[:, 0, 0]), strict=True)  # fmt: skip
+        self._keep(
+            x=tuple(x.tolist()), stiffness=nested(S), mass=nested(M),
+            **{name: tuple(zip(x.tolist(), values.tolist(), strict=True)) for name, values in told},
+        )  # fmt: skip
+        super().__post_init__()
+
+    @cached_property
+    def _arrays(self) -> FloatArray:
+        """Stiffness and mass, (2, stations, 6, 6)."""
+        return np.array((self.stiffness, self.mass))
+
+    def matrices(self, x: FloatArray) -> FloatArray:
+        """Return stiffness and mass at `x` in units of its stations, (2, places, 6, 6)."""
+        at = np.array(self.x)
+        first = np.clip(np.searchsorted(at, x, side="right") - 1, 0, at.size - 2)
+        share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
+        return np.asarray(
+            (1.0 - share) * self._arrays[:, first] + share * self._arrays[:, first + 1]
+        )
+
+    def couples(self, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
+        """Whether an entry of any matrix couples two sets of axes."""
+        return bool(self._arrays[:, :, one][..., other].any())
+
+    @property
+    def has_kinks_in_mass(self) -> bool:
+        """Whether the slope of any entry of the mass changes at a station."""
+        slopes = np.diff(self._arrays[1], axis=0) / np.diff(self.x)[:, None, None]
+        return bool(np.any(np.ptp(slopes, axis=0) > 1e-9 * np.abs(slopes).max(axis=0)))
+
+    def diagonal(self, kind: int) -> list[tuple[tuple[float, float], ...]]:
+        """Return the six entries on the diagonal of the stiffness, 0, or of the mass, 1."""
+        values = np.diagonal(self._arrays[kind], axis1=1, axis2=2).T.tolist()
+        return [tuple(zip(self.x, one, strict=True)) for one in values]
+
+    def in_units(self, length: float, mass: float, time: float) -> StationSection:
+        """Return the section in units of length [m], mass [kg] and time [s]."""
+        lever = np.repeat([1.0, length], 3)
+        units = np.multiply.outer(lever, lever)
+        force = mass * length / time**2
+        stiffness, inertia = self._arrays / units
+        return StationSection(
+            x=tuple(x / length for x in self.x),
+            stiffness=nested(stiffness / force),
+            mass=nested(inertia * length / mass),
+        )
+
+    def tapered(self, width: float, height: float) -> Never:
+        """Refuse a taper."""
+        del width, height
+        raise ValueError("the stations tell how the section varies: scale their values")
+
+    def with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Never:
+        """Refuse ratios, which the matrices tell."""
+        del out_of_plane
+        raise ValueError("the stations tell the section out of the plane: change their values")
+
+
+def nested(matrices: FloatArray) -> Any:
+    """Return matrices (stations, 6, 6) as tuples, so that they hash."""
+    return tuple(tuple(map(tuple, one)) for one in matrices.tolist())
+
+
+def _matrices(name: str, x: FloatArray, values: ArrayLike) -> FloatArray:
+    """Return symmetric matrices (stations, 6, 6)."""
+    found = finite_array(name, values)
+    if found.shape != (x.size, 6, 6):
+        raise ValueError(
+            f"{name} must be a 6x6 matrix at each of the {x.size} stations, got {found.shape}"
+        )
+    size = np.sqrt(np.abs(np.einsum("sii->si", found)))
+    off = np.abs(found - np.swapaxes(found, 1, 2))
+    over = off - _EVEN * size[:, :, None] * size[:, None]
+    if over.max() > 0.0:
+        k, i, j = np.unravel_index(np.argmax(over), over.shape)
+        raise ValueError(
+            f"{name} at x = {x[k]:g} m is not symmetric: entries ({i + 1}, {j + 1}) and "
+            f"({j + 1}, {i + 1}) are {found[k, i, j]:g} and {found[k, j, i]:g}"
+        )
+    return np.asarray(0.5 * (found + np.swapaxes(found, 1, 2)))
+
+
+def _require_stiffness(x: float, stiffness: FloatArray) -> None:
+    for name, value in zip(STIFFNESSES, np.diag(stiffness).tolist(), strict=True):
+        if value <= 0.0:
+            raise ValueError(f"stiffness at x = {x:g} m has {name} = {value:g}: give it above zero")
+    size = np.sqrt(np.diag(stiffness))
+    least = float(np.linalg.eigvalsh(stiffness / np.outer(size, size))[0])
+    if least < _POSITIVE:
+        raise ValueError(
+            f"stiffness at x = {x:g} m is not positive definite: over its diagonal its least "
+            f"eigenvalue is {least:.3g}; lower the entries beside the diagonal"
+        )
+
+
+def _require_mass(x: float, mass: FloatArray) -> None:
+    m, carried = mass[0, 0], mass[3:, :3]
+    if m <= 0.0:
+        raise ValueError(f"mass at x = {x:g} m is {m:g} kg/m: give it above zero")
+    off = np.abs(np.concatenate((mass[:3, :3] - m * np.eye(3), 0.5 * (carried + carried.T))))
+    if np.any(off > _EVEN * np.repeat([m, np.abs(carried).max()], 3)[:, None]):
+        raise ValueError(
+            f"mass at x = {x:g} m is not that of a rigid section: {off.max():.3g} too much in an "
+            "entry; give m on the first three of the diagonal, zero between, and m c × beside"
+        )
+    about = mass[3:, 3:] + carried @ carried / m
+    least = float(np.linalg.eigvalsh(about)[0])
+    if least < -_EVEN * max(float(np.trace(mass[3:, 3:])), 0.0):
+        raise ValueError(
+            f"mass at x = {x:g} m has a moment of inertia of {least:.3g} kg m about its center of "
+            "mass: let it be zero or more, or the center nearer to the line"
+        )
