@@ -92,12 +92,13 @@ def test_without_rotary_inertia_of_bending_it_is_theirs(nrel):
 
 
 def test_it_is_near_the_published_frequencies(nrel):
-    # OpenFAST 3.5.1, ElastoDyn, the blade alone at rest, its mass 1.04536 times the table's: two
-    # shapes of flap and one of lag, so that its frequencies are too high.
+    # OpenFAST 3.5.1, ElastoDyn, the blade alone at rest: 0.672, 1.079 and 1.981 Hz. It has two
+    # shapes of flap and one of lag, which is little for the second flap.
     stiffness = [[17.98, -1.349, -5.581], [-0.08621, 47.51, -14.64], [-3.410, -11.53, 153.2]]
     elastodyn = np.sqrt(np.sort(np.linalg.eigvals(stiffness).real)) / (2.0 * np.pi)
     at_rest = hertz(nrel, 0.0, 3)
-    assert at_rest == pytest.approx(elastodyn, rel=0.025)
+    assert at_rest[:2] == pytest.approx(elastodyn[:2], rel=0.006)
+    assert at_rest[2] == pytest.approx(elastodyn[2], rel=0.02)
     # The report's Table 9-1, a rotor at rest with flexible shaft and tower, by FAST and ADAMS:
     # asymmetric flap 0.6675 and 0.6686 Hz, asymmetric lag 1.0793 and 1.0740 Hz.
     assert at_rest[:2] == pytest.approx([0.668, 1.077], rel=0.012)
