@@ -156,10 +156,6 @@ class Variations(Described, abstract=True):
             raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
         return self._with_out_of_plane(shape.out_of_plane(self.gyration))
 
-    def in_its_plane(self) -> Blade:
-        """Return the blade of whose section nothing is known out of the plane."""
-        return self._with_out_of_plane(None)
-
     def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
         blade = self.blade
         return replace(blade, section=blade.section.with_out_of_plane(out_of_plane))

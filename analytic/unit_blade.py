@@ -16,6 +16,7 @@ from .quadrature import Grid
 _SAME = 1e-9  # stations and masses that are no farther apart
 _MOST_PANELS = 64  # masses that are closer are so small that functions may smooth their jumps
 _MOST_CELLS = 1000  # closer kinks are so small that Gauss points may smooth them
+_MOST_CELLS_OF_FIELDS = 400  # and these so small that fields may
 _STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inverse is smooth
 
 
@@ -101,14 +102,14 @@ class UnitBlade:
             if there
         )
 
-    def grid(self, count: int, more: int, most: int | None = None) -> Grid:
+    def grid(self, count: int, more: int, *, of_fields: bool = False) -> Grid:
         """Return Gauss points: `count` for each panel, dense at its ends, and `more` on each cell.
 
-        With `most`, so many cells at most: where there are more, their kinks are small.
+        Those for fields are on fewer cells: where there are many, their kinks are small.
         """
         ends = self.cells
-        if most is not None:
-            ends = np.union1d(_some(ends, most), self.panels)
+        if of_fields:
+            ends = np.union1d(_some(ends, _MOST_CELLS_OF_FIELDS), self.panels)
         panel = np.searchsorted(self.panels, 0.5 * (ends[:-1] + ends[1:])) - 1
         start, width = self.panels[panel], np.diff(self.panels)[panel]
         # Polynomials vary the faster the nearer the ends of their panel.

@@ -14,7 +14,7 @@ import numpy as np
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import SimulationError, figures, simulate
-from rotbeam_exu.fem.linearization import growth_rate
+from rotbeam_exu.fem.linearization import Linearization
 
 plt.style.use(figures.STYLE)
 beam, spin_up = Beam.reference(), SpinUp(omega=4.0, ramp_time=3.0)
@@ -26,7 +26,7 @@ except SimulationError as error:
     print(error)
     linear = error.run
 
-rate = growth_rate(beam, spin_up.omega)
+rate = Linearization.of(beam, spin_up.omega, element="linear").growth_rate
 expected = np.sqrt(spin_up.omega**2 - beam.omega_0**2)
 print(f"growth rate {rate:.5f} 1/s, √(ω² - ω_0²) = {expected:.5f} 1/s")
 for run, name in ((linear, "linear floating frame"), (exact, "geometrically exact")):

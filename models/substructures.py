@@ -14,10 +14,13 @@ import matplotlib.pyplot as plt
 
 from analytic import Beam
 from rotbeam_exu import figures
-from rotbeam_exu.fem.stability import divergence_speed, divergence_speeds
+from rotbeam_exu.fem.elements import Substructures
+from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
 
 beam = Beam.reference()
-two = {frame: divergence_speed(beam, 2, frame) for frame in ("tangent", "pinned")}
+two = {
+    frame: Substructures(frame=frame).divergence_speed(beam, 2) for frame in ("tangent", "pinned")
+}
 print(", ".join(f"two {frame} frames: {speed:.4f} rad/s" for frame, speed in two.items()))
 figures.divergence_speed(divergence_speeds(beam, [1, 2, 3, 4, 6, 8, 12, 16]))
 plt.show()

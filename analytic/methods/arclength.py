@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 from typing import Any, Protocol
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..lazily import optimize
-from .newton import Newton, NoOrbitError, factored, solved
+from .newton import LARGE, Newton, NoOrbitError, Vector, by_products, factored, solved
 
 # Of the unknowns, which are of order 1.
 _NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
@@ -24,6 +25,7 @@ _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
 _LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
+_TANGENT = 1e-13  # of a tangent's length, that products may leave
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
@@ -38,6 +40,10 @@ class Curve(Protocol):
         """Return their derivatives, (N, N + 1)."""
         ...
 
+    def products(self, z: FloatArray) -> Vector:
+        """Return the function that multiplies them with a vector (N + 1,)."""
+        ...
+
 
 @dataclass(frozen=True, eq=False)
 class Point:
@@ -48,20 +54,31 @@ class Point:
     z : ndarray (N + 1,)
     tangent : ndarray (N + 1,)
         Of unit length, along the way the curve is followed.
-    determinant : float
-        Of the equations' Jacobian with the tangent as its last row, by its N-th root, with its
-        sign: that changes where another branch crosses.
     steps : int
         Newton steps that it took.
     factors : tuple
-        LU factors of that matrix.
+        LU factors of the equations' Jacobian with a vector along the tangent as its last row, here
+        or, of many unknowns, at a point before.
+    matrix : callable
+        Returns that matrix here.
     """
 
     z: FloatArray
     tangent: FloatArray
-    determinant: float
     steps: int
-    factors: tuple[Any, Any]
+    factors: Any
+    matrix: Callable[[], FloatArray]
+    _own: Any
+
+    @cached_property
+    def determinant(self) -> float:
+        """N-th root of the matrix's, with its sign, which changes where a branch crosses."""
+        lu, pivots = self._own or factored(self.matrix())
+        swaps = np.count_nonzero(pivots != np.arange(pivots.size))
+        diagonal = np.diag(lu)
+        sign = (-1.0) ** swaps * np.prod(np.sign(diagonal))
+        size = np.exp(np.log(np.maximum(np.abs(diagonal), np.finfo(float).tiny)).mean())
+        return float(sign * size)
 
 
 def corrected(
@@ -78,27 +95,32 @@ def corrected(
     def residual(z: FloatArray) -> FloatArray:
         return np.append(curve.residual(z), across @ (z - guess))
 
-    def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
-        return factored(np.vstack((curve.jacobian(z), across))), residual(z)
+    def matrix(z: FloatArray) -> FloatArray:
+        return np.vstack((curve.jacobian(z), across))
 
-    found = _NEWTON.root(guess, residual, linearized, factors=factors)
+    def products(z: FloatArray) -> Vector:
+        product = curve.products(z)
+        return lambda change: np.append(product(change), across @ change)
+
+    found = _NEWTON.root(
+        guess,
+        residual,
+        lambda z: (factored(matrix(z)), residual(z)),
+        factors=factors,
+        products=products,
+    )
     if found is None:
         raise NoOrbitError("Newton's method does not converge")
-    return _with_tangent(curve, found.z, across, found.steps)
-
-
-def _with_tangent(curve: Curve, z: FloatArray, along: FloatArray, steps: int) -> Point:
-    """Return the point `z` with the tangent that goes the way of `along`."""
-    factors = factored(np.vstack((curve.jacobian(z), along)))
-    tangent = solved(factors, np.eye(1, z.size, z.size - 1)[0])
-    # The last row of the matrix was `along`; times the length it is the tangent's, in sign.
+    # The last row of the matrix is `across`; times the length it is the tangent's, in sign.
+    z, last, own, tangent = found.z, np.eye(1, guess.size, guess.size - 1)[0], None, None
+    if z.size > LARGE:
+        factors = found.factors
+        tangent = by_products(products(z), factors, last, _TANGENT)
+    if tangent is None:
+        factors = own = factored(matrix(z))
+        tangent = solved(factors, last)
     tangent /= np.linalg.norm(tangent)
-    lu, pivots = factors
-    swaps = np.count_nonzero(pivots != np.arange(pivots.size))
-    diagonal = np.diag(lu)
-    sign = (-1.0) ** swaps * np.prod(np.sign(diagonal))
-    size = np.exp(np.log(np.maximum(np.abs(diagonal), np.finfo(float).tiny)).mean())
-    return Point(z, tangent, float(sign * size), steps, factors)
+    return Point(z, tangent, found.steps, factors, partial(matrix, z), own)
 
 
 def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[Point, float]:
@@ -135,7 +157,7 @@ def located(
         if share not in found:
             guess = start.z + share * (end.z - start.z)
             # The plane at this distance along the start's tangent, whatever the guess.
-            found[share] = corrected(curve, guess, start.tangent)
+            found[share] = corrected(curve, guess, start.tangent, start.factors)
         return function(found[share])
 
     found[0.0], found[1.0] = start, end

@@ -123,7 +123,7 @@ class Path(Generic[S]):
         NoOrbitError
             If there is none, or none is found: where and why.
         """
-        while self.nodes[-1].amplitude < amplitude:
+        while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
         below = self.nodes[max(place - 1, 0)]
@@ -150,7 +150,7 @@ class Path(Generic[S]):
         NoOrbitError
             As `at` does.
         """
-        while self.nodes[-1].amplitude < amplitude:
+        while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend(amplitude)
         last = self.nodes[-1]
         return last if abs(last.amplitude - amplitude) < _SAME_AMPLITUDE else self.at(amplitude)

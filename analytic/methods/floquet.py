@@ -56,7 +56,9 @@ class Multipliers(NamedTuple):
 @one_thread
 def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     """Return the Floquet multipliers of the lowest `modes`, as far as there are so many."""
-    shapes, frequencies = _modes(orbit.tangent(2.0 * np.pi * np.arange(16) / 16))
+    at = orbit.tangent(2.0 * np.pi * np.arange(16) / 16)
+    K, M = (0.5 * (part + part.T) for part in (at.stiffness.mean(axis=0), at.mass.mean(axis=0)))
+    shapes, frequencies = normal_modes(K, M)
     covered = min(modes, frequencies.size)
     phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
     scaled, exponent = _flow(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))), 1.0)
@@ -141,9 +143,8 @@ def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
     return np.vstack((position, velocity)), float(exponent)
 
 
-def _modes(at: Tangent) -> tuple[FloatArray, FloatArray]:
-    """Return the normal coordinates (modes, n) of the averaged system, and their frequencies."""
-    K, M = (0.5 * (part + part.T) for part in (at.stiffness.mean(axis=0), at.mass.mean(axis=0)))
+def normal_modes(K: FloatArray, M: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the normal coordinates (modes, n), the slowest first, and their frequencies."""
     inverse, vectors = linalg.eigh(M, K)
     kept = inverse > 1e-14 * inverse[-1]
     inverse, vectors = inverse[kept][::-1], vectors[:, kept][:, ::-1]

@@ -7,15 +7,15 @@ that half of them are zero and half a period is all of it.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 
-Parts = list[tuple[NDArray[np.intp], slice | NDArray[np.intp]]]
-"""Coordinates, and the rows of the coefficients that are theirs."""
+Parts = list[tuple[NDArray[np.intp], slice]]
+"""Coordinates, and rows of the coefficients that are theirs: cosines or sines, never both."""
 
 
 def waves(phase: FloatArray, harmonics: int, order: int = 2) -> FloatArray:
@@ -51,6 +51,13 @@ class Period:
         self.onto = 2.0 / count * self.waves[0].T
         self.onto[0] *= 0.5
 
+    @cached_property
+    def products(self) -> FloatArray:
+        """Means times cos dφ and sin dφ, (2, 3H + 1, count), d = -H to 2H, of all products."""
+        H, count = len(self.onto) // 2, len(self.phase)
+        turns = np.multiply.outer(np.arange(-H, 2 * H + 1.0), self.phase)
+        return np.stack((np.cos(turns), np.sin(turns))) / count
+
 
 @lru_cache(maxsize=128)
 def period(harmonics: int, half: bool, fine: bool = False) -> Period:
@@ -69,30 +76,28 @@ def parts_of(
     """
     if odd is None:
         every = np.arange(size)
-        if pinned is None:
-            return [(every, slice(None))]
         return [
-            (every[every != pinned], slice(None)),
-            (every[[pinned]], np.delete(np.arange(2 * harmonics + 1), 1)),
+            (every, slice(0, 1)),
+            (every if pinned is None else np.delete(every, pinned), slice(1, 2)),
+            (every, slice(2, harmonics + 1)),
+            (every, slice(harmonics + 1, 2 * harmonics + 1)),
         ]
     return [
-        (np.flatnonzero(odd), slice(harmonics + 1, None)),
+        (np.flatnonzero(odd), slice(harmonics + 1, 2 * harmonics + 1)),
         (np.flatnonzero(~odd), slice(0, harmonics + 1)),
     ]
 
 
 def packed(coefficients: FloatArray, parts: Parts) -> FloatArray:
     """Return the coefficients that are no zeros, (unknowns,)."""
-    return np.concatenate([coefficients[rows][:, at].ravel() for at, rows in parts])
+    return np.concatenate([coefficients[rows, at].ravel() for at, rows in parts])
 
 
 def unpacked(unknowns: FloatArray, parts: Parts, shape: tuple[int, int]) -> FloatArray:
     """Return the coefficients of the `shape` (2H + 1, n) that `packed` packed."""
     coefficients, start = np.zeros(shape), 0
     for at, rows in parts:
-        count = len(coefficients[rows])
-        end = start + count * at.size
-        across = rows if isinstance(rows, slice) else rows[:, None]
-        coefficients[across, at] = unknowns[start:end].reshape(count, at.size)
+        end = start + (rows.stop - rows.start) * at.size
+        coefficients[rows, at] = unknowns[start:end].reshape(-1, at.size)
         start = end
     return coefficients

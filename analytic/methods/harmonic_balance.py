@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from .fourier import packed, unpacked
-from .newton import Newton, NoOrbitError, factored, length, solved
-from .orbit import Orbit, S, crest_of, peak_gradient
+from .crest import crest_of, peak_gradient
+from .fourier import Period, packed, unpacked
+from .newton import Newton, NoOrbitError, Vector, factored, length, solved
+from .orbit import Orbit, S
 from .system import Tangent
 
 # Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
@@ -42,32 +43,77 @@ def jacobian(orbit: Orbit[Any]) -> FloatArray:
 
     The last row is left to the amplitude, or to whatever picks one orbit of the branch.
     """
-    at, system = orbit.period(), orbit.system
-    state = orbit.summed(at.waves)
-    tangent = system.tangent(*state, *orbit.drive(at.phase))
-    # From samples (3 phases, n, n) to harmonics of the residual to harmonics of q.
-    in_time = np.concatenate(
-        (
-            tangent.stiffness,
-            orbit.frequency * tangent.damping,
-            orbit.frequency**2 * tangent.mass,
-        )
-    )
-    places, end = [], 0
-    for coordinates, rows in orbit.parts:
-        start, end = end, end + len(at.onto[rows]) * coordinates.size
-        places.append((slice(start, end), coordinates, at.onto[rows], at.waves[..., rows]))
-    matrix = np.zeros((end + 1, end + 1), order="F")  # as LAPACK takes it
-    for down, of, onto, _ in places:
-        for across, by, _, waves in places:
-            part = in_time[:, of[:, None], by]
-            products = onto[:, None, None, :] * waves.transpose(2, 0, 1)[None]
-            block = products.reshape(-1, len(part)) @ part.reshape(len(part), -1)
-            place = matrix[down, across]
-            place.shape = len(onto), len(of), -1, len(by)  # a view
-            place[...] = block.reshape(len(onto), -1, len(of), len(by)).swapaxes(1, 2)
-    matrix[:-1, -1] = packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
+    at = orbit.period()
+    tangent, by_frequency = _linearized(orbit)
+    # A change exp(ikφ) of q changes the residual by the sum of these times 1, ik, k².
+    powers = np.stack(
+        (tangent.stiffness, orbit.frequency * tangent.damping, -(orbit.frequency**2) * tangent.mass)
+    ).swapaxes(-1, -2)
+    matrix, right = np.zeros((by_frequency.size + 1,) * 2, order="F"), 0  # as LAPACK takes it
+    matrix[:-1, -1] = by_frequency
+    for by, columns in orbit.parts:
+        below, end = 0, right + (columns.stop - columns.start) * by.size
+        for of, rows in orbit.parts:
+            under = below + (rows.stop - rows.start) * of.size
+            part = powers[:, :, by[:, None], of]
+            _waves_onto_waves(at, part, rows, columns, matrix[below:under, right:end].T)
+            below = under
+        right = end
     return matrix
+
+
+def _waves_onto_waves(
+    at: Period, powers: FloatArray, rows: slice, columns: slice, transposed: FloatArray
+) -> None:
+    """Write the Jacobian between rows of the coefficients, from powers (3, phases, by, of).
+
+    Waves of orders j and k multiply to waves of the orders j - k and j + k, so that all products
+    are two of the tangent's own Fourier coefficients.
+    """
+    _, _, by, of = powers.shape
+    H, count = len(at.onto) // 2, rows.stop - rows.start
+    from_sines, to_sines = columns.start > H, rows.start > H
+    cos, sin = at.products
+    even, odd = (cos, sin) if from_sines == to_sines else (sin, -cos)
+    means = np.stack((even, odd, even)) @ powers.reshape(3, len(at.phase), -1)
+    means = (-means if from_sines and not to_sines else means).reshape(3, -1)
+    for place in range(columns.stop - columns.start):
+        k = columns.start - H * from_sines + place
+        near, far = (
+            means[:, first * by * of : (first + count) * by * of]
+            for first in (H + rows.start - H * to_sines + order for order in (-k, k))
+        )
+        mirrored = np.array([[1.0, -k, k * k]]) @ far
+        onto = np.array([[1.0, k, k * k]]) @ near
+        onto = (onto - mirrored if from_sines else onto + mirrored).reshape(count, by, of)
+        if rows.start == 0:
+            onto[0] *= 0.5
+        transposed[place * by : (place + 1) * by].reshape(by, count, of)[...] = onto.swapaxes(0, 1)
+
+
+def products(orbit: Orbit[Any]) -> Vector:
+    """Return the function that multiplies the same derivatives with a change of the unknowns."""
+    at, (tangent, by_frequency) = orbit.period(), _linearized(orbit)
+
+    def product(change: FloatArray) -> FloatArray:
+        moved = unpacked(change[:-1], orbit.parts, orbit.coefficients.shape)
+        q, q_dot, q_ddot = replace(orbit, coefficients=moved).summed(at.waves)
+        work = (
+            tangent.stiffness @ q[..., None]
+            + tangent.damping @ q_dot[..., None]
+            + tangent.mass @ q_ddot[..., None]
+        )[..., 0]
+        return np.asarray(packed(at.onto @ work, orbit.parts) + change[-1] * by_frequency)
+
+    return product
+
+
+def _linearized(orbit: Orbit[Any]) -> tuple[Tangent, FloatArray]:
+    """Return the tangent at the phases, and the derivatives of the residual's harmonics to Ω."""
+    at = orbit.period()
+    state = orbit.summed(at.waves)
+    tangent = orbit.system.tangent(*state, *orbit.drive(at.phase))
+    return tangent, packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
 
 
 def _by_frequency(

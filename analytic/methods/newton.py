@@ -1,4 +1,7 @@
-"""Newton's method with a factored tangent that serves as long as it contracts."""
+"""Newton's method with a factored tangent that serves as long as it contracts.
+
+Of many unknowns it serves longer where a tangent's products are at hand, as their preconditioner.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,10 @@ from ..arrays import FloatArray
 from ..lazily import linalg
 
 Vector = Callable[[FloatArray], FloatArray]
+
+LARGE = 1000  # unknowns, from which on a step by products costs less than new factors
+_NEAR = 1e-2  # size of a change after which the tangent at hand is good for that
+_PRODUCTS, _LEFT = 40, 1e-4  # at most, and what they leave of a step
 
 
 class NoOrbitError(Exception):
@@ -75,6 +82,7 @@ class Newton:
         *,
         size: Callable[[FloatArray, FloatArray], float] = lambda z, change: length(change),
         factors: Any = None,
+        products: Callable[[FloatArray], Vector] | None = None,
     ) -> Root | None:
         """Return the root near `z`, None if none is found.
 
@@ -89,23 +97,34 @@ class Newton:
             Of z and a change: small after convergence.
         factors : optional
             Factors of a tangent near by, tried first.
+        products : callable, optional
+            Of z: the function that multiplies the tangent there with a vector (N,).
         """
         last, own, tangents, steps = np.inf, False, 0, list[FloatArray]()
+        anew = factors is None
+        products = products if z.size > LARGE else None
         for count in range(1, self.steps + 1):
-            if factors is None:
+            change = None
+            if anew:
                 tangents += 1
                 if tangents > self.tangents:
                     return None
-                (factors, defect), own, steps = linearized(z), True, []
+                own, steps = True, []
+                if factors is not None and products is not None and last < _NEAR:
+                    defect = residual(z)
+                    change = by_products(products(z), factors, defect)
+                if change is None:
+                    (factors, defect), anew = linearized(z), False
             else:
                 defect = residual(z)
             if not np.all(np.isfinite(defect)):
                 return None
-            change = -solved(factors, defect)
-            if self.broyden:
-                change = _improved(change, steps)
-                steps.append(change)
-            z = z + change
+            if change is None:
+                change = solved(factors, defect)
+                if self.broyden:
+                    change = _improved(change, steps)
+                    steps.append(change)
+            z = z - change
             now = size(z, change)
             contraction = now / last if np.isfinite(last) else 1.0
             stagnates = own and now < self.stagnates and contraction > self.slow
@@ -114,7 +133,7 @@ class Newton:
             if not now <= self.largest:
                 return None
             if contraction > self.slow and np.isfinite(last):
-                factors = None
+                anew = True
             last = now
         return None
 
@@ -133,6 +152,31 @@ def solved(factors: Any, vector: FloatArray) -> FloatArray:
     """Return the solution of the factored equations."""
     # As `linalg.lu_solve`, whose checks take longer than it does.
     return np.asarray(linalg.lapack.dgetrs(*factors, vector)[0])
+
+
+def by_products(
+    product: Vector, factors: Any, vector: FloatArray, left: float = _LEFT
+) -> FloatArray | None:
+    """Return the solution of product(x) = vector, preconditioned by factors; None if too far off.
+
+    Saad and Schultz's GMRES (1986); `left` is what it leaves, as a share of the solution.
+    """
+    start = solved(factors, vector)
+    if not np.all(np.isfinite(start)):
+        return None
+    basis, images = [start / length(start)], np.zeros((_PRODUCTS + 1, _PRODUCTS))
+    for k in range(_PRODUCTS):
+        image = solved(factors, product(basis[k]))
+        for i, one in enumerate(basis):
+            images[i, k] = one @ image
+            image = image - images[i, k] * one
+        images[k + 1, k] = length(image)
+        onto = length(start) * np.eye(1, k + 2)[0]
+        shares = np.linalg.lstsq(images[: k + 2, : k + 1], onto)[0]
+        if length(images[: k + 2, : k + 1] @ shares - onto) <= left * length(start):
+            return np.asarray(shares @ np.array(basis))
+        basis.append(image / images[k + 1, k])
+    return None
 
 
 def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:

@@ -10,10 +10,9 @@ from typing import Any, Generic, Self, TypeVar
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from .fourier import Parts, Period, packed, parts_of, period, waves
+from .fourier import Parts, Period, parts_of, period, waves
 from .system import Tangent
 
-_PHASE_STEP = 1e-4  # of the last step to the peak: after it the phase is wrong by its square
 _MOVES = 1e-9  # of the coordinates; less is round-off of those that stand still
 
 S = TypeVar("S", bound=Any)  # a System; `Path` and `OrbitCurve` say which
@@ -69,25 +68,19 @@ class Orbit(Generic[S]):
         return period(self.harmonics, self.system.odd is not None, fine)
 
     @property
-    def sines(self) -> FloatArray:
-        """Harmonics 1 to H of the odd coordinates, (H, odd)."""
-        return self.coefficients[self.harmonics + 1 :, self.system.odd]
-
-    @property
     def sizes(self) -> FloatArray:
         """Sizes of harmonics 1 to H, (H,), of the odd coordinates where there are some."""
-        if self.system.odd is not None:
-            return np.asarray(np.linalg.norm(self.sines, axis=1))
-        H = self.harmonics
-        both = np.hstack((self.coefficients[1 : H + 1], self.coefficients[H + 1 :]))
-        return np.asarray(np.linalg.norm(both, axis=1))
+        cosines, sines = np.split(self.coefficients[1:], 2)
+        odd = self.system.odd
+        return np.asarray(
+            np.linalg.norm(np.hstack((cosines, sines)) if odd is None else sines[:, odd], axis=1)
+        )
 
     @property
     def moving(self) -> slice:
         """Unknowns by which the motion is measured: the sines, or all but the mean."""
-        if self.system.odd is not None:
-            return slice(self.sines.size)
-        return slice(self.parts[0][0].size, None)
+        count = self.parts[0][0].size
+        return slice(count * self.harmonics) if self.system.odd is not None else slice(count, None)
 
     @property
     def crests(self) -> list[tuple[float, float]]:
@@ -235,103 +228,3 @@ class Orbit(Generic[S]):
         mean = self.system.equilibrium
         coefficients[0] = mean + factor**2 * (self.coefficients[0] - mean)
         return replace(self, amplitude=amplitude, coefficients=coefficients)
-
-
-class Swing:
-    """Half the distance from the lowest point of the gauge to its peak, as `Crest` has one.
-
-    Attributes
-    ----------
-    phase, low_phase, height : float
-    """
-
-    def __init__(self, high: Crest, low: Crest) -> None:
-        self._both = high, low
-
-    phase = property(lambda self: self._both[0].phase)
-    low_phase = property(lambda self: self._both[1].phase)
-    height = property(lambda self: 0.5 * (self._both[0].height - self._both[1].height))
-
-    def follow(self, orbit: Orbit[Any]) -> None:
-        """Take the next step of both."""
-        for crest in self._both:
-            crest.follow(orbit)
-
-
-class Crest:
-    """The peak of the gauge near the phase that an orbit has, by Newton's method.
-
-    `follow` takes one more step, with the same curvature, as the orbit changes a little.
-
-    Parameters
-    ----------
-    orbit : Orbit
-
-    Attributes
-    ----------
-    phase, height : float
-        Of the peak, or of the lowest point.
-    """
-
-    low_phase = math.nan
-
-    def __init__(self, orbit: Orbit[Any]) -> None:
-        self.phase, self._moved = orbit.peak_phase, np.inf
-        for _ in range(6):
-            (_, value, _), (behind, slope, ahead) = _gauge_near(
-                orbit, self.phase + np.array([-1e-4, 0.0, 1e-4])
-            )
-            self._curvature = float(ahead - behind) / 2e-4
-            self._step(value, slope)
-            if self._moved < _PHASE_STEP:
-                break
-
-    def follow(self, orbit: Orbit[Any]) -> None:
-        """Take the next step."""
-        (value,), (slope,) = _gauge_near(orbit, np.array([self.phase]))
-        self._step(value, slope)
-
-    def _step(self, value: float, slope: float) -> None:
-        step = -float(slope) / self._curvature
-        self.phase += max(-0.2, min(0.2, step))
-        # Beyond the step's square, which is half its slope, the cube is below round-off.
-        self._moved, self.height = abs(step), float(value) + 0.5 * step * float(slope)
-
-
-def _gauge_near(orbit: Orbit[Any], phase: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the gauge at a few phases, and its derivative to the phase; both (phases,)."""
-    q, change = waves(phase, orbit.harmonics, order=1) @ orbit.coefficients
-    return orbit.system.gauge(q), orbit.system.gauge_rate(q, change)
-
-
-def crest_of(orbit: Orbit[Any]) -> Crest | Swing:
-    """Return the peak of the gauge; of a full series that of its size or, free, half its swing."""
-    half = orbit.system.odd is not None
-    at = orbit.period(fine=not half)
-    gauge = orbit.system.gauge(orbit.summed(at.waves)[0])
-    # Both sides are nearly as high, and samples do not tell which is higher.
-    places = [np.argmax(gauge)] if half else [np.argmax(gauge), np.argmin(gauge)]
-    crests = [Crest(replace(orbit, peak_phase=float(at.phase[i]))) for i in places]
-    if not half and not orbit.system.driven:
-        return Swing(*crests)
-    return max(crests, key=lambda crest: abs(crest.height))
-
-
-def at_peak(orbit: Orbit[S]) -> Orbit[S]:
-    """Return the orbit with its amplitude and the phase of the peak."""
-    crest = crest_of(orbit)
-    return replace(orbit, peak_phase=crest.phase, amplitude=abs(crest.height))
-
-
-def peak_gradient(orbit: Orbit[Any]) -> FloatArray:
-    """Return the derivatives of the peak to the unknowns and, zero, to the frequency.
-
-    The phase is where the gauge is stationary, so it adds nothing to them.
-    """
-    phases, weights = np.array(orbit.crests).T
-    wave = waves(phases, orbit.harmonics, order=0)[0]
-    q = wave @ orbit.coefficients
-    if phases.size == 1:
-        weights = np.sign(orbit.system.gauge(q))
-    rows = (wave.T * weights) @ orbit.system.gauge_gradient(q)
-    return np.append(packed(rows, orbit.parts), 0.0)

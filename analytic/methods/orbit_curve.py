@@ -17,10 +17,11 @@ import numpy as np
 from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
+from .crest import at_peak, peak_gradient
 from .fourier import packed, unpacked
-from .harmonic_balance import jacobian, projected
-from .newton import NoOrbitError
-from .orbit import Orbit, S, at_peak, peak_gradient
+from .harmonic_balance import jacobian, products, projected
+from .newton import NoOrbitError, Vector
+from .orbit import Orbit, S
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
 Marked = tuple[Orbit[Any], Mark]
@@ -78,6 +79,11 @@ class OrbitCurve(Generic[S]):
         matrix = jacobian(self._raw(z))[:-1]
         matrix[:, -1] *= self.scale
         return matrix
+
+    def products(self, z: FloatArray) -> Vector:
+        """Return the function that multiplies them with a vector."""
+        product, scale = products(self._raw(z)), np.append(np.ones(z.size - 1), self.scale)
+        return lambda change: product(scale * change)
 
 
 @dataclass(frozen=True, eq=False)

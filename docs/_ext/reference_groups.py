@@ -39,10 +39,10 @@ GROUPS = (
         "Small vibration about steady rotation.",
         analytic="linear_modes campbell damping_ratios steady_state",
         analytic__exact__linear__modes="LinearModes",
-        analytic__exact__linear__out_of_plane_modes="TorsionModes",
         analytic__exact__linear__campbell="Campbell",
         analytic__exact__linear__tracking="Crossing",
         analytic__exact__linear__unstretched="unstretched_frequencies",
+        analytic__exact__space__modes="SpaceModes",
     ),
     _group(
         "Backbone",
@@ -83,14 +83,15 @@ GROUPS = (
     _group(
         "Exudyn",
         "The beam by finite elements: in the plane, in space, in a model of yours.",
-        rotbeam_exu="simulate steady_oscillation natural_frequencies simulate_3d SimulationError",
+        rotbeam_exu="simulate steady_oscillation natural_frequencies kicked SimulationError",
         rotbeam_exu__runs__oscillation="SteadyOscillation",
         rotbeam_exu__runs__growth="growth_rate_of GrowthRate",
-        rotbeam_exu__fem__linearization="steady_stretch growth_rate flap_frequencies",
-        rotbeam_exu__fem__stability="divergence_speed",
+        rotbeam_exu__fem__linearization="Linearization",
         rotbeam_exu__fem__picture="ray_traced",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
-        rotbeam_exu__fem__elements="Cable Exact Ancf3 Linear Substructures Formulation",
+        rotbeam_exu__fem__elements=(
+            "Cable Exact Ancf3 Linear Substructures SpaceExact SpaceCable Formulation"
+        ),
     ),
     _group(
         "Files and sweeps",

@@ -5,7 +5,6 @@ A command imports its libraries when it runs, so that --help and theory are quic
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import math
 import os
@@ -43,7 +42,7 @@ def _refuse_none(
 
 app = cyclopts.App(
     name="rotbeam",
-    help="The rotating cantilever beam benchmark: simulation, theory and the exact answer.",
+    help="The rotating cantilever beam benchmark: simulation, theory and the exact solution.",
     version=__version__,
     help_epilogue="rotbeam COMMAND --help has examples. Speeds are in rad/s, all else in SI units.",
     default_parameter=cyclopts.Parameter(negative=()),
@@ -72,19 +71,15 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
     return said.partition("Parameters\n---")[0].strip(), tuple(lines)
 
 
-def epilogue(examples: tuple[str, ...]) -> str:
-    """Return examples as Markdown, each in a line of its own: two spaces break one."""
-    return "Examples:\n\n" + "  \n".join(examples) if examples else ""
-
-
 for _order, _command in enumerate(_COMMANDS):
     _help, _examples = documented(_command)
     app.command(
-        f"{__name__}.{_command}:{_command}",
-        name=_command, help=_help, help_epilogue=epilogue(_examples), sort_key=_order,
+        f"{__name__}.{_command}:{_command}", name=_command, help=_help, sort_key=_order,
+        # Markdown, each in a line of its own: two spaces break one.
+        help_epilogue="Examples:\n\n" + "  \n".join(_examples),
     )  # fmt: skip
 
-_SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
+_SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * math.pi}
 """Options that do not exist, and their units in rad/s."""
 
 
@@ -112,9 +107,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)
         except cyclopts.UnknownOptionError as error:
-            stop(_unknown_option(error, arguments), 2)
+            stop(_unknown_option(error), 2)
         except cyclopts.MissingArgumentError as error:
-            stop(_missing(error), 2)
+            command = " ".join(["rotbeam", *(error.command_chain or ())])
+            stop(f"{error} {command} --help explains it", 2)
         except OverflowError as error:
             stop(f"a number is too large to compute with ({error})", 2)
         except OSError as error:
@@ -130,45 +126,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
                  "interrupted; nothing was written", 130)  # fmt: skip
 
 
-def _missing(error: cyclopts.MissingArgumentError) -> str:
-    """Name the options that have to be given, and where they are explained."""
-    assert error.argument is not None
-    command = " ".join(["rotbeam", *(error.command_chain or ())])
-    name = error.argument.name
-    if error.keyword is not None:
-        what = f"{error.keyword} needs a value"
-    elif error.argument.field_info.is_positional:
-        what = f"give {name.lstrip('-').upper()}"
-    else:
-        what = f"give {name}"
-    return f"{what}; {command} --help tells of it"
-
-
-def _unknown_option(error: cyclopts.UnknownOptionError, arguments: Sequence[str]) -> str:
-    """Name a similar option only if it is similar, and a speed in rad/s if it was one in rpm."""
-    given = str(error.token.keyword or error.token.value).partition("=")[0]
-    name = given.lstrip("-").lower()
-    if name in _SPEED_UNITS:
-        return f"there is no option {given}: {_in_radians(given, name, arguments)}"
-    known = {
-        option.lstrip("-")
-        for argument in error.argument_collection or ()
-        for option in argument.names
-    }
-    close = [option for option in sorted(known) if name and option.startswith(name)]
-    close += difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.75)
-    if name == "speed" and "omega" in known:
-        close = ["omega"]
-    hint = f"did you mean --{close[0]}?" if close else "--help lists what there is"
-    return f"there is no option {given}; {hint}"
-
-
-def _in_radians(given: str, name: str, arguments: Sequence[str]) -> str:
-    """Say how to give a rotation speed that was given in another unit."""
-    at = next(i for i, text in enumerate(arguments) if text.split("=")[0] == given)
-    value = arguments[at].partition("=")[2] or "".join(arguments[at + 1 : at + 2])
-    try:
-        speed = f"{float(value) * _SPEED_UNITS[name]:.6g}"
-    except ValueError:
-        return f"speeds are in rad/s, and 1 {name} is {_SPEED_UNITS[name]:.6g} rad/s"
-    return f"speeds are in rad/s, and {value} {name} are --omega {speed}"
+def _unknown_option(error: cyclopts.UnknownOptionError) -> str:
+    """Name a similar option, or the unit of a speed that was given in another one."""
+    given = str(error.token.keyword or error.token.value).partition("=")[0].lower()
+    if given in _SPEED_UNITS:
+        unit = f"1 {given.lstrip('-')} is {_SPEED_UNITS[given]:.6g} rad/s"
+        return f"there is no option {given}: speeds are in rad/s, as --omega, and {unit}"
+    return f"{error} --help lists the options"

@@ -22,12 +22,6 @@ from .output import Format, print_columns, print_note
 Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
 
-_NOTE = (
-    "a/L is the first harmonic of q in Eq. 63, its peak in Eq. 41 and of the exact beam; λ_ω > 0 "
-    "softens"
-)
-_FIFTH = "; FrM5 has Eq. 63 with -κ (a/L)⁴"
-
 
 def backbone(
     *,
@@ -84,18 +78,21 @@ def backbone(
             refused.append((name, str(error)))
     if names and not models:
         raise ValueError("; ".join(_grouped(refused)))
-    truth, failure = None, ""
+    orbits, failure = None, ""
     if exact or mode > 1:
-        truth, failure = _exact(file.beam, omega, amplitude, mode, functions)
+        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
     columns = _frequencies(models, amplitude, refused)
-    if truth is not None:
-        columns |= _exact_columns(truth, amplitude, max(len(models), 1))
+    if orbits is not None:
+        columns |= _exact_columns(orbits, amplitude, max(len(models), 1))
     if form == "table" and models:
-        _print_coefficients(models, truth, omega)
-    print_columns(columns, form, title="" if models else str(truth))
+        _print_coefficients(models, orbits, omega)
+    print_columns(columns, form, title="" if models else str(orbits))
     if form == "table" and models:
-        fifth = any(model.kappa for model in models)
-        print_note(_NOTE + (_FIFTH if fifth else ""))
+        print_note(
+            "a/L is the first harmonic of q in Eq. 63, its peak in Eq. 41 and of the exact beam; "
+            "λ_ω > 0 softens"
+            + ("; FrM5 has Eq. 63 with -κ (a/L)⁴" if any(model.kappa for model in models) else "")
+        )
     # All variants were asked for, one of them was not: only what was asked for by name must be had.
     if refused and not all_variants:
         raise ValueError("; ".join(_grouped(refused)))
@@ -108,15 +105,9 @@ def backbone(
 def _grouped(refused: list[Refusal]) -> list[str]:
     """Return one sentence for all models that were refused for the same reason."""
     kinds: dict[str, list[Refusal]] = {}
-    for name, sentence in dict.fromkeys(refused):
+    for name, sentence in refused:
         kinds.setdefault(sentence.replace(name, "#"), []).append((name, sentence))
-    sentences = []
-    for group in kinds.values():
-        names = list(dict.fromkeys(name for name, _ in group))
-        _, first = group[0]
-        told = len(names) == 1 and names[0] in first
-        sentences.append(first if told else f"{', '.join(names)}: {first}")
-    return sentences
+    return [f"{', '.join(dict(group))}: {group[0][1]}" for group in kinds.values()]
 
 
 def _exact(
@@ -169,21 +160,21 @@ def _each(
 
 
 def _exact_columns(
-    truth: analytic.Orbits, amplitude: list[float], times: int
+    orbits: analytic.Orbits, amplitude: list[float], times: int
 ) -> dict[str, list[float]]:
     found = [
-        truth.frequency[near[0]] if near.size else math.nan
+        orbits.frequency[near[0]] if near.size else math.nan
         for a in amplitude
-        for near in [np.flatnonzero(np.isclose(truth.amplitude, a, rtol=1e-6))]
+        for near in [np.flatnonzero(np.isclose(orbits.amplitude, a, rtol=1e-6))]
     ]
-    column = {"exact beam [rad/s]": found * times}
-    return (
-        column if truth.mode == 1 else {**column, "exact/ω_n": [f / truth.omega_n for f in found]}
-    )
+    columns = {"exact beam [rad/s]": found * times}
+    if orbits.mode > 1:
+        columns["exact/ω_n"] = [frequency / orbits.omega_n for frequency in found]
+    return columns
 
 
 def _print_coefficients(
-    models: list[analytic.ReducedModel], truth: analytic.Orbits | None, omega: float
+    models: list[analytic.ReducedModel], orbits: analytic.Orbits | None, omega: float
 ) -> None:
     """Print one row of coefficients for each model, and one for the exact beam."""
     columns: dict[str, list[str]] = {"variant": [model.variant.name for model in models]}
@@ -193,10 +184,10 @@ def _print_coefficients(
         ("Eq. 65's\nλ_x", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
     ):  # fmt: skip
         columns[title] = [format(getattr(model, name), form) for model in models]
-        if truth is not None:
+        if orbits is not None:
             known = name in ("omega_n", "lambda_omega")
-            columns[title].append(format(getattr(truth, name), form) if known else "-")
-    if truth is not None:
+            columns[title].append(format(getattr(orbits, name), form) if known else "-")
+    if orbits is not None:
         columns["variant"].append("exact")
     columns["κ"] = [kappa if kappa.strip("0.") else "-" for kappa in columns["κ"]]
     if set(columns["κ"]) == {"-"}:

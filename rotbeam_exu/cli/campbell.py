@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,14 +18,11 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import require_writable
 from .motion import chosen_speeds, configured
-from .options import SECTION, Force, SectionOptions, Whole
-from .output import Format, print_columns, print_written
+from .options import SECTION, Flag, SectionOptions, Whole
+from .output import Format, formatted, print_columns, print_written
 
 if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
-
-_HIGHEST = 12.0  # of the paper's beam [rad/s]
-_PLANES: tuple[Plane, ...] = ("lag", "flap", "torsion")
 
 
 def campbell(
@@ -39,7 +37,7 @@ def campbell(
     format: Format = "table",  # noqa: A002  the name of the option
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: float | None = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 
@@ -76,20 +74,15 @@ def campbell(
     $ rotbeam campbell --section rectangle --frequency-max 80 -o results
     $ rotbeam campbell --omega-max 8 --points 5 --count 2 --format csv
     """
-    if points < 2:
-        raise ValueError(f"points must be at least 2, got {points}")
-    whole_number("count", count)
-    whole_number("orders", orders)
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    if omega_max is not None:
-        rotation_speed(omega_max, "omega_max")
     beam = shape.of(configured(config).beam)
-    highest = chosen_speeds(beam, _HIGHEST)[0] if omega_max is None else omega_max
-    speeds = np.linspace(rotation_speed(omega_min, "omega_min"), highest, points)
+    highest = chosen_speeds(beam, 12.0)[0] if omega_max is None else omega_max
+    ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
+    speeds = np.linspace(*ends, whole_number("points", points, least=2))
     path = None if out is None else out / f"campbell-{shape.name}"
     if path is not None:
-        require_writable(Path(f"{path}.png"), force)
+        require_writable(Path(f"{path}.png"), force=force)
     diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
     _print(diagram, format)
     if path is not None:
@@ -105,30 +98,28 @@ def _families(beam: AnyBlade) -> list[Plane]:
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
-    return ["lag", "flap", "torsion"] if twists and known.polar_inertia != 0.0 else ["lag", "flap"]
+    inert = 0.0 not in (known.polar_inertia, beam.section.rotary_inertia)
+    return ["lag", "flap", "torsion"] if twists and inert else ["lag", "flap"]
 
 
 def _print(diagram: Campbell, form: Format) -> None:
-    """Print frequencies over speed, and the crossings; ten digits in CSV.
+    """Print frequencies over speed, and the crossings.
 
-    A table has as many as are known: of torsion four, for the section may be kept from warping.
+    A table has as many digits as are known: of torsion four, for the section may be kept from
+    warping. CSV has all.
     """
     csv = form == "csv"
-    speed, number = ("{:.10g}", "{:.10g}") if csv else ("{:.4g}", "{:.6f}")
-    known = {plane: "{:#.4g}" if plane == "torsion" and not csv else number for plane in _PLANES}
+
+    def column(values: Iterable[float], plane: Plane) -> Sequence[str | float]:
+        return list(values) if csv else formatted(values, "#.4g" if plane == "torsion" else ".6f")
+
     unit, omega = (" [rad/s]", "omega [rad/s]") if csv else ("", "ω [rad/s]")
     in_plane = set(diagram.planes) == {"lag"} and diagram.names[0] == "lag 1"
     names = [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)] if in_plane else diagram.names
+    columns = zip(names, diagram.planes, diagram.frequencies.T.tolist(), strict=True)
     print_columns(
-        {
-            omega: [speed.format(one) for one in diagram.omegas],
-            **{
-                f"{name}{unit}": [known[plane].format(frequency) for frequency in column]
-                for name, plane, column in zip(
-                    names, diagram.planes, diagram.frequencies.T, strict=True
-                )
-            },
-        },
+        {omega: diagram.omegas.tolist() if csv else formatted(diagram.omegas, ".4g")}
+        | {f"{name}{unit}": column(found, plane) for name, plane, found in columns},
         form,
         title=f"{'In-plane frequencies' if in_plane else 'Frequencies'} [rad/s]",
     )
@@ -140,8 +131,8 @@ def _print(diagram: Campbell, form: Format) -> None:
         {
             "mode": [name.removeprefix("mode ") for name in named] if in_plane else named,
             "k": [str(one.order) for one in met],
-            omega: [known[one.plane].format(one.omega) for one in met],
-            "frequency [rad/s]": [known[one.plane].format(one.frequency) for one in met],
+            omega: [cell for one in met for cell in column([one.omega], one.plane)],
+            "frequency [rad/s]": [x for one in met for x in column([one.frequency], one.plane)],
         },
         form,
         title="Crossings with the lines k ω",

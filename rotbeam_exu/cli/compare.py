@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ def compare(
 ) -> None:
     """Print all models' errors, and write Figures 14 and 15's data.
 
-    Of the paper's beam or another uniform one, whose speeds, ramps and step follow its ω_0.
+    Speeds, ramps and step of another uniform beam follow its ω_0.
 
     Parameters
     ----------
@@ -80,12 +81,12 @@ def compare(
 
 
 def _uniform(beam: AnyBlade) -> Beam:
-    """Refuse a blade: of it the paper's models have nothing to say."""
+    """Return the uniform beam; refuse a blade, which the paper's models do not describe."""
     known = beam.uniform
     if known is None:
         raise ValueError(
-            "compare holds the paper's models against the exact beam, and they are for the uniform "
-            "beam of [beam] only: for a [blade] take rotbeam backbone --variant FrM --exact"
+            "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
+            "a [blade] take rotbeam backbone --variant FrM --exact"
         )
     return known
 
@@ -93,11 +94,7 @@ def _uniform(beam: AnyBlade) -> Beam:
 def _even(motion: Motion) -> Motion:
     """Return the motion with an even number of steps, for twice the step has to fit as well."""
     steps = round(motion.duration / motion.step)
-    if steps % 2 == 0:
-        return motion
-    return Motion(
-        spin_up=motion.spin_up, duration=motion.duration, step=motion.duration / (steps + 1)
-    )
+    return replace(motion, step=motion.duration / (steps + 1)) if steps % 2 else motion
 
 
 def _print_models(models: xr.Dataset, amplitude: float) -> None:

@@ -8,7 +8,6 @@ import re
 import signal
 import sys
 import threading
-from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
@@ -24,7 +23,7 @@ _STOPPING = [
 _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 _LONGEST = 60
-"""Letters of a sentence that are repeated to say which one it was."""
+"""Letters of a warning that are repeated where others like it are counted."""
 
 
 @contextmanager
@@ -95,9 +94,8 @@ class Messages:
     """
 
     def __init__(self) -> None:
-        self._said: dict[str, str] = {}
-        self._more: Counter[str] = Counter()
-        self._texts: set[str] = set()
+        # The texts of each kind once, in order: several of our functions may notice the same.
+        self._met: dict[str, dict[str, None]] = {}
 
     def say(self, title: str, style: str, text: str) -> None:
         """Print a sentence in one line after its title."""
@@ -107,20 +105,16 @@ class Messages:
     def warn(self, message: Warning | str, *_: object) -> None:
         """Print a warning, or count it: what `warnings.showwarning` takes."""
         text = " ".join(str(message).split())
-        if text in self._texts:  # several of our functions may notice the same
-            return
-        self._texts.add(text)
-        kind = _varies().sub("#", text)
-        if kind in self._said:
-            self._more[kind] += 1
-            return
-        self._said[kind] = text
-        self.say("warning:", "yellow", text)
+        alike = self._met.setdefault(_varies().sub("#", text), {})
+        if not alike:
+            self.say("warning:", "yellow", text)
+        alike[text] = None
 
     def count(self) -> None:
         """Say how many warnings were not printed."""
-        for kind, more in self._more.items():
-            first = self._said[kind]
+        for first, *more in self._met.values():
             begin = first if len(first) <= _LONGEST else f"{first[:_LONGEST].rsplit(' ', 1)[0]} ..."
-            self.say("warning:", "yellow", f"{more} more like it, with other numbers: {begin}")
-        self._more.clear()
+            if more:
+                text = f"{len(more)} more like it, with other numbers: {begin}"
+                self.say("warning:", "yellow", text)
+        self._met.clear()

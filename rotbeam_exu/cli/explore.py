@@ -14,7 +14,7 @@ from ..fem.lazily import require_exudyn
 from ..files.results import whole_file
 from .job import require_writable
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
-from .options import Force, Jobs, Workers
+from .options import Flag, Jobs, Workers
 from .output import print_text
 
 
@@ -24,7 +24,7 @@ def explore(
     config: Path | None = None,
     cache: Path | None = None,
     jobs: Jobs = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> None:
     """Write the Explorer: all models and the exact beam on a page.
 
@@ -33,12 +33,12 @@ def explore(
     Parameters
     ----------
     out
-        The page; explorer.html, or with a beam of one's own explorer- and its file's name.
+        HTML file to write; by default explorer.html, or explorer-NAME.html for NAME.toml.
     config
         TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's. Its
         [motion] and [numerics] are not used.
     cache
-        Folder that keeps the finite element runs, for the next time.
+        Folder that keeps the finite element runs for the next time.
     jobs
         Number of processes; by default, all cores.
     force
@@ -54,10 +54,8 @@ def explore(
     require_exudyn()
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
-    if out.suffix not in (".html", ".htm"):
-        raise ValueError(f"cannot write {out.name!r}: the ending must be .html")
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
-    require_writable(out, force, b"<title>Rotating beam explorer")
+    require_writable(out, force=force, ours="<title>Rotating beam explorer", ending=".html")
     beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:

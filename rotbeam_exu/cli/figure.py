@@ -2,38 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Annotated, Any
-
-from cyclopts import Parameter
+from collections.abc import Sequence
+from typing import Any
 
 from ..files.results import writable_folder
 from ..lazily import xr
 from .job import Job
-from .options import RESULTS, WORKERS, Results, Workers, spelled_as
-
-
-def _styles() -> Iterable[str]:
-    from ..figures import STYLES
-
-    return STYLES
-
-
-StyleName = Annotated[str, Parameter(converter=spelled_as(_styles))]
-"""Name of a style; `figures.style` refuses unknown ones."""
+from .options import RESULTS, WORKERS, Results, Workers, numbered
 
 
 def figure(
     number: str,
+    /,
     *,
     workers: Workers = WORKERS,
     results: Results = RESULTS,
-    style: StyleName = "house",
+    style: str = "house",
 ) -> None:
     """Make a figure of the paper: data, pictures and caption.
 
-    It is of the paper's beam by definition, and takes no other: for one's own there are run,
-    respond, compare and explore.
+    Figures show the paper's beam. For your own beam take run, respond, compare or explore.
 
     Parameters
     ----------
@@ -49,15 +37,8 @@ def figure(
     """
     from .. import figures
 
-    every = list(figures.PAPER_FIGURES)
-    wanted = every if number.lower() == "all" else [int(number)] if number.isdecimal() else []
-    if not wanted or wanted[0] not in every:
-        raise ValueError(
-            f"there is no data behind figure {number!r}; known are {', '.join(map(str, every))} "
-            "and all"
-        )
-    with figures.style(style):
-        for n in wanted:
+    with figures.style(style.lower()):
+        for n in numbered("figure", number, sorted(figures.PAPER_FIGURES)):
             _made(n, workers, results)
 
 
@@ -75,7 +56,7 @@ def _made(n: int, workers: Workers, results: Results) -> None:
         axes = made.draw(data)
         return axes[0] if isinstance(axes, Sequence) else axes
 
-    # The data tells its inputs, so files are compared with it after it is computed.
+    # Data has its inputs, so files are compared with it after it is computed.
     Job(
         path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
         show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {made.caption(data)}",

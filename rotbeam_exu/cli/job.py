@@ -104,7 +104,7 @@ class Job(Generic[R, T]):
         names = (Path(stem if n == 1 else f"{stem}-{n}") for n in range(1, 10_000))
         free = next(name for name in names if not differing_inputs(part, f"{name}.nc"))
         kept = saved(part, free, self.table(part))[0]
-        return f"{error}; what was {word} is in {kept}, marked failed"
+        return f"{error}; the part that was {word} is in {kept}, marked failed"
 
 
 def refuse_to_replace(
@@ -140,23 +140,25 @@ def refuse_to_replace(
         raise FileExistsError(f"{target} {what}; choose another folder with --out, or --force")
 
 
-def require_writable(target: Path, force: bool, ours: bytes = b"") -> None:
-    """Refuse, unless forced, a file that is there and does not hold `ours` at its beginning.
+def require_writable(
+    target: Path, *, force: bool | None = None, ours: str = "", ending: str = ""
+) -> None:
+    """Refuse another ending, and, unless forced, a file that does not hold `ours` early on.
 
     Such a file does not tell its inputs. Its folder is made, if it can be written.
     """
+    if ending and target.suffix != ending:
+        raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
     writable_folder(target.parent)
-    known = ours and target.is_file() and ours in target.read_bytes()[:4096]
+    known = ours and target.is_file() and ours.encode() in target.read_bytes()[:4096]
     if target.exists() and not known and not force:
-        raise FileExistsError(
-            f"{target} is there, and does not tell what it was made from; choose another name "
-            "with --out, or --force"
-        )
+        remedy = "choose another name" + ("" if force is None else " with --out, or --force")
+        raise FileExistsError(f"{target} is there, from unknown inputs: {remedy}")
 
 
 @contextmanager
 def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
-    """Let Ctrl-C name the files it leaves behind: `kept` is asked then, and empty for none."""
+    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
     try:
         yield
     except KeyboardInterrupt as interrupt:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
 
-from ..files.results import whole_file, writable_folder
+from ..files.results import whole_file
 from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
 from ..verification.cases import VERSION
@@ -15,6 +15,7 @@ from ..verification.judgement import judged
 from ..verification.mistakes import Mistake, mistakes_in
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import MalformedSubmissionError
+from .job import require_writable
 from .output import print_note, print_text, print_written
 from .verify import print_judgements
 
@@ -26,10 +27,10 @@ def judge(
     report: Path | None = None,
     json: Path | None = None,
 ) -> None:
-    """Judge the files that any code handed in, by its limits.
+    """Judge the result files of any code by their limits.
 
-    Exit code 0: all that can be decided converges to the reference; 1: it does not; 2: files are
-    malformed, and all their faults are told.
+    Exit code 0: all that was handed in is decided and right; 1: something differs; 2: files are
+    malformed, and all their faults are printed; 3: something is undecided.
 
     Parameters
     ----------
@@ -44,13 +45,16 @@ def judge(
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
     """
-    for target, ending in ((report, ".html"), (json, ".json")):
+    for target, ending, ours in ((report, ".html", TITLE), (json, ".json", SCHEMA)):
         if target is not None:
-            _may_write(target, ending)
+            require_writable(target, ours=ours, ending=ending)
     try:
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
-        _print_faults(error)
+        for fault in error.faults:
+            print_text(str(fault), stderr=True)
+        many = f"{len(error.faults)} fault{'s' * (len(error.faults) > 1)}"
+        print_text(f"{many}: nothing was judged", stderr=True)
         sys.exit(2)
     found = judged(submission)
     mistakes = mistakes_in(submission, found)
@@ -66,30 +70,13 @@ def judge(
         _write(report_page(record), report)
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
-    sys.exit(0 if found.passed else 1)
-
-
-def _may_write(target: Path, ending: str) -> None:
-    """Refuse a target of another ending, in a folder that cannot be written, or not of ours."""
-    if target.suffix != ending:
-        raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
-    writable_folder(target.parent)
-    ours = TITLE.encode(), SCHEMA.encode()
-    if target.exists() and not any(mark in target.read_bytes()[:1000] for mark in ours):
-        raise FileExistsError(f"{target} is there and is no judgement: choose another name")
+    sys.exit({True: 0, False: 1, None: 3}[found.passed])
 
 
 def _write(text: str, target: Path) -> None:
     with whole_file(target) as partial:
         partial.write_text(text, encoding="utf-8")
     print_written([target])
-
-
-def _print_faults(error: MalformedSubmissionError) -> None:
-    for fault in error.faults:
-        print_text(str(fault), stderr=True)
-    count = len(error.faults)
-    print_text(f"{count} {'fault' if count == 1 else 'faults'}: nothing was judged", stderr=True)
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:

@@ -18,21 +18,21 @@ from ..files.beam_file import RunFile, load_run_file
 Config = Annotated[
     Path | None,
     Parameter(
-        help="TOML file with the beam or blade, and if it likes with [motion] and [numerics], of "
-        "which a command takes what it has no option for; without it, the paper's beam."
+        help="TOML file with [beam] or [blade], and optionally [motion] and [numerics]; options "
+        "given here replace its values. Without a file: the paper's beam."
     ),
 ]
 """The option --config; `configured` reads it."""
 
 Omega = Annotated[
     float | None,
-    Parameter(help="Rotation speed [rad/s]; needed, unless [motion] of the file has it."),
+    Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
 """A speed that is not guessed: see `omega_of`."""
 
 SteadySpeed = Annotated[
     float | None,
-    Parameter(help="Steady angular velocity [rad/s]; 6 for the paper's beam, unless given."),
+    Parameter(help="Steady angular velocity [rad/s]; by default 6 for the paper's beam."),
 ]
 """Speed after the ramp."""
 
@@ -59,12 +59,6 @@ class Motion:
     spin_up: SpinUp
     duration: float
     step: float
-
-    def __str__(self) -> str:
-        return (
-            f"omega {self.spin_up.omega:g} rad/s, ramp-time {self.spin_up.ramp_time:g} s, "
-            f"duration {self.duration:g} s, step {self.step:g} s"
-        )
 
 
 def chosen_speeds(beam: AnyBlade, *of_paper: float) -> list[float]:
@@ -115,8 +109,6 @@ def chosen_motion(
             duration = _whole_steps(duration, step) * step
     else:
         duration = positive("duration", duration, "s")
-        if step is not None:
-            _require_whole_steps(duration, step)
     if step is None:
         fitted = duration / _whole_steps(duration, fine)
         # The number as printed, where round-off is all that sets them apart.
@@ -172,17 +164,6 @@ def slower_than_paper(beam: AnyBlade) -> float:
 def _whole_steps(duration: float, step: float) -> int:
     """Return the number of steps that cover a duration, rounded up but for round-off."""
     return max(1, math.ceil(duration / step * (1.0 - 1e-12)))
-
-
-def _require_whole_steps(duration: float, step: float) -> None:
-    """Refuse a duration that is no whole number of steps, with one and the other that fit."""
-    steps = round(duration / step)
-    if abs(steps * step - duration) > 1e-9 * duration:
-        more = _whole_steps(duration, step)
-        raise ValueError(
-            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step "
-            f"of {duration / more:.12g} s or a duration of {more * step:.12g} s"
-        )
 
 
 def _rounded(value: float, digits: int, *, up: bool = False) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from cyclopts import Parameter, Token
 
@@ -19,7 +19,7 @@ from analytic.section_shapes import SectionShape
 from ..fem.frame import Frame
 from .job import telling_what_is_kept
 from .motion import Motion
-from .output import choice, counter
+from .output import counter
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -43,12 +43,8 @@ _OF_FILE = "given"
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
-
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
-
-Force = Annotated[bool, Parameter(negative=(), show_default=False)]
-"""Replace files even if they hold what other inputs gave."""
 
 Amplitudes = Annotated[
     list[float],
@@ -56,13 +52,18 @@ Amplitudes = Annotated[
 ]
 """One or several, shown as they are typed."""
 
-NoFigure = Annotated[
-    bool,
-    Parameter(
-        name="--no-figure", negative=(), show_default=False, help="Write no figure, data only."
-    ),
-]
+NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
 """A switch of the commands that write a figure beside their data."""
+
+
+def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
+    """Return the number in a text, or all that are known."""
+    if text.lower() == "all":
+        return known
+    by_name = {str(number): number for number in known}
+    if text in by_name:
+        return [by_name[text]]
+    raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")
 
 
 def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
@@ -99,9 +100,10 @@ class Discretization:
     Parameters
     ----------
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        space space_cable, space_exact.
     option
-        Option of the formulation as name=value; may be given again for another.
+        Option of the formulation as name=value; repeat it for several.
     elements
         Number of elements, 16 unless given.
     step
@@ -117,7 +119,7 @@ class Discretization:
     elements: Whole | None = None
     step: float | None = None
     duration: float | None = None
-    frame: Annotated[Frame | None, Parameter(converter=choice)] = None
+    frame: Frame | None = None
 
     def over(self, numerics: Mapping[str, Any]) -> Self:
         """Return the values given here, over those in a file, over the paper's.
@@ -127,7 +129,6 @@ class Discretization:
         mine = {name: value for name, value in vars(self).items() if value is not None}
         chosen = {"element": "cable", "elements": 16, "frame": "inertial", **numerics, **mine}
         chosen["element"] = _spelled(chosen["element"], element_names())
-        chosen["frame"] = _spelled(chosen["frame"], get_args(Frame))
         return replace(self, **chosen)
 
     @property
@@ -172,7 +173,7 @@ class Results:
     """
 
     out: Annotated[Path, Parameter(alias="-o")] = Path("results")
-    force: Force = False
+    force: Flag = False
 
 
 @Parameter(name="*")
@@ -183,9 +184,9 @@ class Workers:
     Parameters
     ----------
     jobs
-        Processes at a time; by default the cores.
+        Number of processes; by default one per core.
     cache
-        Folder with one file per finished spin-up, from which a stopped command goes on.
+        Folder with one file per finished spin-up; a stopped command continues from it.
     """
 
     jobs: Jobs = None
@@ -263,11 +264,11 @@ class SectionOptions:
         return beam.blade.with_shape(shape)
 
     def required_of(self, beam: AnyBlade) -> AnyBlade:
-        """Return the same, refusing a beam of whose section nothing is known out of the plane."""
+        """Return the same; refuse a beam whose section out of the plane is unknown."""
         blade = self.of(beam)
         if blade.section.out_of_plane is None:
             raise ValueError(
-                "what the section is out of the plane is unknown: give --section rectangle or "
+                "the section out of the plane is unknown: give --section rectangle or "
                 "--section tube, or [blade.section.out_of_plane] in --config"
             )
         return blade

@@ -13,31 +13,15 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Any, Literal
 
-from cyclopts import Parameter, Token
-from rich import box
 from rich.cells import cell_len
 from rich.console import Console
-from rich.progress import MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
-
-def choice(kind: Any, tokens: Sequence[Token]) -> str:
-    """Read one of the texts of a Literal, in upper or lower case: a converter."""
-    inner = next((one for one in get_args(kind) if get_args(one)), kind)  # Literal[...] | None
-    text, known = tokens[0].value, get_args(inner)
-    found = {str(one).lower(): str(one) for one in known}.get(text.lower())
-    if found is None:
-        raise ValueError(f"it must be {' or '.join(map(str, known))}, got {text!r}")
-    return found
-
-
-Format = Annotated[Literal["table", "csv"], Parameter(converter=choice)]
-
-_TITLE = 22
-"""Width of the titles ahead of single lines."""
+Format = Literal["table", "csv"]
 
 _DIGITS = 7
 """Digits of a float in a table."""
@@ -46,13 +30,14 @@ _LINES = 50
 """Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
 
 _SPELLED = {
-    "λ": "lambda", "×": "x", "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-",
-    "–": "-", "·": "*", "√": "sqrt ",
+    "ω": "omega", "Ω": "Omega", "θ": "theta", "ϑ": "theta", "λ": "lambda", "μ": "mu", "η": "eta",
+    "ν": "nu", "ρ": "rho", "κ": "kappa", "φ": "phi", "ψ": "psi", "π": "pi", "τ": "tau", "×": "x",
+    "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-", "·": "*",
+    "√": "sqrt ", "₀": "0",
 }  # fmt: skip
+"""Letters of the theory, for outputs that lack them."""
 _CONTROL = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 """Categories of letters that steer a terminal, or the direction in which it writes."""
-
-_NO_NAME = {"GREEK", "SMALL", "CAPITAL", "LETTER", "SYMBOL"}
 
 
 class _Console(Console):
@@ -87,7 +72,6 @@ def ready_streams() -> None:
     nowhere = Path(os.devnull)
     sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
     sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
-    codecs.register_error("spelled", _spell)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="spelled")
@@ -97,18 +81,11 @@ def _spell(error: UnicodeError) -> tuple[str, int]:
     """Replace letters by their names, or by '?': the handler of an encoding error."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
-    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+    letters = error.object[error.start : error.end]
+    return "".join(_SPELLED.get(letter, "?") for letter in letters), error.end
 
 
-def _in_ascii(letter: str) -> str:
-    if letter in _SPELLED:
-        return _SPELLED[letter]
-    name = unicodedata.name(letter, "").split()
-    if name[:1] == ["GREEK"]:
-        spoken = next((word for word in name if word not in _NO_NAME), "?").lower()
-        return spoken.capitalize() if "CAPITAL" in name else spoken
-    plain = unicodedata.normalize("NFKD", letter).encode("ascii", "ignore").decode()
-    return plain or "?"
+codecs.register_error("spelled", _spell)
 
 
 def print_columns(
@@ -116,7 +93,6 @@ def print_columns(
     form: Format = "table",
     *,
     title: str = "",
-    frame: box.Box = box.HEAVY_HEAD,
     header: bool = True,
 ) -> None:
     """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
@@ -136,10 +112,11 @@ def print_columns(
         _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
         for name, cells in columns.items()
     }
+    names, cells = list(readable), list(readable.values())
     least, most = (
         [
-            max(cell_len(piece) for text in (name, *cells) for piece in text.split(at) or [""])
-            for name, cells in readable.items()
+            max(cell_len(piece) for text in (name, *column) for piece in text.split(at) or [""])
+            for name, column in readable.items()
         ]
         for at in (None, "\n")
     )
@@ -148,13 +125,11 @@ def print_columns(
     room = console.width
     for part in _parts(least, room):
         widths = _widths([least[i] for i in part], [most[i] for i in part], room)
-        table = Table(box=frame)
-        cells = [list(readable.values())[i] for i in part]
-        for i, width, column in zip(part, widths, cells, strict=True):
-            numeric = all(map(_is_number, column))
-            title = list(readable)[i]
-            table.add_column(title, width=width, justify="right" if numeric else "left")
-        for row in zip(*cells, strict=True):
+        table = Table()
+        for i, width in zip(part, widths, strict=True):
+            justify: Any = "right" if all(map(_is_number, cells[i])) else "left"
+            table.add_column(names[i], width=width, justify=justify)
+        for row in zip(*(cells[i] for i in part), strict=True):
             table.add_row(*row)
         # Two columns at least: a longer line is better than half a number.
         console.width = max(room, _total(widths))
@@ -204,16 +179,8 @@ def print_note(text: str) -> None:
 
 
 def print_line(title: str, text: str) -> None:
-    """Print a title and its text beside it, on a terminal in as many lines as it takes."""
-    console = new_console()
-    if not console.is_terminal:
-        console.print(f"{title:<{_TITLE}}{text}")
-        return
-    grid = Table.grid()
-    grid.add_column(width=_TITLE)
-    grid.add_column()
-    grid.add_row(title, text)
-    console.print(grid, soft_wrap=False)
+    """Print a title and its text beside it."""
+    print_text(f"{title:<22}{text}")
 
 
 def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
@@ -253,8 +220,19 @@ def _is_number(text: str) -> bool:
 
 
 def _encodable(text: str, console: Console) -> str:
-    codecs.register_error("spelled", _spell)
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
+
+
+@contextmanager
+def bar(title: str, *more: ProgressColumn) -> Iterator[Callable[[float, float], None]]:
+    """Give a function to call with the work done and all of it; it draws on a terminal only."""
+    console = new_console()
+    with Progress(
+        *Progress.get_default_columns(), *more, TimeElapsedColumn(), console=console,
+        transient=True, disable=not console.is_terminal,
+    ) as drawn:  # fmt: skip
+        task = drawn.add_task(title, total=None)
+        yield lambda done, whole: drawn.update(task, completed=done, total=whole)
 
 
 @contextmanager
@@ -263,32 +241,12 @@ def counter(title: str) -> Iterator[Callable[[int, int], None]]:
 
     Without a terminal its lines go to standard error: results stay alone on standard output.
     """
-    console = new_console()
-    if not console.is_terminal:
-        yield _plain(title)
-        return
-    with Progress(
-        *Progress.get_default_columns(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn(""),
-        console=console,
-        transient=True,
-    ) as bar:
-        task = bar.add_task(title, total=None)
-
-        def progress(done: int, number: int) -> None:
-            bar.update(task, completed=done, total=number)
-
-        yield progress
-
-
-def _plain(title: str) -> Callable[[int, int], None]:
     errors, started = new_console(stderr=True), time.monotonic()
 
-    def progress(done: int, number: int) -> None:
-        if done % -(-number // _LINES) and done != number:
-            return
-        errors.print(f"{title}: {done} of {number} done after {time.monotonic() - started:.0f} s")
+    def line(done: int, number: int) -> None:
+        if done % -(-number // _LINES) == 0 or done == number:
+            after = time.monotonic() - started
+            errors.print(f"{title}: {done} of {number} done after {after:.0f} s")
 
-    return progress
+    with bar(title, MofNCompleteColumn()) as drawn:
+        yield drawn if new_console().is_terminal else line

@@ -1,4 +1,4 @@
-"""`rotbeam ramp`: residual vibration over the ramp time, and the ramp times that leave least."""
+"""`rotbeam ramp`: residual vibration over the ramp time, and its minima."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, re
 from .options import RESULTS, Discretization, Element, Results, Whole
 from .output import counter, formatted, print_columns, print_note
 
-_LONGEST = 10.0  # of the paper's beam [s]
-
 
 def ramp(
     *,
@@ -30,9 +28,9 @@ def ramp(
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
-    """Tell the residual vibration over the ramp time, and its minima.
+    """Print the residual vibration over the ramp time, and minima.
 
-    Printed are the quiet ramp times, and the points; written are all numbers and the figure.
+    Prints the quiet ramp times and the points; writes all numbers and the figure.
 
     Parameters
     ----------
@@ -43,7 +41,8 @@ def ramp(
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures.
+        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        space space_cable, space_exact.
     elements
         Number of elements, 16 unless given.
 
@@ -59,16 +58,19 @@ def ramp(
     omega = motion.spin_up.omega
     case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)
     refuse_rest(omega)
-    longest = chosen_times(beam, _LONGEST)[0] if longest is None else positive("longest", longest)
-    for name, count in (("points", points), ("finite-element-points", finite_element_points)):
-        whole_number(name, count, least=0)
+    longest = chosen_times(beam, 10.0)[0] if longest is None else positive("longest", longest)
+    whole_number("finite-element-points", finite_element_points, least=0)
     inputs = {
         **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
-        "finite_element_points": finite_element_points, "element": case.model.name,
-        "elements": case.elements,
+        "finite_element_points": finite_element_points,
+        **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
     }  # fmt: skip
     if finite_element_points:
-        _require_exudyn()
+        # Before the transients are computed, for the runs cannot be.
+        try:
+            require_exudyn()
+        except ImportError as error:
+            raise ImportError(f"{error}; take --finite-element-points 0") from error
 
     def computed() -> xr.Dataset:
         with counter("transients") as progress:
@@ -89,14 +91,6 @@ def ramp(
     ).run()
 
 
-def _require_exudyn() -> None:
-    """Say before the transients are computed that the runs cannot be, and what can."""
-    try:
-        require_exudyn()
-    except ImportError as error:
-        raise ImportError(f"{error}; take --finite-element-points 0") from error
-
-
 def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> None:
     """Print the quiet ramps, then the points."""
     one = SpinUp(omega=omega, ramp_time=longest)
@@ -105,7 +99,7 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
     print_columns(
         {
             "T [s]": formatted(quiet, ".4f"),
-            "left/L": formatted(data["quiet"], ".2e"),
+            "residual/L": formatted(data["quiet"], ".2e"),
             "closed form": formatted(left(beam, one, quiet), ".2e"),
         },
         title="Quiet ramp times of Eq. 1",
@@ -125,9 +119,9 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
             "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
             "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
-        title=f"Amplitude left over L, ω = {omega:g} rad/s",
+        title=f"Residual amplitude over L, ω = {omega:g} rad/s",
     )
     print_note(
-        "closed form: of the linear beam; with the backbone: its action for that of FrM's orbit; "
-        "-: not run there",
+        "closed form: linear beam; with the backbone: corrected by the action of FrM's orbit; "
+        "-: no run",
     )

@@ -1,4 +1,4 @@
-"""`rotbeam reference`: the exact spin-up, to hold a code of one's own against."""
+"""`rotbeam reference`: the exact spin-up, to compare a code with."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ def reference(
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 
-    Of the geometrically exact, extensible Bernoulli-Euler beam, without loads; step and functions
-    are refined until two solutions agree.
+    The beam is geometrically exact and extensible (Bernoulli-Euler), without loads; step and
+    functions are refined until two solutions agree.
 
     Parameters
     ----------
     duration
         Last time that is written [s].
     samples
-        Times that are written, at equal distances from 0 on.
+        Number of times that are written, evenly spaced from 0.
     tolerance
         Largest error of the tip's position over the largest |q|.
 

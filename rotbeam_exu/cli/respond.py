@@ -94,7 +94,7 @@ class Dampings:
     Parameters
     ----------
     damping_ratio
-        Of mode 1 at rest, by damping of the bending.
+        Damping ratio of mode 1 at rest, by damping of the bending.
     external_damping
         Force per length against the velocity in the turning frame [kg/(m s)]; point masses have
         none.
@@ -138,9 +138,8 @@ def respond(
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
 
-    Of the exact blade; writes netCDF, CSV and a figure.
-
-    Printed are both ends and, in order along the curve, all folds and peaks.
+    The blade is the exact one. Prints both ends and, in order along the curve, all folds and peaks;
+    writes netCDF, CSV and a figure.
 
     Parameters
     ----------
@@ -148,11 +147,11 @@ def respond(
         Drive frequency at which the curve begins [rad/s]; under gravity the rotation speed, for it
         goes around once a turn.
     last
-        The one at which it ends [rad/s].
+        Drive frequency at which it ends [rad/s].
     omega
         Rotation speed [rad/s], unless [motion] of the file has it; not under gravity.
     points
-        Frequencies, ends included, at which the curve has points wherever it passes them.
+        Number of frequencies, ends included, at which the curve has points.
     inextensible
         Leave the axial motion out.
     functions
@@ -209,9 +208,7 @@ def respond(
 def _frequencies(first: float, last: float, points: int) -> FloatArray:
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
-    if whole_number("points", points) < 2:
-        raise ValueError(f"points must be at least 2, got {points}")
-    return np.linspace(first, last, points)
+    return np.linspace(first, last, whole_number("points", points, least=2))
 
 
 def _name(load: Load, omega: float | None) -> str:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.progress import Progress
-
 from analytic.warning import warn
 
 from ..lazily import xr
@@ -14,7 +12,7 @@ from ..runs.check import SimulationError, energy_drift
 from .job import Job, UnfinishedError
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
 from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
-from .output import new_console, print_line
+from .output import bar, print_line
 
 if TYPE_CHECKING:
     from ..fem.case import Case
@@ -31,7 +29,7 @@ def run(
     no_figure: NoFigure = False,
     results: Results = RESULTS,
 ) -> None:
-    """Spin a beam up in Exudyn and measure what oscillation is left.
+    """Spin a beam up in Exudyn and measure the remaining oscillation.
 
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
     another beam speed, times and step follow its ω_0.
@@ -53,12 +51,6 @@ def run(
     case = numerics.case(file.beam, motion)
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
-    def computed() -> xr.Dataset:
-        if config is not None:
-            where = "(where not given, the paper's, scaled by ω_0)"
-            print_line("motion", f"{motion} {where}")
-        return _computed(case)
-
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
         found = assess(case, steady)
@@ -67,7 +59,7 @@ def run(
         return found
 
     found = Job(
-        path=path, inputs=case.describe(), force=results.force, compute=computed,
+        path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case),
         show=shown,
         draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
     ).run()  # fmt: skip
@@ -88,11 +80,9 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
 def _computed(case: Case) -> xr.Dataset:
     from ..fem.simulation import run_case
 
-    console = new_console()
     try:
-        with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-            task = bar.add_task("spinning up", total=1.0)
-            return run_case(case, progress=lambda done: bar.update(task, completed=done))
+        with bar("spinning up") as drawn:
+            return run_case(case, progress=lambda done: drawn(done, 1.0))
     except SimulationError as error:
         if error.run is None:
             raise

@@ -34,15 +34,15 @@ def stability(
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
-    """Tell whether motion in the plane of rotation stays in it.
+    """Find whether motion in the plane of rotation stays in it.
 
-    A sentence on the amplitude from which on it does not, a table over the amplitude, one of the
-    narrow tongues below, netCDF, CSV and a figure.
+    Prints the limit of the amplitude, a table over the amplitude, and one of the narrow tongues
+    below the limit; writes netCDF, CSV and a figure.
 
     Parameters
     ----------
     amplitude
-        Amplitudes of the planar orbits over the length, one or several; the limit is looked for up
+        Amplitudes of the planar orbits over the length, one or several; the limit is searched up
         to the largest.
     mode
         In-plane mode from which the orbits grow.

@@ -11,9 +11,9 @@ from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
 from .job import Job
-from .motion import Motion, chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
+from .motion import chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
 from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
-from .output import formatted, print_columns, print_line, print_text
+from .output import formatted, print_columns, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -31,8 +31,8 @@ def sweep(
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
-    The paper's grid unless another is given. Failed cases stay on record and end in exit code 1; a
-    sweep that was stopped goes on where it stopped.
+    The default is the paper's grid. Failed cases stay on record and end in exit code 1; a sweep
+    that was stopped goes on where it stopped.
 
     Parameters
     ----------
@@ -45,8 +45,8 @@ def sweep(
     history
         Also keep q over time.
     config
-        TOML file with the beam, and if it likes with [numerics]; a speed or ramp time in its
-        [motion] is the grid's only one, unless others are given.
+        TOML file with the beam, and optionally [numerics]; a speed or ramp time in its [motion] is
+        the grid's only one, unless others are given.
 
     Examples
     --------
@@ -68,7 +68,8 @@ def sweep(
 
     def computed() -> xr.Dataset:
         if config is not None:
-            print_line("motion", _described(motion, omegas, ramp_times))
+            speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
+            print_text(f"ω = {speeds} rad/s, T = {times} s (by default the paper's, by ω_0)")
         with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
@@ -115,27 +116,6 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     from ..sweeps.grid import failures
 
     measured = _measured(result)
-    _print_result(measured)
-    failed = failures(measured)
-    for sentence, points in failed.items():
-        where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
-        print_text(f"failed at {where}: {sentence}")
-    return sum(map(len, failed.values()))
-
-
-def _described(motion: Motion, omegas: list[float], ramp_times: list[float]) -> str:
-    return (
-        f"omega {_values(omegas)} rad/s, ramp-time {_values(ramp_times)} s, "
-        f"duration {motion.duration:g} s, step {motion.step:g} s "
-        "(where not given, the paper's, scaled by ω_0)"
-    )
-
-
-def _values(values: list[float]) -> str:
-    return ", ".join(f"{value:g}" for value in values)
-
-
-def _print_result(measured: xr.Dataset) -> None:
     rows = measured.to_dataframe().reset_index()
     columns: dict[str, Any] = {
         "ω [rad/s]": rows["omega"],
@@ -146,7 +126,17 @@ def _print_result(measured: xr.Dataset) -> None:
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "verdict": rows["verdict"],
     }
-    print_columns({title: list(values) for title, values in columns.items()})
+    known = result.attrs
+    print_columns(
+        {title: list(values) for title, values in columns.items()},
+        title=f"{known['elements']} {known['element']} elements, {known['frame']} frame, "
+        f"step {known['step']:g} s, to {known['duration']:g} s",
+    )
+    failed = failures(measured)
+    for sentence, points in failed.items():
+        where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
+        print_text(f"failed at {where}: {sentence}")
+    return sum(map(len, failed.values()))
 
 
 def _shard(text: str) -> tuple[int, int]:

@@ -2,33 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated
 
-from cyclopts import Parameter, Token
+from cyclopts import Parameter
 
 import analytic
 from analytic.reduced.tables import PaperTable
 
-from .options import whole
+from .options import numbered
 from .output import Format, print_columns, print_note
-
-_ALL = 0
-_TABLES = range(1, 6)
-
-
-def _number(kind: Any, tokens: Sequence[Token]) -> int:
-    """Read a number from 1 on, or all."""
-    if tokens[0].value.lower() == "all":
-        return _ALL
-    number = whole(kind, tokens)
-    if number == _ALL:
-        raise ValueError("it must be 1 to 5, or all")
-    return number
 
 
 def table(
-    number: Annotated[int, Parameter(converter=_number)],
+    number: str,
+    /,
     *,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
@@ -48,8 +35,9 @@ def table(
     $ rotbeam table 3
     $ rotbeam table all --format csv
     """
-    for one in _TABLES if number == _ALL else (number,):
-        _print(analytic.paper_table(one), form, several=number == _ALL)
+    wanted = numbered("table", number, range(1, 6))
+    for one in wanted:
+        _print(analytic.paper_table(one), form, several=len(wanted) > 1)
 
 
 def _print(result: PaperTable, form: Format, *, several: bool) -> None:
@@ -59,7 +47,7 @@ def _print(result: PaperTable, form: Format, *, several: bool) -> None:
     if form == "csv":
         if several:
             columns = {"table": [str(result.number)] * len(result.rows), **columns}
-        print_columns(columns, form, header=not several or result.number == _TABLES[0])
+        print_columns(columns, form, header=not several or result.number == 1)
         return
     marks = {note: chr(ord("a") + i) for i, note in enumerate(notes)}
     columns["note"] = [marks.get(note, "") for note in columns["note"]]

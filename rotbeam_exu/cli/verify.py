@@ -8,13 +8,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
-from rich import box
 
 from analytic import AnyBlade
 from analytic.input_checks import positive
 
+from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS, Judgement
-from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .motion import Config, Motion, configured, motion_of, slower_than_paper
 from .options import Flag, element_names, spelled_as
@@ -45,17 +45,18 @@ def verify(
     error: float = 1e-2,
     config: Config = None,
 ) -> None:
-    """Judge elements, and other codes at hand, by their limits.
+    """Judge elements and other codes by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
-    Of the paper's beam the benchmark's cases L, S1, S2, O and S4; of another one its spin-up.
+    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up.
 
     Parameters
     ----------
     element
-        A formulation: cable, exact or reissner, ancf3, linear, substructures; or another code:
-        kratos. May be given again; without it all that are at hand.
+        A formulation: cable, exact or reissner, ancf3, linear, substructures; in space
+        space_cable, space_exact; or another code: kratos. Repeat it for several; by default all
+        that are installed.
     cost
         Print the cost at equal error instead.
     error
@@ -116,9 +117,9 @@ def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motio
         cells.append(f"{seconds:.2f}" if math.isfinite(seconds) else "not reached")
         for column, cell in zip(list(columns.values())[1:], cells, strict=True):
             column.append(cell)
-    _print(
+    print_columns(
         columns,
-        f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
+        title=f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
         f"{2.0 * motion.spin_up.ramp_time:g} s",
     )
     print_text(
@@ -146,7 +147,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
     asked = {
         "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
         "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
-        "floor": [_largest(_floor(one) for one in known[key]) for key in keys],
+        "floor": [_largest(one.runs.noise[-1] for one in known[key] if one.runs) for key in keys],
         "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
     }
 
@@ -155,14 +156,16 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             one.declaration.code: [cell(one.by_quantity.get(key)) for key in keys] for one in found
         }
 
-    _print(asked | of_each(_limit), f"What codes tend to, less the reference; {about}")
+    print_columns(asked | of_each(_limit), title=f"Limits of the codes less the reference; {about}")
     print_note(
-        "! decides against the code, ? decides nothing; floor: of what measures it, ref ±: of the "
-        "reference, in the shift also of the limit of the code's own ω_n"
+        "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
+        "reference, in the shift also that of the code's own ω_n"
     )
     bars = {"quantity": asked["quantity"]} | of_each(_discretization)
-    _print(bars, "Discretization of the finest run: less its own limit ± the bar of that")
-    _print(
+    print_columns(
+        bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
+    )
+    print_columns(
         {
             "code": [one.declaration.code for one in found],
             "theory": [one.declaration.theory.name for one in found],
@@ -173,15 +176,11 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
             "outcome": [one.outcome for one in found],
         },
-        "Orders of q(t) observed of declared, and time, of the finest run of the first history",
+        title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in found:
         for sentence in _sentences(one):
             print_note(f"{one.declaration.code}: {sentence}")
-
-
-def _print(columns: dict[str, list[str]], title: str) -> None:
-    print_columns(columns, title=title, frame=box.SIMPLE)
 
 
 def _limit(found: Finding | None) -> str:
@@ -189,7 +188,7 @@ def _limit(found: Finding | None) -> str:
     if found is None or found.outcome is Outcome.NOT_SUBMITTED:
         return "-"
     if not math.isfinite(found.model_difference):
-        return "none!" if found.outcome is Outcome.NO_LIMIT else "none?"
+        return "none!" if found.outcome is Outcome.DIFFERS else "none?"
     mark = {True: "", False: "!", None: "?"}[found.outcome.passed]
     return _signed(found.model_difference) + mark
 
@@ -198,10 +197,6 @@ def _discretization(found: Finding | None) -> str:
     if found is None or found.runs is None or not math.isfinite(found.runs.limit):
         return "-"
     return f"{_signed(float(found.runs.errors[-1]))} ±{found.runs.bar:.0e}"
-
-
-def _floor(found: Finding) -> float:
-    return math.nan if found.runs is None else float(found.runs.noise[-1])
 
 
 def _signed(value: float) -> str:
@@ -215,7 +210,7 @@ def _largest(values: Iterable[float]) -> str:
 
 def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
     """Return what there is to say of the finest run of the first history."""
-    return cell(next(iter(one.histories.values())).rows.finest) if one.histories else "-"
+    return cell(next(iter(one.histories.values())).finest) if one.histories else "-"
 
 
 def _order(one: Judgement, name: str) -> str:
@@ -227,11 +222,12 @@ def _order(one: Judgement, name: str) -> str:
 
 
 def _sentences(found: Judgement) -> list[str]:
-    """Return why a code fails or cannot be judged; each sentence once."""
+    """Return what differs, what would decide, and runs left out; each sentence once."""
     said = [
-        f"{finding.outcome}: {finding.note}"
-        for finding in found.by_quantity.values()
-        if finding.outcome is not Outcome.REFERENCE and finding.note
+        f"{finding.said}: {finding.note}" if finding.note else f"{case} {quantity} {finding.said}"
+        for (case, quantity), finding in found.by_quantity.items()
+        if finding.outcome is not Outcome.REFERENCE
     ]
+    said += [f"{case}: {one}" for case, of in found.remarks.items() for one in of]
     remarks = [run.remark for one in found.histories.values() for run in one.runs if run.remark]
     return list(dict.fromkeys([*said, *remarks]))

@@ -13,23 +13,8 @@ from .runs import figure_3, figure_4, figure_15
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
-    "figure_3",
-    "figure_4",
-    "figure_5",
-    "figure_8",
-    "figure_9",
-    "figure_10",
-    "figure_11",
-    "figure_12",
-    "figure_13",
-    "figure_14",
-    "figure_15",
-    "finite_element_budget",
-    "finite_element_points",
-    "fitted_softening",
-    "growth_out_of_plane",
-    "model_budget",
-    "residual",
-    "softening_by_plane",
-    "softening_map",
-]
+    "figure_3", "figure_4", "figure_5", "figure_8", "figure_9", "figure_10", "figure_11",
+    "figure_12", "figure_13", "figure_14", "figure_15", "finite_element_budget",
+    "finite_element_points", "fitted_softening", "growth_out_of_plane", "model_budget",
+    "residual", "softening_by_plane", "softening_map",
+]  # fmt: skip

@@ -47,11 +47,11 @@ def finite_element_points(
     omegas, ramp_times : sequences of float
         The grid [rad/s], [s].
     mesh : {"paper", "converged"}
-        "paper": 16 elements, inertial frame, step 1 ms; the bars hold the whole distance to a step
-        of zero, from steps of 1 and 2 ms. "converged": 64 elements, rotating frame, the same steps
-        extrapolated to zero; the bars hold a tenth of the extrapolation. Both add, for the mesh,
-        the fifteenth of what half the elements change that a fourth-order error leaves, and the
-        estimator's own bar.
+        "paper": 16 elements, inertial frame, step 1 ms; the uncertainty is the whole distance to a
+        step of zero, from steps of 1 and 2 ms. "converged": 64 elements, rotating frame, the same
+        steps extrapolated to zero; the uncertainty is a tenth of the extrapolation. Both add a
+        fifteenth of the change by half the elements, for a mesh error of fourth order, and the
+        estimator's own uncertainty.
     step : float
         The smaller step [s], for a beam that is faster or slower than the paper's.
     **options

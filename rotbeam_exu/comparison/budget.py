@@ -107,7 +107,7 @@ def finite_element_budget(
     the point is too high. Step: 16 elements at `step` [s] less the same with the step extrapolated
     to zero. Mesh: that less 64 elements, step to zero. Rest: what those still differ. The three
     add up to the distance, and step and mesh have opposite signs: their sum may vanish where
-    neither does. Estimator: the bar ± of the frequency's estimate, not a part of the sum.
+    neither does. Estimator: the uncertainty ± of the frequency's estimate, not a part of the sum.
     Amplitudes are half peak to peak on both sides.
 
     Returns

@@ -125,11 +125,9 @@ def growth_out_of_plane(
         `growth_rate`, zero where stable, over (omega, a).
     """
     blade = Beam.reference().with_shape(Rectangle()) if blade is None else blade
-    speeds, peaks = np.linspace(0.0, 8.0, 25), np.geomspace(0.01, 0.4, 24)
-    if omegas is not None:
-        speeds = finite_values("omegas", omegas, "rad/s")
-    if amplitudes is not None:
-        peaks = finite_values("amplitudes", amplitudes)
+    given = np.linspace(0.0, 8.0, 25) if omegas is None else omegas
+    speeds = finite_values("omegas", given, "rad/s")
+    peaks = np.geomspace(0.01, 0.4, 24) if amplitudes is None else np.asarray(amplitudes)
     rates = np.array([growth_rates(blade, omega, peaks) for omega in speeds.tolist()])
     return dataset(
         {"growth_rate": (("omega", "a"), rates, GROWTH)},

@@ -22,7 +22,7 @@ from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
 from ..datasets import dataset
-from ..fem.elements import Formulation
+from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
@@ -80,6 +80,7 @@ def residual(
             f"longest must be above {_SHORTEST:g} periods at rest, {_SHORTEST * period:.4g} s, got "
             f"{longest:g} s"
         )
+    model = formulation(element)
     counts = [
         whole_number("points", points, least=0),
         whole_number("finite_element_points", finite_element_points, least=0),
@@ -103,7 +104,7 @@ def residual(
     exact = measured(
         lambda ramp: residual_amplitude(blade, ramp, exact=True, tolerance=1e-5), exact_at
     )
-    runs = measured(lambda ramp: _of_elements(blade, ramp, element, elements), elements_at)
+    runs = measured(lambda ramp: _of_elements(blade, ramp, model, elements), elements_at)
     quiet = quiet_ramp_times(blade, omega, longest=longest)
     left = "amplitude left over L, "
     by_backbone = f"{left}closed form, corrected by the backbone"
@@ -126,19 +127,14 @@ def residual(
             **beam_attributes(blade),
             "omega": omega,
             "longest": longest,
-            **_named(element),
+            "element": model.name,
+            "element_options": json.dumps(describe(model)),
             "elements": elements,
         },
     )
 
 
-def _named(element: str | Formulation) -> dict[str, str]:
-    if isinstance(element, str):
-        return {"element": element}
-    return {"element": element.name, "element_options": json.dumps(describe(element))}
-
-
-def _of_elements(blade: AnyBlade, ramp: SpinUp, element: str | Formulation, elements: int) -> float:
+def _of_elements(blade: AnyBlade, ramp: SpinUp, element: Formulation, elements: int) -> float:
     """Return half peak to peak over L in the first period after the ramp, of a run."""
     period = 2.0 * math.pi / float(linear_modes(blade, ramp.omega, 1).frequencies[0])
     step = min(period / _STEPS, ramp.ramp_time / _STEPS)

@@ -74,7 +74,7 @@ def explorer_data(
     Parameters
     ----------
     beam : Beam or Blade, optional
-        By default the paper's. Of a blade the paper's models have nothing to say.
+        By default the paper's. The paper's models do not describe a blade.
     omegas : sequence of float
         Rotation speeds [rad/s], ascending in equal steps.
     amplitudes : sequence of float

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import Any, cast
 
 from analytic import AnyBlade, SteadyRotation
-from analytic.beam import require_planar
 from analytic.description import describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
@@ -70,8 +69,12 @@ class Case:
             ("loads", loads_in_time(self.loads)),
         ):
             object.__setattr__(self, name, value)
-        require_planar(self.beam)
         require_modeled(self.beam, self.model, self.frame)
+        if self.frame == "rotating" and not self.model.constant_mass:
+            raise ValueError(
+                f"element {self.model.name!r} is solved in the inertial frame, its inertia being "
+                "no constant matrix: take frame='inertial'"
+            )
         _ = self.steps_and_sampling
         self.describe()  # refuses what no file can hold
 

@@ -10,7 +10,6 @@ from analytic.lazily import interpolate
 
 from ..lazily import xr
 from .case import Case
-from .elements import Formulation
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
 from .units import Units
@@ -20,7 +19,7 @@ def columns(
     case: Case, units: Units, beam: AnyBlade, built: RotatingBeam, trajectory: Trajectory
 ) -> xr.Dataset:
     """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory."""
-    model, setting = case.model, beam.unit.setting
+    model, setting, space = case.model, case.model.setting(beam), case.model.leaves_plane
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
     coordinates, absolute = trajectory.coordinates, trajectory.velocities
@@ -34,21 +33,24 @@ def columns(
     kinetic, momentum = model.energy_and_momentum(
         beam, built.mass, built.chain.turning, coordinates, absolute, rate
     )
-    root, tip, tip_rate = coordinates[:, 0], coordinates[:, -1], absolute[:, -1]
-    x, y = tip[:, 0], tip[:, 1]
+    relative = absolute - setting * rate[:, None, None] * model.spun(coordinates)
+    # The lines of the nodes, by the axes of the clamp.
+    frame = model.line_frame(beam)
+    axis, moving = (e[..., : model.dimensions] @ frame for e in (coordinates, relative))
+    x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
     # Out of the plane of rotation the deflection has a share that is not seen there.
     seen = (x + 1j * setting * y) * np.exp(1j * angle)
-    gradient, target = model.clamp(0.0)
-    place = root[:, list(model.fixed_at_root)]
-    place = place - beam.hub_radius * np.eye(1, place.shape[1])
+    reference = trajectory.reference[0]
+    off = coordinates[:, 0] - reference
     strain = np.abs(model.axial_strain(beam, coordinates)).max(axis=1)
     values = {
-        "q": (y, "m", "tip displacement q"),
-        "q_dot": (tip_rate[:, 1] - setting * rate * x, "m/s", "tip velocity dq/dt"),
+        "q": (axis[:, -1, 1], "m", "tip displacement q"),
+        "q_dot": (moving[:, -1, 1], "m/s", "tip velocity dq/dt"),
     }
-    if model.leaves_plane:
-        values["w"] = tip[:, 2], "m", "tip displacement out of the plane"
-        values["w_dot"] = tip_rate[:, 2], "m/s", "tip velocity out of the plane"
+    if space:
+        tip = axis[:, -1, 2] - (reference[:3] @ frame)[2]
+        values["w"] = tip, "m", "tip displacement out of the plane"
+        values["w_dot"] = moving[:, -1, 2], "m/s", "tip velocity out of the plane"
     values |= {
         "tip_x": (seen.real, "m", "tip position along inertial x"),
         "tip_y": (seen.imag, "m", "tip position along inertial y"),
@@ -56,23 +58,26 @@ def columns(
         "kinetic_energy": (kinetic, "J", "kinetic energy"),
         "elastic_energy": (elastic, "J", "elastic energy"),
         "jacobi_energy": (kinetic + elastic - rate * momentum, "J", "Jacobi energy E - ω L_z"),
-        "clamp_residual": (np.linalg.norm(place, axis=1), "m", "position error of the clamp"),
+        "clamp_residual": (
+            np.linalg.norm(off[:, : model.dimensions], axis=1), "m", "position error of the clamp"
+        ),
         "direction_residual": (
-            np.abs(root @ gradient.T - target).max(axis=1), "1", "direction error of the clamp"
+            np.abs(off @ model.held(reference).T).max(axis=1), "1", "direction error of the clamp"
         ),
         "axial_strain": (strain, "1", "largest axial strain along the beam"),
     }  # fmt: skip
     if case.exchanges_energy:
         t = time / units.time
-        relative = absolute - setting * rate[:, None, None] * model.spun(coordinates)
         power = built.loading.power(t, angle, relative)
         if built.chain.dissipation is not None:
             power = power - built.chain.dissipation(coordinates, relative)
         power -= units.time**2 * case.rotation.acceleration(time) * momentum
         supplied = _integral(t, power)
         values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
-    if (twist := model.twist(coordinates)) is not None:
-        values["twist"] = twist, "rad", "twist of the tip's section about its normal"
+    turn = model.sections(np.concatenate((trajectory.reference[None], coordinates)))
+    if turn is not None:
+        turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
+        values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     run = xr.Dataset(
         {
@@ -81,21 +86,21 @@ def columns(
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
     )
-    return _with_directions(run, model, units, coordinates) if model.leaves_plane else run
-
-
-def _with_directions(
-    run: xr.Dataset, model: Formulation, units: Units, coordinates: FloatArray
-) -> xr.Dataset:
-    """Return the run in space with how the blade lies: its axis, and its sections where known."""
+    if not space:
+        return run
+    # How the blade lies: its axis, and its sections where known.
     dims = ("time", "node", "direction")
     label = "positions of the nodes in the frame of the clamp"
-    axis = units.length * coordinates[..., :3]
-    run["axis"] = dims, axis, {"units": "m", "long_name": label}
-    if (upright := model.upright(coordinates)) is not None:
-        label = "axis of the sections that stands up at rest"
-        run["upright"] = dims, upright, {"units": "1", "long_name": label}
+    run["axis"] = dims, units.length * axis, {"units": "m", "long_name": label}
+    if turn is not None:
+        label = "third axis of the sections, across their chord"
+        run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
     return run.assign_coords(direction=["x", "y", "z"])
+
+
+def twist(turns: FloatArray) -> FloatArray:
+    """Return how far rotations (samples, 3, 3) turn a section out of its upright [rad]."""
+    return np.unwrap(np.arctan2(turns[:, 2, 1], turns[:, 2, 2]))
 
 
 def _integral(time: FloatArray, power: FloatArray) -> FloatArray:

@@ -31,47 +31,50 @@ from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
 
-def hold_root(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, direction: bool = True
-) -> None:
-    """Hold the root at its reference values, with `direction` its direction as well."""
-    coordinates = list(element.fixed_at_root)
-    if direction:
-        # At θ = 0 each constraint of the clamp holds one coordinate.
-        coordinates += list(np.flatnonzero(element.clamp(0.0)[0].any(axis=0)))
-    ground = mbs.AddNode(items.NodePointGround())
-    at_rest = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
-    for coordinate in coordinates:
-        moving = mbs.AddMarker(
-            items.MarkerNodeCoordinate(nodeNumber=chain.nodes[0], coordinate=int(coordinate))
+def hold_root(mbs: exudyn.MainSystem, chain: Chain, element: Formulation) -> None:
+    """Hold the root at its reference values: its place and its direction."""
+    root = chain.reference(mbs)[0]
+    _hold(mbs, chain, np.vstack((np.eye(element.dimensions, root.size), element.held(root))))
+
+
+def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> None:
+    """Hold the root's coordinates at their reference values in the directions of `rows`."""
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateVector(
+            markerNumbers=_markers(mbs, chain),
+            scalingMarker0=np.zeros((len(rows), 0)),
+            scalingMarker1=rows,
+            offset=rows @ chain.reference(mbs)[0],
         )
-        mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[at_rest, moving]))
+    )
+
+
+def _markers(mbs: exudyn.MainSystem, chain: Chain) -> list[exudyn.MarkerIndex]:
+    """Return markers of the ground and of the root's coordinates."""
+    nodes = mbs.AddNode(items.NodePointGround()), chain.nodes[0]
+    return [mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=node)) for node in nodes]
 
 
 def prescribe_rotation(
     mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation, radius: float
 ) -> None:
     """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame)."""
+    root = chain.reference(mbs)[0]
     if not radius:
-        hold_root(mbs, chain, element, direction=False)
-    ground = mbs.AddNode(items.NodePointGround())
-    at_rest = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=ground))
-    root = mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=chain.nodes[0]))
-    size = element.quarter_turn.shape[0]
-    # Each constraint holds a direction: two coordinates at most, the same at every angle.
-    rows_at_1 = _clamp(element, radius, 1.0)[0]
-    pairs = [tuple(np.resize(np.flatnonzero(row), 2).tolist()) for row in rows_at_1]
-    held = len(pairs)
+        _hold(mbs, chain, np.eye(element.dimensions, root.size))
+    # Each constraint holds a few coordinates, the same at every angle.
+    rows_at_1 = _clamp(element, root, radius, 1.0)[0]
+    held = [np.flatnonzero(row).tolist() for row in rows_at_1]
     # Called seven times a step: nothing is done twice for one t, and numbers are plain.
-    time, gradient, rows = np.nan, np.zeros((held, size)), [(0.0, 0, 0.0, 0, 0.0)] * held
+    time, gradient, rows = np.nan, rows_at_1, [([(0.0, 0)], 0.0)]
 
     def turn_to(t: float) -> None:
         nonlocal time, gradient, rows
         time = t
-        gradient, target = _clamp(element, radius, rotation.angle(t))
+        gradient, target = _clamp(element, root, radius, rotation.angle(t))
         rows = [
-            (row[i], i, row[j] if j != i else 0.0, j, d)
-            for (i, j), row, d in zip(pairs, gradient.tolist(), target.tolist(), strict=True)
+            ([(row[i], i) for i in at], d)
+            for at, row, d in zip(held, gradient.tolist(), target.tolist(), strict=True)
         ]
 
     def residual(
@@ -79,7 +82,7 @@ def prescribe_rotation(
     ) -> list[float]:
         if t != time:
             turn_to(t)
-        return [a * q[i] + b * q[j] - d for a, i, b, j, d in rows]
+        return [sum([a * q[i] for a, i in row]) - d for row, d in rows]
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
@@ -90,9 +93,9 @@ def prescribe_rotation(
 
     mbs.AddObject(
         items.ObjectConnectorCoordinateVector(
-            markerNumbers=[at_rest, root],
-            scalingMarker0=np.zeros((held, 3)),
-            scalingMarker1=np.zeros((held, size)),
+            markerNumbers=_markers(mbs, chain),
+            scalingMarker0=np.zeros((len(held), 3)),
+            scalingMarker1=np.zeros((len(held), root.size)),
             constraintUserFunction=residual,
             jacobianUserFunction=jacobian,
         )
@@ -100,16 +103,20 @@ def prescribe_rotation(
     add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
 
 
-def _clamp(element: Formulation, radius: float, angle: float) -> tuple[FloatArray, FloatArray]:
+def _clamp(
+    element: Formulation, root: FloatArray, radius: float, angle: float
+) -> tuple[FloatArray, FloatArray]:
     """Return C and d of the constraints C e = d of the root at `angle`, on a hub of `radius`.
 
     On a hub the root's place goes around as well; at the axis it stands still and is fixed.
     """
-    gradient, target = element.clamp(angle)
+    gradient, target = element.clamp(root, angle)
     if not radius:
         return gradient, target
-    place = np.eye(gradient.shape[1])[list(element.fixed_at_root)]
-    around = radius * np.array([math.cos(angle), math.sin(angle), 0.0])[: len(place)]
+    x, y, *up = root[: element.dimensions]
+    cosine, sine = math.cos(angle), math.sin(angle)
+    around = [x * cosine - y * sine, x * sine + y * cosine, *up]
+    place = np.eye(element.dimensions, root.size)
     return np.vstack([place, gradient]), np.concatenate([around, target])
 
 

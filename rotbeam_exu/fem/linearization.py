@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade, SteadyRotation
+from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_planar, require_steady_state, undamped, warn_if_rpm
+from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
 from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
-from .elements import Chain, Formulation, SpaceCable, formulation
+from .elements import Formulation, formulation
 from .lazily import exudyn
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
@@ -40,6 +38,13 @@ class Linearization:
     units : Units
     mesh : str
         The elements and the speed, in words.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu.fem.linearization import Linearization
+    >>> print(f"{Linearization.of(Beam.reference(), omega=6.0).stretch:.2e} m")
+    2.47e-04 m
     """
 
     mass: FloatArray
@@ -51,17 +56,42 @@ class Linearization:
 
     @classmethod
     def of(
-        cls, beam: AnyBlade, omega: float, element: str | Formulation, elements: int
+        cls,
+        beam: AnyBlade,
+        omega: float,
+        element: str | Formulation = "cable",
+        elements: int = 16,
     ) -> Linearization:
         """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium."""
-        with steady_system(beam, omega, element, elements) as (mbs, chain, settings):
-            tip = mbs.GetNodeOutput(chain.nodes[-1], exudyn.OutputVariableType.Displacement)
+        omega = rotation_speed(omega)
+        warn_if_rpm(beam, omega)
+        require_steady_state(beam, omega)
+        require_feasible(elements)
+        require_stretch(beam)
+        model, units = formulation(element), Units.of(beam)
+        unit_beam, rotation = units.beam(undamped(beam)), _Raised(omega * units.time)
+        settings = static_settings(unit_beam, elements)
+        with exudyn_system() as mbs:
+            built = add_rotating_beam(
+                mbs, unit_beam, rotation, element=model, elements=elements, frame="rotating"
+            )
+            mbs.Assemble()
+            try:
+                mbs.SolveStatic(settings, updateInitialValues=True)
+            except Exception as error:
+                raise SimulationError(
+                    f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
+                    f"EA = {beam.axial_stiffness:g} N and the speed"
+                ) from error
+            moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Displacement)
+            settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+        along = model.line_frame(beam)[:, 0]
         return cls(
-            mass=mass, stiffness=stiffness, gyroscopic=gyroscopic, tip=float(tip[0]),
-            units=Units.of(beam),
-            mesh=f"{elements} {formulation(element).name!r} elements at omega = {omega:g} rad/s",
+            mass=mass, stiffness=stiffness, gyroscopic=gyroscopic,
+            tip=float(moved[: model.dimensions] @ along), units=units,
+            mesh=f"{elements} {model.name!r} elements at omega = {omega:g} rad/s",
         )  # fmt: skip
 
     @cached_property
@@ -71,12 +101,20 @@ class Linearization:
 
     @property
     def stretch(self) -> float:
-        """Displacement of the tip by the rotation [m]."""
+        """Displacement of the tip along the blade by the rotation [m].
+
+        To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L,
+        with k = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
+        """
         return self.tip * self.units.length
 
     @property
     def growth_rate(self) -> float:
-        """Largest real part of λ [1/s] beyond what round-off gives to undamped modes, else zero."""
+        """Largest real part of λ [1/s] beyond what round-off gives to undamped modes, else zero.
+
+        Zero for every element that describes large deformation; for the linear floating frame it
+        is √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
+        """
         growing = self._inverse[self._inverse.real > 1e-6 * np.abs(self._inverse).max()]
         return float((1.0 / growing).real.max()) / self.units.time if growing.size else 0.0
 
@@ -106,9 +144,10 @@ def natural_frequencies(
 ) -> FloatArray:
     """Natural frequencies [rad/s] of the finite element model in steady rotation, ascending.
 
-    Small undamped vibration in the plane of bending, about the equilibrium stretched by the
-    rotation, Coriolis and centrifugal terms included: the ω_n to which a nonlinear frequency of
-    the same mesh belongs. Damping of the blade does not count.
+    Small undamped vibration about the equilibrium in rotation, Coriolis and centrifugal terms
+    included: the ω_n to which a nonlinear frequency of the same mesh belongs. In the plane of
+    bending, or of an element in space of flap, lag and torsion together. Damping of the blade does
+    not count.
 
     Parameters
     ----------
@@ -141,126 +180,25 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
-    require_planar(beam)
+    require_blade(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return Linearization.of(beam, omega, element, elements).frequencies(count)
 
 
-def growth_rate(
-    beam: AnyBlade, omega: float, *, element: str | Formulation = "linear", elements: int = 16
-) -> float:
-    """Rate [1/s] at which a small disturbance of the steady rotation grows; zero where stable.
+@dataclass(frozen=True)
+class _Raised:
+    """A steady rotation whose speed static solutions raise from zero at t = 0 to w̄ at 1.
 
-    Zero for every element that describes large deformation; for the linear floating frame it is
-    √(ω² - ω0²) above ω0, but for the axial coupling, of the order of μ.
-
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import growth_rate
-    >>> for element in ("linear", "cable"):
-    ...     print(f"{element}: {growth_rate(Beam.reference(), omega=6.0, element=element):.4f} 1/s")
-    linear: 5.2471 1/s
-    cable: 0.0000 1/s
+    A blade that bends in rotation has several equilibria: that from rest is followed.
     """
-    return Linearization.of(beam, omega, element, elements).growth_rate
 
+    w_bar: float
 
-def steady_stretch(
-    beam: AnyBlade, omega: float, *, element: str | Formulation = "cable", elements: int = 16
-) -> float:
-    """Tip displacement [m] along the beam in steady rotation without vibration.
+    def angle(self, t: Any) -> Any:
+        return 0.0
 
-    To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L, with k
-    = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
+    def rate(self, t: Any) -> Any:
+        return self.w_bar * t
 
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import steady_stretch
-    >>> print(f"{steady_stretch(Beam.reference(), omega=6.0):.2e} m")
-    2.47e-04 m
-    """
-    return Linearization.of(beam, omega, element, elements).stretch
-
-
-def flap_frequencies(
-    blade: AnyBlade, omega: float, *, elements: int = 16, count: int = 3
-) -> FloatArray:
-    """Natural frequencies [rad/s] of Exudyn's cable out of the plane of rotation, ascending.
-
-    About the equilibrium stretched by the rotation. Not of the geometrically exact beam, which is
-    solved in the inertial frame only.
-
-    Parameters
-    ----------
-    blade : Blade
-        With a section that bends alike in all directions, bending_ratio 1.
-    omega : float
-        Steady angular velocity ω [rad/s].
-    elements : int
-        Number of cables.
-    count : int
-        How many frequencies, at most 2 `elements`.
-
-    Returns
-    -------
-    ndarray of shape (count,)
-
-    Raises
-    ------
-    ValueError
-        If an input is refused, or the mesh has fewer than `count` modes.
-    SimulationError
-        If the static equilibrium is not found.
-
-    Examples
-    --------
-    >>> from analytic import Beam
-    >>> from rotbeam_exu.fem.linearization import flap_frequencies
-    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
-    >>> print(flap_frequencies(blade, omega=6.0, elements=8).round(4))
-    [ 7.0656 23.7847 57.0132]
-    """
-    with steady_system(blade, omega, SpaceCable(), elements) as (mbs, _, settings):
-        mass, stiffness = (np.asarray(m) for m in mbs.ComputeLinearizedSystem(settings)[:2])
-    # Coordinates are (x, y, z) of r and r' in turn; the clamp holds those of the first node.
-    across = np.arange(2, 6 * (elements + 1), 3)[2:]
-    pick = np.ix_(across, across)
-    system = Linearization(
-        mass=mass[pick], stiffness=stiffness[pick], gyroscopic=0.0 * mass[pick], tip=0.0,
-        units=Units.of(blade), mesh=f"{elements} cables out of the plane",
-    )  # fmt: skip
-    return system.frequencies(count)
-
-
-@contextmanager
-def steady_system(
-    beam: AnyBlade, omega: float, element: str | Formulation, elements: int
-) -> Iterator[tuple[exudyn.MainSystem, Chain, exudyn.SimulationSettings]]:
-    """Give the model in the rotating frame and the beam's units, at its equilibrium at ω [rad/s].
-
-    With its chain and the settings of a static solution.
-    """
-    omega = rotation_speed(omega)
-    require_planar(beam)
-    warn_if_rpm(beam, omega)
-    require_steady_state(beam, omega)
-    require_feasible(elements)
-    require_stretch(beam)
-    units = Units.of(beam)
-    unit_beam, rotation = units.beam(undamped(beam)), units.rotation(SteadyRotation(omega=omega))
-    with exudyn_system() as mbs:
-        built = add_rotating_beam(
-            mbs, unit_beam, rotation, element=element, elements=elements, frame="rotating"
-        )
-        mbs.Assemble()
-        settings = static_settings(unit_beam, elements)
-        try:
-            mbs.SolveStatic(settings, updateInitialValues=True)
-        except Exception as error:
-            raise SimulationError(
-                f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
-                f"EA = {beam.axial_stiffness:g} N and the speed"
-            ) from error
-        yield mbs, built.chain, settings
+    def acceleration(self, t: Any) -> Any:
+        return 0.0

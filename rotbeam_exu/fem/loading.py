@@ -66,7 +66,7 @@ class Loading:
         # Unit translations along and across the blade.
         shifts = np.tile(np.eye(2, per_node), size // per_node)
         self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
-        self._drag, self._model, self._setting = external * of_length, model, beam.unit.setting
+        self._drag, self._model, self._setting = external * of_length, model, model.setting(beam)
         self._acts = bool(forces) or external > 0.0
 
     def __bool__(self) -> bool:

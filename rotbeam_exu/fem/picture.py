@@ -51,7 +51,7 @@ def ray_traced(
     Parameters
     ----------
     run : Dataset
-        As made by `simulate_3d` with element="exact".
+        As made by `simulate` with element="space_exact".
     times : sequence of float
         When [s]; the nearest samples are drawn.
     size : tuple of int
@@ -65,18 +65,19 @@ def ray_traced(
     Examples
     --------
     >>> from analytic import Beam, SpinUp, Tube
-    >>> from rotbeam_exu import simulate_3d
+    >>> from rotbeam_exu import simulate
     >>> from rotbeam_exu.fem.picture import ray_traced
     >>> tube = Beam.reference().with_shape(Tube())
     >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
-    >>> run = simulate_3d(tube, motion, elements=4, duration=1.5, step=5e-3)
+    >>> settings = {"element": "space_exact", "elements": 4, "duration": 1.5, "step": 5e-3}
+    >>> run = simulate(tube, motion, **settings)
     >>> ray_traced(run, times=[0.5, 1.0, 1.5], size=(320, 200)).shape
     (200, 320, 3)
     """
     if "upright" not in run:
         raise ValueError(
             "the run does not say how its sections stand, as the cable's have no direction: "
-            "simulate it with element='exact'"
+            "simulate it with element='space_exact'"
         )
     at = finite_array("times", times, "s").ravel()
     length = float(run.attrs["beam_length"])

@@ -114,7 +114,8 @@ def add_rotating_beam(
         drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
     else:
         drive.hold_root(mbs, chain, model)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation, beam.unit.setting)
+        drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
+        model.add_spin_forces(mbs, chain, beam, rotation)
     loading = Loading(model, beam, elements, mass, loads)
     if loading:
         loading.add(mbs, chain, rotation, frame)

@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
-from analytic.beam import warn_if_rpm
+from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState, stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
@@ -52,13 +52,14 @@ def simulate(
     Parameters
     ----------
     beam : Beam or Blade
-        The beam.
+        The beam; in space with a section out of the plane, as ``beam.with_shape(Rectangle())``.
     spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
         speed from the start.
     element : str or Formulation
         Beam formulation: a key of `rotbeam_exu.fem.elements.FORMULATIONS`, or an instance with its
-        options, such as `Exact(nodes=3)`.
+        options, such as `Exact(nodes=3)`. It lives in the plane, or in space: "space_exact", for
+        blades with twist, precone, prebend and sweep, and "space_cable".
     elements : int
         Number of elements of equal length.
     duration : float
@@ -68,8 +69,8 @@ def simulate(
     frame : {"inertial", "rotating"}
         Coordinates of the model. Inertial: generalized-α with spectral radius 0.9 on a rheonomic
         constraint. Rotating: inertial forces on a beam at a resting clamp, trapezoidal rule; only
-        there may the blade have a setting angle. The step error of the paper's beam at 2, 6 and 8
-        rad/s is then 3.5, 14 and 19 times smaller.
+        there may a planar element have a setting angle. The step error of the paper's beam at 2, 6
+        and 8 rad/s is then 3.5, 14 and 19 times smaller.
     loads : sequence of SpeedRipple, TipForce, DistributedForce and Gravity
         Loads on the blade from t = 0 on; harmonic loads with their frequency. The frame of the
         clamp includes the ripples of its speed.
@@ -77,7 +78,7 @@ def simulate(
         Gives the state at material points x [m] at t = 0, as
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does. By default the beam
         is straight and at rest in the frame of the clamp, and stretched if a change of the speed
-        begins in rotation.
+        begins in rotation. `kicked` bends it out of its plane.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -89,9 +90,12 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. The attributes hold every input, versions, settings, wall time and
-        the verdict. `out_of_plane` is there if the section out of the plane is known and planar
-        orbits as large as the motion after the ramp leave the plane.
+        jacobi_energy changes. In space also w [m] and w_dot [m/s] of the tip out of the plane,
+        normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section about
+        its normal; axis [m], the places of the nodes, and upright, the third axes of their
+        sections, (time, node, direction) in that frame. The attributes hold every input, versions,
+        settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
+        is known and planar orbits as large as the motion after the ramp leave the plane.
 
     Raises
     ------
@@ -124,7 +128,7 @@ def run_case(
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return what `simulate` does, of a case; of an element in space what `simulate_3d` does."""
+    """Return what `simulate` does, of a case."""
     warn_if_rpm(case.beam, case.fastest)
     units, model = Units.of(case.beam, case.step), case.model
     beam = units.beam(case.beam)
@@ -181,6 +185,7 @@ def _start(
         initial_state = partial(stretched_state, case.beam, turning)
     if initial_state is None:
         return reference, np.zeros_like(reference)
+    require_planar(case.beam)
     x = np.linspace(0.0, 1.0, len(reference))
     state = units.state(initial_state(case.beam.length * x))
     return case.model.coordinates(case.beam.unit.hub + x, state)

@@ -54,12 +54,19 @@ def round_off(beam: AnyBlade, elements: int) -> float:
 
 
 def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:
-    """Return the constant mass matrix of the chain as Exudyn assembles it, root first [SI]."""
+    """Return the mass matrix of the chain as Exudyn assembles it, root first [SI].
+
+    Of nodes with Euler parameters, whose mass is not constant, that of the places alone.
+    """
     with exudyn_system() as mbs:
         model.lay(mbs, beam, elements)
         mbs.Assemble()
         system: Any = mbs.ComputeLinearizedSystem(static_settings(beam, elements))
-    return sparse.csr_array(np.asarray(system[0]))
+    mass = np.array(system[0])
+    if not model.constant_mass:
+        place = np.arange(model.angles.size) < model.dimensions
+        mass *= np.outer(*2 * [np.resize(place, len(mass))])
+    return sparse.csr_array(mass)
 
 
 def solver_settings(
@@ -160,12 +167,14 @@ class Trajectory:
     time : ndarray (samples,)
     coordinates, velocities : ndarray (samples, nodes, n)
         Reference values included.
+    reference : ndarray (nodes, n)
     elastic_energy : ndarray (samples,)
     """
 
     time: FloatArray
     coordinates: FloatArray
     velocities: FloatArray
+    reference: FloatArray
     elastic_energy: FloatArray
 
 
@@ -201,5 +210,6 @@ class Sensors:
             time=np.array(table(self._coordinates[0])[:, 0]),
             coordinates=coordinates,
             velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
+            reference=self._reference,
             elastic_energy=elastic,
         )

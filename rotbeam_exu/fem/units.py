@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from typing import Any, TypeVar
+from typing import Any
 
 from analytic import AnyBlade
 from analytic.exact.beam.state import BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
-
-StateT = TypeVar("StateT", bound=BeamState)
-"""A state of the plane, or of space."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,19 +56,15 @@ class Units:
         """Return the rotation over time in these units."""
         return _Rescaled(rotation, self.time)
 
-    def state(self, state: StateT) -> StateT:
+    def state(self, state: BeamState) -> BeamState:
         """Return the state in these units; slopes and angles have none."""
-        per_second = 1.0 / self.time
-        units = {
-            **dict.fromkeys(("u", "v", "w"), self.length),
-            **dict.fromkeys(("u_dot", "v_dot", "w_dot"), self.velocity),
-            **dict.fromkeys(
-                ("u_slope_dot", "v_slope_dot", "w_slope_dot", "shear_angle_dot"), per_second
-            ),
-        }
-        names = [field.name for field in fields(state)]
-        values = {name: getattr(state, name) / units.get(name, 1.0) for name in names}
-        return replace(state, **values)
+        units = dict.fromkeys("uvw", self.length)
+        for field in fields(state):
+            if field.name.endswith("_dot"):
+                units[field.name] = units.get(field.name.removesuffix("_dot"), 1.0) / self.time
+        return replace(
+            state, **{name: value / units.get(name, 1.0) for name, value in vars(state).items()}
+        )
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` a `Campbell`,
 `forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
-`divergence_speed` what `rotbeam_exu.fem.stability.divergence_speeds` returns.
+`divergence_speed` what `rotbeam_exu.fem.elements.linear_frames.divergence_speeds` returns.
 """
 
 from __future__ import annotations
@@ -11,26 +11,13 @@ from __future__ import annotations
 import xarray as xr
 
 from .animation import animate, save_animation
-from .backbones import FIGURE_5, FIGURE_14, figure_5, figure_14
+from .backbones import figure_5, figure_14
 from .maps import growth_out_of_plane, softening_by_plane, softening_map
-from .paper_figure import PaperFigure
+from .paper_figure import PAPER_FIGURES
 from .results import campbell, divergence_speed, forced_response, planar_stability, residual
-from .runs import FIGURE_3, FIGURE_4, FIGURE_15, figure_3, figure_4, figure_15, spin_up
+from .runs import figure_3, figure_4, figure_15, spin_up
 from .style import STYLE, STYLES, Style, save_figure, style
-from .theory import (
-    FIGURE_8,
-    FIGURE_9,
-    FIGURE_10,
-    FIGURE_11,
-    FIGURE_12,
-    FIGURE_13,
-    figure_8,
-    figure_9,
-    figure_10,
-    figure_11,
-    figure_12,
-    figure_13,
-)  # fmt: skip
+from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
     "PAPER_FIGURES", "STYLE", "STYLES", "Style", "animate", "campbell", "caption",
@@ -40,18 +27,9 @@ __all__ = [
     "softening_by_plane", "softening_map", "spin_up", "style",
 ]  # fmt: skip
 
-PAPER_FIGURES: dict[int, PaperFigure] = {
-    one.number: one
-    for one in (
-        FIGURE_3, FIGURE_4, FIGURE_5, FIGURE_8, FIGURE_9, FIGURE_10, FIGURE_11, FIGURE_12,
-        FIGURE_13, FIGURE_14, FIGURE_15,
-    )
-}  # fmt: skip
-"""The figures of the paper by number: all but Figures 1, 2, 6 and 7, which are drawings."""
-
 
 def caption(number: int, data: xr.Dataset) -> str:
-    """Return a figure's caption: the content, the beam, the paper's claim, and the truth.
+    """Return a figure's caption: the content, the beam, the paper's claim, and our answer.
 
     Parameters
     ----------

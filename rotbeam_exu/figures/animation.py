@@ -24,12 +24,10 @@ _REACH = 1.08  # of a view, beyond the beam's length
 _TRAIL = 0.6  # seconds of the tip's path that stay visible
 _FINER = 8  # points of that path from one picture to the next
 _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
-_CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}
-"""Style of the line that turns with the clamp."""
+_CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}  # line of the clamp
 
 _Response = SpinUpResponse | LinearResponse
-_Moving = Callable[[int], None]
-"""A moving part, drawn anew at time number n."""
+_Moving = Callable[[int], None]  # draws a part anew at time number n
 
 
 class _Gif(PillowWriter):
@@ -96,9 +94,9 @@ def _require_drawable(response: SpinUpResponse, beside: LinearResponse | None) -
                 "nothing to animate: ask spin_up_response for points along the beam, "
                 f"got {one.axis.shape[1]} of them at {one.time.size} times"
             )
-    if beside is None:
-        return
-    if not np.array_equal(beside.time, response.time) or beside.spin_up != response.spin_up:
+    if beside and not (
+        np.array_equal(beside.time, response.time) and beside.spin_up == response.spin_up
+    ):
         raise ValueError(
             "what is shown beside a spin-up must be of the same motion at the same times: give "
             "linear_response what spin_up_response was given"

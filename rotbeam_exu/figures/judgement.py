@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import ArrayLike
-
-from analytic.arrays import FloatArray
 
 from ..paper import ORANGE
-from ..verification.convergence import Convergence, convergence, convergence_of_functions
-from ..verification.history import HISTORY_FLOOR, Histories
+from ..verification.convergence import Convergence
+from ..verification.history import Histories
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.submission import Run
 from .style import STYLE, columns, cycle, ink, new_figure
@@ -39,30 +36,26 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
         if histories is not None:
             caption = (
                 f"{name}: the finest run over the reference, and the largest difference of each "
-                "run up to each time; dashed, what passes of a limit."
+                "run up to each time; dashed: the threshold for a limit."
             )
             yield svg(_history(histories)), caption
-        drawn = _in_mesh(judgement, name)
+        drawn = _fitted(judgement, name)
         if not drawn:
             return
-        steps = histories.rows.steps if histories else ()
+        steps = any(np.unique(runs.steps).size > 1 for runs in drawn.values())
         timed = histories is not None and any(run.wall > 0.0 for run in histories.runs)
-        count = 1 + bool(steps) + timed
+        count = 1 + steps + timed
         axes = new_figure(columns() / 3.0 * count, 2.5, ncols=count, squeeze=False)[1][0]
-        elements = 1.0 / next(iter(drawn.values())).sizes
-        _draw_errors(axes[0], drawn, elements, declared.order)
-        axes[0].set(xlabel="elements", ylabel="|run − limit| in the mesh")
-        if histories and steps:
-            sizes = np.array([run.step for run in steps])
-            runs = _of_functions(histories, steps, sizes, declared.order_in_step)
-            _draw_errors(axes[1], {"history": runs}, 1e3 * sizes, declared.order_in_step)
-            where = f"step [ms], {steps[0].elements} elements"
-            axes[1].set(xlabel=where, ylabel="|run − limit| in the step")
+        _draw_errors(axes[0], drawn, declared.order)
+        axes[0].set(xlabel="elements", ylabel="error of the mesh")
+        if steps:
+            _draw_errors(axes[1], drawn, declared.order_in_step, in_step=True)
+            axes[1].set(xlabel="step [ms]", ylabel="error of the step")
         if histories and timed:
             _draw_cost(axes[-1], histories)
         machine = declared.machine or "the author's machine"
-        caption = f"{name}: distance from the limit in the mesh{' and in the step' * bool(steps)}"
-        caption += f", with the limit's bar{f'; error and time on {machine}' * timed}."
+        caption = f"{name}: distance from the limit by the mesh{' and by the step' * steps}"
+        caption += f", with the limit's uncertainty{f'; error and time on {machine}' * timed}."
         yield svg(axes[0]), caption
 
 
@@ -84,7 +77,7 @@ def _history(histories: Histories) -> Axes:
     Below, the largest difference up to each time: q(t) crosses zero, and so do differences.
     """
     _, (above, below) = new_figure(columns(), 3.4, nrows=2, sharex=True)
-    finest = histories.rows.finest
+    finest = histories.finest
     every = max(1, finest.time.size // _MOST_POINTS)
     time = finest.time[::every]
     above.plot(time, histories.reference.history(time), color="0.2", lw=2.2, label="reference")
@@ -112,28 +105,33 @@ def _name(run: Run) -> str:
 
 def _colors(histories: Histories) -> dict[Run, Any]:
     """Return a color for each run, from light to dark, the finest last."""
-    rows = histories.rows
-    runs = sorted({*rows.meshes, *rows.steps}, key=lambda run: (run.elements, -run.step))
+    runs = sorted(histories.runs, key=lambda run: (run.elements, -run.step))
     shades = np.linspace(0.3, 1.0, len(runs))
     return dict(zip(runs, map(mpl.colormaps["viridis_r"], shades), strict=True))
 
 
 def _draw_errors(
-    ax: Axes, found: Mapping[str, Convergence], places: FloatArray, declared: float | None
+    ax: Axes, found: Mapping[str, Convergence], declared: float | None, *, in_step: bool = False
 ) -> None:
-    """Draw the distance from the limit with its bar, and the declared order above the first."""
+    """Draw the errors of meshes or steps with the limit's bar, and the declared order above."""
+    top, places = 0.0, np.empty(0)
     for (quantity, runs), color, marker in zip(found.items(), cycle(), _MARKERS, strict=False):
-        errors = np.maximum(np.abs(runs.errors), 1e-16)
-        bars = np.minimum(runs.error_bars, 0.9 * errors), runs.error_bars
+        sizes, parts = (
+            (1e3 * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
+        )
+        places, first = np.unique(sizes, return_index=True)
+        errors = np.maximum(np.abs(parts[first]), 1e-16)
+        bars = np.minimum(runs.bar, 0.9 * errors), np.full(errors.size, runs.bar)
         ax.errorbar(
             places, errors, yerr=bars, color=color, marker=marker, ms=3.5, capsize=2.0,
             elinewidth=0.6, label=_SYMBOLS[quantity],
         )  # fmt: skip
-    sizes = next(iter(found.values())).sizes
-    top = max(float(np.abs(runs.errors).max()) for runs in found.values())
-    if declared and top:
-        line = 2.5 * top * (sizes / sizes[0]) ** declared
-        ax.plot(places, line, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}")
+        top = max(top, float(errors.max()))
+    if declared:
+        falls = (places / places[-1]) ** declared if in_step else (places[0] / places) ** declared
+        ax.plot(
+            places, 2.5 * top * falls, color="0.5", lw=0.7, ls="--", label=f"order {declared:g}"
+        )
     ax.set(xscale="log", yscale="log")
     ax.set_xticks(places, [f"{float(f'{place:.4g}'):g}" for place in places])
     ax.xaxis.set_minor_locator(mpl.ticker.NullLocator())
@@ -142,30 +140,13 @@ def _draw_errors(
     ax.legend(loc="best")
 
 
-def _in_mesh(judgement: Judgement, name: str) -> dict[str, Convergence]:
-    """Return what tends to a limit in the mesh, the step left as it is."""
-    found, histories = {}, judgement.histories.get(name)
-    declared = judgement.declaration.order
-    for quantity, one in judgement.findings[name].items():
-        runs = one.runs
-        if runs is None or runs.sizes.size < 2:
-            continue
-        if quantity == "history" and histories is not None:
-            found[quantity] = _of_functions(histories, histories.rows.meshes, runs.sizes, declared)
-        elif math.isfinite(runs.limit):
-            noise = runs.noise.tolist()
-            found[quantity] = convergence(
-                runs.sizes.tolist(), runs.values.tolist(), noise=noise, declared=declared
-            )
-    return found
-
-
-def _of_functions(
-    histories: Histories, runs: Sequence[Run], sizes: ArrayLike, declared: float | None
-) -> Convergence:
-    functions = np.array([histories.aligned[run] for run in runs])
-    size = np.asarray(sizes, dtype=float).tolist()
-    return convergence_of_functions(size, functions, noise=HISTORY_FLOOR, declared=declared)[0]
+def _fitted(judgement: Judgement, name: str) -> dict[str, Convergence]:
+    """Return what has a limit, by quantity."""
+    return {
+        quantity: one.runs
+        for quantity, one in judgement.findings[name].items()
+        if one.runs is not None and math.isfinite(one.runs.limit)
+    }
 
 
 def _draw_cost(ax: Axes, histories: Histories) -> None:
@@ -179,13 +160,10 @@ def _draw_cost(ax: Axes, histories: Histories) -> None:
     ax.margins(0.2)
     _whole_decades(ax)
     low, high = ax.get_xlim()
-    narrow, low, high = high / low < 10.0, low / 1.3, 1.3 * high
-    ax.set_xlim(low, high)
+    ax.set_xlim(low / 1.3, 1.3 * high)
     ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
-    if narrow:  # round times where no power of ten is in sight
-        powers = 10.0 ** np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1.0)
-        places = [float(k * power) for power in powers for k in (1, 2, 5)]
-        ax.set_xticks([x for x in places if low <= x <= high])
+    if high / low < 10.0:  # round times where no power of ten is in sight
+        ax.xaxis.set_major_locator(mpl.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
     ax.legend(loc="best")
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import xarray as xr
 
+from .. import comparison
 from ..paper import MODEL_NAMES, MODELS
 from ..runs.attributes import beam_of
+
+DrawT = TypeVar("DrawT", bound=Callable[..., Any])
 
 EXACT = "black: the geometrically exact beam, by harmonic balance"
 
@@ -20,30 +23,47 @@ class PaperFigure:
 
     Attributes
     ----------
-    number : int
     data : callable
-        Returns its Dataset; of the function of the same name in `comparison`.
+        Returns its Dataset; the function of the same name in `comparison`.
     draw : callable
         Draws it; returns Axes, or some.
     shows : callable
-        Gives, from the data, the sentence on models, speeds and mesh drawn.
+        Returns, from the data, the sentence on models, speeds and mesh drawn.
     claim : str
-        Claim of the paper, and the truth.
+        Claim of the paper, and our answer.
     sweeps : bool
         Whether the data come from a sweep, which takes `jobs`, `cache` and `progress`.
     """
 
-    number: int
     data: Callable[..., xr.Dataset]
     draw: Callable[..., Any]
     shows: Callable[[xr.Dataset], str]
     claim: str
-    sweeps: bool = False
+    sweeps: bool
 
     def caption(self, data: xr.Dataset) -> str:
-        """Return the caption: the content, the beam, the paper's claim, and the truth."""
+        """Return the caption: the content, the beam, the paper's claim, and our answer."""
         plane = str(data.attrs.get("out_of_plane", ""))
         return " ".join(" ".join([self.shows(data), _beam(data), self.claim, plane]).split())
+
+
+PAPER_FIGURES: dict[int, PaperFigure] = {}
+"""The figures of the paper by number: all but Figures 1, 2, 6 and 7, which are drawings."""
+
+
+def paper_figure(
+    *, shows: Callable[[xr.Dataset], str], claim: str, sweeps: bool = False
+) -> Callable[[DrawT], DrawT]:
+    """Decorate the drawing `figure_N` of data that `comparison.figure_N` makes: Figure N."""
+
+    def known(draw: DrawT) -> DrawT:
+        data = getattr(comparison, draw.__name__)
+        PAPER_FIGURES[int(draw.__name__.removeprefix("figure_"))] = PaperFigure(
+            data=data, draw=draw, shows=shows, claim=claim, sweeps=sweeps
+        )
+        return draw
+
+    return known
 
 
 def _beam(data: xr.Dataset) -> str:

@@ -9,15 +9,40 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .. import comparison
 from ..paper import BLUE, ORANGE
-from .paper_figure import PaperFigure, listed, models, numerics
+from .paper_figure import listed, models, numerics, paper_figure
 from .style import STYLE, column, columns, cycle, house_axes, ink, label, model_line
 
 _DASHES = ("-", "--", ":")
 _DASHES_OF_ORBITS = ("-.", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), "--", ":")
 
 
+def _shows_3(data: xr.Dataset) -> str:
+    attrs = data.attrs
+    steady = data["q"].where(data["time"] >= attrs["ramp_time"], drop=True)
+    size, period = np.ptp(steady.to_numpy(), axis=1) / 2.0, [_period(row) for row in steady]
+    last = int(data["elements"][-1])
+    off = [
+        f"{int(n)} element{'s' if n > 1 else ''}: {100.0 * (a / size[-1] - 1.0):+.1f} and "
+        f"{100.0 * (p / period[-1] - 1.0):+.1f} %"
+        for n, a, p in zip(data["elements"].to_numpy()[:-1], size, period, strict=False)
+    ]
+    return (
+        f"Tip displacement with {listed(data['elements'])} elements, brought to "
+        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s; shaded: steady rotation; "
+        "inset: its last quarter. "
+        f"Amplitude and period of the steady oscillation against those of {last} elements: "
+        f"{'; '.join(off)}. {numerics(data)}"
+    )
+
+
+@paper_figure(
+    shows=_shows_3,
+    claim=(
+        "The paper: even one element is stable. So it is; the phase of the steady oscillation "
+        "takes more."
+    ),
+)
 def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the tip displacement of one, two and three elements; the inset shows its phase."""
     ramp_time, end = float(data.attrs["ramp_time"]), float(data["time"][-1])
@@ -45,25 +70,6 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def _shows_3(data: xr.Dataset) -> str:
-    attrs = data.attrs
-    steady = data["q"].where(data["time"] >= attrs["ramp_time"], drop=True)
-    size, period = np.ptp(steady.to_numpy(), axis=1) / 2.0, [_period(row) for row in steady]
-    last = int(data["elements"][-1])
-    off = [
-        f"{int(n)} element{'s' if n > 1 else ''}: {100.0 * (a / size[-1] - 1.0):+.1f} and "
-        f"{100.0 * (p / period[-1] - 1.0):+.1f} %"
-        for n, a, p in zip(data["elements"].to_numpy()[:-1], size, period, strict=False)
-    ]
-    return (
-        f"Tip displacement with {listed(data['elements'])} elements, brought to "
-        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s; shaded: steady rotation; "
-        "inset: its last quarter. "
-        f"Amplitude and period of the steady oscillation against those of {last} elements: "
-        f"{'; '.join(off)}. {numerics(data)}"
-    )
-
-
 def _period(q: xr.DataArray) -> float:
     """Return the mean distance of upward zero crossings."""
     time, x = q["time"].to_numpy(), q.to_numpy()
@@ -72,18 +78,24 @@ def _period(q: xr.DataArray) -> float:
     return float(np.diff(crossed).mean())
 
 
-FIGURE_3 = PaperFigure(
-    number=3,
-    data=comparison.figure_3,
-    draw=figure_3,
-    shows=_shows_3,
-    claim=(
-        "The paper: even one element is stable. So it is; the phase of the steady oscillation "
-        "takes more."
-    ),
+def _shows_4(data: xr.Dataset) -> str:
+    smeared = data.isel(case=int(np.argmax(data["smear"].to_numpy())))
+    return (
+        f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
+        "speed, in one scale; what both have is black. Lines are the first turn, all turns lie "
+        "behind it, pale. The normalization is that of Eqs. 17 and 18, m the mass ρAL: "
+        "q₀ = mωL⁴/(T(EI + mω²L³)) and, corrected, q̇₀ = q₀√(EI/mL³ + ω²). "
+        f"{numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
+        f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: "
+        f"{100.0 * float(smeared['smear']):.1f} % of its velocity is no harmonic of its frequency "
+        "but the second mode, which so short a ramp excites too."
+    )
+
+
+@paper_figure(
+    shows=_shows_4,
+    claim="The paper: orbits of large amplitude are distorted. So they are.",
 )
-
-
 def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw normalized steady orbits: (a) by ramp time, (b) by speed.
 
@@ -130,29 +142,24 @@ def _first_turn(q: Any, rate: Any) -> slice:
     return slice(0, int(around[0]) + 1 if around.size else None)
 
 
-def _shows_4(data: xr.Dataset) -> str:
-    smeared = data.isel(case=int(np.argmax(data["smear"].to_numpy())))
-    return (
-        f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
-        "speed, in one scale; what both have is black. Lines are the first turn, all turns lie "
-        "behind it, pale. The normalization is that of Eqs. 17 and 18, m the mass ρAL: "
-        "q₀ = mωL⁴/(T(EI + mω²L³)) and, corrected, q̇₀ = q₀√(EI/mL³ + ω²). "
-        f"{numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
-        f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: "
-        f"{100.0 * float(smeared['smear']):.1f} % of its velocity is no harmonic of its frequency "
-        "but the second mode, which so short a ramp excites too."
-    )
-
-
-FIGURE_4 = PaperFigure(
-    number=4,
-    data=comparison.figure_4,
-    draw=figure_4,
-    shows=_shows_4,
-    claim="The paper: orbits of large amplitude are distorted. So they are.",
+@paper_figure(
+    shows=lambda data: (
+        f"One period of the tip's orbit at ω = {data.attrs['omega']:g} rad/s, "
+        f"T = {data.attrs['ramp_time']:g} s: finite elements, {models(data)} and the exact beam at "
+        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}; dots mark where each ends, and the "
+        f"inset those that end near the start. {numerics(data)}"
+    ),
+    claim=(
+        "The paper: FrI is noticeably close "
+        "but open, its frequency too low; CI and CE are significantly inaccurate. The print does "
+        "not say which T. At T = 3.375 and 3.25 s (a = 0.20, 0.23) the paper's order of the paths "
+        "holds: FrI strays 3.0 and 3.4 % of the half axes, CI 4.3 and 3.9 %, CE 6 %. From T = 3 s "
+        "on (a = 0.32) it does not: FrI strays 6.2 % and misses its start by 35 %, CI only 2.3 and "
+        "7.5 %, as its too high ω_n and too strong softening cancel. FrI's frequency is too low "
+        "at every T. At T = 3 s FrM, FrC and FrE close to 1.2 %. FrC and FrE stray 2 %, for they "
+        "lack the second harmonic, which Coriolis forces bring; FrM has it and strays 0.2 %."
+    ),
 )
-
-
 def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the orbits of models, exact beam and finite elements over one period of the latter.
 
@@ -191,29 +198,6 @@ def _orbits(ax: Axes, data: xr.Dataset) -> None:
         line = model_line(model)
         ax.plot(q, rate, label=model, **line)
         ax.plot(q[-1], rate[-1], marker="o", ms=4.0, color=line["color"], zorder=7)
-
-
-FIGURE_15 = PaperFigure(
-    number=15,
-    data=comparison.figure_15,
-    draw=figure_15,
-    shows=lambda data: (
-        f"One period of the tip's orbit at ω = {data.attrs['omega']:g} rad/s, "
-        f"T = {data.attrs['ramp_time']:g} s: finite elements, {models(data)} and the exact beam at "
-        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}; dots mark where each ends, and the "
-        f"inset those that end near the start. {numerics(data)}"
-    ),
-    claim=(
-        "The paper: FrI is noticeably close "
-        "but open, its frequency too low; CI and CE are significantly inaccurate. The print does "
-        "not say which T. At T = 3.375 and 3.25 s (a = 0.20, 0.23) the paper's order of the paths "
-        "holds: FrI strays 3.0 and 3.4 % of the half axes, CI 4.3 and 3.9 %, CE 6 %. From T = 3 s "
-        "on (a = 0.32) it does not: FrI strays 6.2 % and misses its start by 35 %, CI only 2.3 and "
-        "7.5 %, as its too high ω_n and too strong softening cancel. FrI's frequency is too low "
-        "at every T. At T = 3 s FrM, FrC and FrE close to 1.2 %. FrC and FrE stray 2 %, for they "
-        "lack the second harmonic, which Coriolis forces bring; FrM has it and strays 0.2 %."
-    ),
-)
 
 
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:

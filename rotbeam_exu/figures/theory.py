@@ -8,10 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .. import comparison
 from ..paper import MODEL_NAMES
 from ..runs.attributes import beam_of
-from .paper_figure import EXACT, PaperFigure, listed
+from .paper_figure import EXACT, listed, paper_figure
 from .style import STYLE, column, columns, cycle, house_axes, label, model_line
 
 _SHORT_DASHES = ("-", (0, (2, 1)), (0, (1, 1)))  # what greys do not tell from the models'
@@ -21,6 +20,18 @@ _COEFFICIENTS = "λ_ω of ω_NL = ω_n (1 - λ_ω a²) and λ_x of Eq. 65, a →
 _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
 
 
+@paper_figure(
+    shows=lambda data: (
+        f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
+        f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
+        "marked strip, as high. The model's a is the first harmonic of q/L, the exact beam's half "
+        "peak to peak."
+    ),
+    claim=(
+        "The paper: all lie in the shaded area. As algebra of the model they do, and at rest the "
+        "model is right; in rotation it softens far too much, because Eq. 25 drops -v'⁴/8."
+    ),
+)
 def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the backbones of CI between Ω = 0 and ∞, and the exact ones; the inset is near 1."""
     a, ratio, exact = data["amplitude"], data["ratio"], data["exact"]
@@ -44,32 +55,7 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-FIGURE_8 = PaperFigure(
-    number=8,
-    data=comparison.figure_8,
-    draw=figure_8,
-    shows=lambda data: (
-        f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
-        f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
-        "marked strip, as high. The model's a is the first harmonic of q/L, the exact beam's half "
-        "peak to peak."
-    ),
-    claim=(
-        "The paper: all lie in the shaded area. As algebra of the model they do, and at rest the "
-        "model is right; in rotation it softens far too much, because Eq. 25 drops -v'⁴/8."
-    ),
-)
-
-
-def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
-    """Draw λ_ω and λ_x of CI against Ω."""
-    return _coefficients(data, "speed_ratio", ax)
-
-
-FIGURE_9 = PaperFigure(
-    number=9,
-    data=comparison.figure_9,
-    draw=figure_9,
+@paper_figure(
     shows=lambda _: (
         f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}."
     ),
@@ -78,17 +64,12 @@ FIGURE_9 = PaperFigure(
         "exact λ_ω stays below 0.025."
     ),
 )
+def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw λ_ω and λ_x of CI against Ω."""
+    return _coefficients(data, "speed_ratio", ax)
 
 
-def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
-    """Draw λ_ω and λ_x of the polynomial shapes and of the cantilever's mode against ω."""
-    return _coefficients(data, "omega", ax)
-
-
-FIGURE_10 = PaperFigure(
-    number=10,
-    data=comparison.figure_10,
-    draw=figure_10,
+@paper_figure(
     shows=lambda _: (
         f"{_COEFFICIENTS} against ω, inextensible, by the cantilever's mode and by polynomials of "
         f"degree 3, 4 and 5; {EXACT}."
@@ -99,19 +80,12 @@ FIGURE_10 = PaperFigure(
         "beam; at rest the mode alone is right."
     ),
 )
+def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw λ_ω and λ_x of the polynomial shapes and of the cantilever's mode against ω."""
+    return _coefficients(data, "omega", ax)
 
 
-def figure_11(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
-    """Draw λ_ω and λ_x of CE against ω for several slendernesses."""
-    axes = _coefficients(data, "omega", ax)
-    axes[0].set_title(f"CE; {data.attrs['held']}", loc="left", fontsize=STYLE["axes.titlesize"])
-    return axes
-
-
-FIGURE_11 = PaperFigure(
-    number=11,
-    data=comparison.figure_11,
-    draw=figure_11,
+@paper_figure(
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
         f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, "
@@ -122,6 +96,11 @@ FIGURE_11 = PaperFigure(
         "an assumption, and of a slender beam λ_ω goes the wrong way."
     ),
 )
+def figure_11(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw λ_ω and λ_x of CE against ω for several slendernesses."""
+    axes = _coefficients(data, "omega", ax)
+    axes[0].set_title(f"CE; {data.attrs['held']}", loc="left", fontsize=STYLE["axes.titlesize"])
+    return axes
 
 
 def _coefficients(data: xr.Dataset, axis: str, ax: Sequence[Axes] | None) -> Sequence[Axes]:
@@ -143,6 +122,20 @@ def _coefficients(data: xr.Dataset, axis: str, ax: Sequence[Axes] | None) -> Seq
     return tuple(axes)
 
 
+def _shows_12(data: xr.Dataset) -> str:
+    first = [int(data["degree"][np.isfinite(row.to_numpy())][0]) for row in data["omega_n"]]
+    return (
+        "Distance of the natural frequency by Frobenius' series from its limit, over the degree N "
+        f"of the polynomial, even ones, at ω = {listed(data['omega'])} rad/s. "
+        f"Before N = {listed(first)} there is no point, for Eq. 86 has no root near the first "
+        "frequency; below 1e-13 rad/s there is none, for that is round-off."
+    )
+
+
+@paper_figure(
+    shows=_shows_12,
+    claim="The paper: degree 36 is enough. At 8 rad/s it is 2.1e-4 rad/s off. Eq. 81 is corrected.",
+)
 def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the distance of Frobenius' natural frequency from its limit over the degree."""
     off = np.abs(data["omega_n"] - data["converged"])
@@ -168,37 +161,6 @@ def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def _shows_12(data: xr.Dataset) -> str:
-    first = [int(data["degree"][np.isfinite(row.to_numpy())][0]) for row in data["omega_n"]]
-    return (
-        "Distance of the natural frequency by Frobenius' series from its limit, over the degree N "
-        f"of the polynomial, even ones, at ω = {listed(data['omega'])} rad/s. "
-        f"Before N = {listed(first)} there is no point, for Eq. 86 has no root near the first "
-        "frequency; below 1e-13 rad/s there is none, for that is round-off."
-    )
-
-
-FIGURE_12 = PaperFigure(
-    number=12,
-    data=comparison.figure_12,
-    draw=figure_12,
-    shows=_shows_12,
-    claim="The paper: degree 36 is enough. At 8 rad/s it is 2.1e-4 rad/s off. Eq. 81 is corrected.",
-)
-
-
-def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the first mode shape at rest and in rotation."""
-    with house_axes(ax, column(), 2.6) as axes:
-        for row, color, style in zip(data["shape"], ("black", *cycle()), _DASHES, strict=False):
-            omega = float(row["omega"])
-            name = "cantilever at rest" if omega == 0.0 else f"ω = {omega:g} rad/s"
-            axes.plot(data["eta"], row, color=color, ls=style, label=name)
-        axes.set(xlabel=label(data["eta"]), ylabel=label(data["shape"]), xlim=(0, 1), ylim=(0, 1))
-        axes.legend(loc="upper left")
-    return axes
-
-
 def _shows_13(data: xr.Dataset) -> str:
     rise = data["shape"][1:] - data["shape"][0]
     highest = [f"{float(row.max()):.3f}" for row in rise]
@@ -210,10 +172,17 @@ def _shows_13(data: xr.Dataset) -> str:
     )
 
 
-FIGURE_13 = PaperFigure(
-    number=13,
-    data=comparison.figure_13,
-    draw=figure_13,
+@paper_figure(
     shows=_shows_13,
     claim="The paper: the difference becomes significant with speed. It does: tension straightens.",
 )
+def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw the first mode shape at rest and in rotation."""
+    with house_axes(ax, column(), 2.6) as axes:
+        for row, color, style in zip(data["shape"], ("black", *cycle()), _DASHES, strict=False):
+            omega = float(row["omega"])
+            name = "cantilever at rest" if omega == 0.0 else f"ω = {omega:g} rad/s"
+            axes.plot(data["eta"], row, color=color, ls=style, label=name)
+        axes.set(xlabel=label(data["eta"]), ylabel=label(data["shape"]), xlim=(0, 1), ylim=(0, 1))
+        axes.legend(loc="upper left")
+    return axes

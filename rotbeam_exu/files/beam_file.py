@@ -216,7 +216,7 @@ def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
         title = "[blade.section.out_of_plane]"
         section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
         if shape is not None:
-            raise ValueError(f"{source} has {title} and a shape, which tells the same: keep one")
+            raise ValueError(f"{source} has {title} and a shape, which say the same: keep one")
     return Section(**section), shape
 
 

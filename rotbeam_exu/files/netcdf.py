@@ -73,20 +73,13 @@ def decode(raw: bytes) -> tuple[xr.Dataset, bool]:
     return data.drop_encoding(), seal is not None
 
 
-def _storable(value: object) -> bool:
-    if isinstance(value, list):
-        return len(value) > 1 and all(
-            type(item) is type(value[0]) and not isinstance(item, list) and _storable(item)
-            for item in value
-        )
-    if isinstance(value, str):
+def _storable(value: Any) -> bool:
+    items = value if isinstance(value, list) and len(value) > 1 else [value]
+    kinds = set(map(type, items))
+    if kinds == {str}:
         # Neither NUL nor half a surrogate pair: HDF5's text is UTF-8 that ends with NUL.
-        return "\0" not in value and value.encode(errors="ignore").decode() == value
-    if isinstance(value, bool):
-        return False
-    if isinstance(value, int):
-        return -(2**63) <= value < 2**63
-    return isinstance(value, float)
+        return all("\0" not in x and x.encode(errors="ignore").decode() == x for x in items)
+    return kinds == {float} or (kinds == {int} and all(-(2**63) <= x < 2**63 for x in items))
 
 
 def plain(value: Any) -> Any:

@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from ..verification.cases import CASES, VERSION
+from ..verification.convergence import Order
 from ..verification.judgement import Judgement
 from ..verification.mistakes import Mistake
-from ..verification.outcomes import Finding, Order
+from ..verification.outcomes import Finding
 from ..verification.submission import Run, Submission
 
-SCHEMA = "rotbeam judgement 1"
+SCHEMA = "rotbeam judgement 2"
 """Its number grows where a key goes, or means something else."""
 
 
@@ -87,7 +88,7 @@ def _case(name: str, record: Record) -> dict[str, Any]:
         "outcome": str(found.outcome_of(name)),
         "reference": found.sources.get(name, ""),
         "quantities": {key: _finding(one) for key, one in found.findings[name].items()},
-        "orders": {key: _order(one) for key, one in found.orders.get(name, {}).items()},
+        "remarks": found.remarks.get(name, []),
         "runs": [_run(run, found) for run in record.submission.runs if run.case == name],
     }
 
@@ -97,6 +98,7 @@ def _finding(found: Finding) -> dict[str, Any]:
     return {
         "outcome": str(found.outcome),
         "passed": found.outcome.passed,
+        "within": found.within,
         "note": found.note,
         "at_most": found.tolerance,
         "model_difference": found.model_difference,
@@ -105,16 +107,22 @@ def _finding(found: Finding) -> dict[str, Any]:
         "discretization": runs.errors[-1] if runs else None,
         "floor": runs.noise[-1] if runs else None,
         "reference_bound": found.bound,
-        "order": runs.order if runs else None,
-        "why_no_order": runs.why if runs else "",
-        "sizes": runs.sizes if runs else [],
+        "orders": {key: _order(one) for key, one in runs.orders.items()} if runs else {},
+        "elements": runs.elements if runs else [],
+        "steps": runs.steps if runs else [],
         "values": runs.values if runs else [],
         "errors": runs.errors if runs else [],
     }
 
 
 def _order(order: Order) -> dict[str, Any]:
-    return {"observed": order.value, "declared": order.declared, "low": order.low, "why": order.why}
+    return {
+        "observed": order.value,
+        "bar": order.bar,
+        "declared": order.declared,
+        "low": order.low,
+        "why": order.why,
+    }
 
 
 def _run(run: Run, found: Judgement) -> dict[str, Any]:

@@ -13,7 +13,9 @@ from string import Template
 from urllib.parse import quote
 
 from ..verification.cases import CASES, VERSION
-from ..verification.outcomes import Finding, Order, Outcome
+from ..verification.convergence import Order
+from ..verification.judgement import THRESHOLDS
+from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .document import Record, document
 
@@ -24,9 +26,9 @@ _PIXELS = 1.75
 """Pixels to a point of a figure: its letters are then as large as the text's."""
 
 _MARKS = {
-    Outcome.REFERENCE: ("right", "✓"), Outcome.NOT_SUBMITTED: ("open", "–"),
-    Outcome.NO_VERDICT: ("open", "?"), Outcome.ANOTHER_LIMIT: ("other", "≠"),
-    Outcome.NO_LIMIT: ("wrong", "✗"),
+    Outcome.REFERENCE: ("right", "✓"), Outcome.AGREES: ("right", "≈"),
+    Outcome.NOT_SUBMITTED: ("open", "–"), Outcome.UNDECIDED: ("open", "?"),
+    Outcome.DIFFERS: ("wrong", "≠"),
 }  # fmt: skip
 
 
@@ -44,7 +46,6 @@ def report_page(record: Record) -> str:
         mistakes=_mistakes(record),
         about=_about(record),
         outcomes=_outcomes(record),
-        orders=_orders(record),
         cases="\n".join(_case(name, record) for name in found.findings),
         runs=_runs(record),
         files=_files(record),
@@ -90,7 +91,7 @@ def _about(record: Record) -> str:
         "Source": url,
         "Licence": escape(stated.licence),
         "Element": escape(stated.element),
-        "Held against": escape(f"the exact {stated.theory.name} beam"),
+        "Compared with": escape(f"the exact {stated.theory.name} beam"),
         "Declared orders": ", ".join(orders),
         "Machine": escape(stated.machine),
         "Remarks": escape(stated.remarks),
@@ -100,8 +101,8 @@ def _about(record: Record) -> str:
 
 def _outcomes(record: Record) -> str:
     header = [
-        "case", "quantity", "outcome", "limit − reference", "at most", "run − limit", "order",
-        "floor", "reference ±",
+        "case", "quantity", "outcome", "limit − reference", "at most", "run − limit",
+        "order in mesh / step, of declared", "floor", "reference ±",
     ]  # fmt: skip
     rows = [
         _outcome_row(case, quantity, found)
@@ -113,17 +114,17 @@ def _outcomes(record: Record) -> str:
 def _outcome_row(case: str, quantity: str, found: Finding) -> list[str]:
     kind, mark = _MARKS[found.outcome]
     runs = found.runs
-    outcome = f'<span class="{kind}">{mark} {found.outcome}</span>'
+    outcome = f'<span class="{kind}">{mark} {found.said}</span>'
     if found.note and found.outcome is not Outcome.REFERENCE:
         outcome += f"<br><small>{escape(found.note)}</small>"
     limit = order = finest = floor = "–"
     if runs is not None:
         finest, floor = _number(float(runs.errors[-1])), _number(float(runs.noise[-1]), "")
-        order = f"{runs.order:.1f}" if math.isfinite(runs.order) else f"<small>{runs.why}</small>"
+        order = " / ".join(map(_order, runs.orders.values()))
         if math.isfinite(runs.limit):
             limit = f"{_number(runs.limit)} ± {_number(runs.bar, '')}"
     return [
-        escape(case), quantity, outcome, limit, f"{found.tolerance:g}", finest, order, floor,
+        escape(case), quantity, outcome, limit, f"{THRESHOLDS[quantity]:g}", finest, order, floor,
         _number(found.bound, ""),
     ]  # fmt: skip
 
@@ -136,19 +137,12 @@ def _number(value: float, sign: str = "+") -> str:
     return f"{mantissa.replace('-', '−')}·10<sup>{int(power)}</sup>".replace("<sup>-", "<sup>−")
 
 
-def _orders(record: Record) -> str:
-    rows = [
-        [escape(case), name, _order(order)]
-        for case, orders in record.judgement.orders.items()
-        for name, order in orders.items()
-    ]
-    header = ["case", "refined in", "order of q(t), observed of declared"]
-    return _table(header, rows) if rows else ""
-
-
 def _order(order: Order) -> str:
+    """Return an order with its bar, observed of declared."""
+    if math.isnan(order.value):
+        return f"<small>{escape(order.why)}</small>"
     low = " <small>(less than declared)</small>" if order.low else ""
-    return escape(str(order)) + low
+    return f"{order} ± {order.bar:.1f}{low}"
 
 
 def _case(name: str, record: Record) -> str:
@@ -160,7 +154,8 @@ def _case(name: str, record: Record) -> str:
     figures = "".join(_figure(*one) for one in judged_figures(name, found))
     source = escape(found.sources.get(name, "none"))
     source = f"<p><small>Reference: {source}.</small></p>"
-    return f"<section><h3>{escape(title)}</h3>{figures}{source}</section>"
+    remarks = "".join(f"<p>{escape(said)}</p>" for said in found.remarks.get(name, []))
+    return f"<section><h3>{escape(title)}</h3>{remarks}{figures}{source}</section>"
 
 
 def _figure(picture: str, caption: str) -> str:

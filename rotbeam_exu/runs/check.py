@@ -82,13 +82,14 @@ def remedy(run: xr.Dataset, t: float) -> str:
 
 def _reach(run: xr.Dataset) -> FloatArray:
     """Return the tip's distance from the clamp [m], (samples,)."""
+    if "axis" in run:
+        axis = run["axis"].to_numpy()
+        return np.asarray(np.linalg.norm(axis[:, -1] - axis[:, 0], axis=-1))
     unit = beam_of(run.attrs).unit
     radius = unit.hub * float(run.attrs["beam_length"])
     tip = run["tip_x"].to_numpy() + 1j * run["tip_y"].to_numpy()
     in_plane = np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy()))
     out_of_plane = math.sqrt(1.0 - unit.setting**2) * run["q"].to_numpy()
-    if "w" in run:
-        out_of_plane = run["w"].to_numpy()
     return np.asarray(np.hypot(in_plane, out_of_plane))
 
 

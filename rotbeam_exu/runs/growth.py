@@ -49,7 +49,8 @@ def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     Parameters
     ----------
     run : Dataset
-        As made by `simulate_3d`, over at least two periods of the oscillation in the plane.
+        As made by `simulate` with an element in space, over at least two periods of the
+        oscillation in the plane.
 
     Raises
     ------
@@ -63,7 +64,7 @@ def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     >>> import xarray as xr
     >>> from rotbeam_exu.runs.growth import growth_rate_of
     >>> time = np.linspace(0.0, 40.0, 4001)
-    >>> w = 1e-6 * np.exp(0.5 * time)  # stands for a run of simulate_3d
+    >>> w = 1e-6 * np.exp(0.5 * time)  # stands for a run in space
     >>> tip = {"q": np.sin(3.0 * time), "w": w, "w_dot": 0.5 * w}
     >>> run = xr.Dataset(
     ...     {name: ("time", values) for name, values in tip.items()},
@@ -76,7 +77,7 @@ def growth_rate_of(run: xr.Dataset) -> GrowthRate:
     for name in ("q", "w", "w_dot"):
         if name not in run:
             raise ValueError(
-                f"the run has no {name}: growth is measured of what simulate_3d returns"
+                f"the run has no {name}: simulate it with an element in space, as 'space_exact'"
             )
     ramp_time, length = float(run.attrs["ramp_time"]), float(run.attrs["beam_length"])
     steady = run.sel(time=run["time"] >= ramp_time)

@@ -198,7 +198,12 @@ def _check_form(run: xr.Dataset) -> None:
 
 
 def _natural_frequency(run: xr.Dataset) -> float | None:
-    """Return ω_n of the exact beam of a run; None if the run does not say which beam it is."""
+    """Return ω_n of the exact beam of a run; None if the run does not say which beam it is.
+
+    Nor in space, where q may show any mode.
+    """
+    if "w" in run:
+        return None
     try:
         beam, omega = beam_of(run.attrs), float(run.attrs["omega"])
     except KeyError:

@@ -49,10 +49,10 @@ def checked_steps(
         )
     steps = round(duration / step)
     if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
-        nearest = duration / max(steps, 1)
+        steps = max(steps, 1)
         raise ValueError(
-            f"duration {duration:g} s is not a whole number of steps of {step:g} s; "
-            f"try a step of {nearest:.12g} s"
+            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step of "
+            f"{duration / steps:.12g} s or a duration of {steps * step:.12g} s"
         )
     require_stretch(beam)
     require_resolved_ramp(ramp_time, step)

@@ -63,8 +63,8 @@ def sweep(
         Number of processes of the default executor, by default the cores; 1 runs in this process.
     cache : path, optional
         Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
-        Results found there were made by the same code: this project's, the element's, and all else
-        they import but installed libraries.
+        Results found there were made by the same code: this project's and the element's, which is
+        its package, or its module and those beside it.
     progress : callable, optional
         Called with the cases done and their number.
     on_error : {"raise", "record"}
@@ -100,8 +100,8 @@ def sweep(
     [[0.2758 0.1654]] [[3.0377 3.0361]]
     """
     cases = _grid(
-        _values("omegas", omegas, "rad/s"),
-        _values("ramp_times", ramp_times, "s"),
+        finite_values("omegas", omegas, "rad/s").tolist(),
+        finite_values("ramp_times", ramp_times, "s").tolist(),
         lambda spin_up: Case(
             beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
             step=step, frame=frame,
@@ -158,12 +158,6 @@ def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
     return found
 
 
-def _values(name: str, values: Sequence[float], unit: str) -> list[float]:
-    if np.size(np.asarray(values)) == 0:
-        raise ValueError(f"{name} is empty; give at least one value")
-    return [float(value) for value in finite_values(name, values, unit)]
-
-
 def _grid(
     omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], Case]
 ) -> dict[tuple[float, float], Case]:
@@ -183,8 +177,8 @@ def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache 
     if made_by is None:
         cls = type(model)
         warn(
-            f"the source of {cls.__qualname__} does not tell what it does, so its cases are not "
-            "kept in the cache; define it at the top level of a module on file"
+            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
+            "define it at the top level of a module on file"
         )
         return None
     return Cache(folder, made_by=made_by)
@@ -220,12 +214,10 @@ def _solved(
                 try:
                     result = future.result()
                 except (BrokenProcessPool, CancelledError) as error:
-                    what = "a worker process died"
-                    if isinstance(error, CancelledError):
-                        what = "the executor gave its cases up, as a Dask scheduler does that ends,"
                     raise SimulationError(
-                        f"{what} with {len(waiting) - finished} of {len(waiting)} cases to do; "
-                        "run again to resume from the cache"
+                        "a worker process died, or its executor ended, with "
+                        f"{len(waiting) - finished} of {len(waiting)} cases to do; run again to "
+                        "resume from the cache"
                     ) from error
                 yield point, _kept(store, cases[point], result)
         finally:

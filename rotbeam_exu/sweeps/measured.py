@@ -22,16 +22,16 @@ from ..runs.oscillation import NoOscillationError, steady_oscillation
 from ..runs.versions import versions
 
 MEASURED = {
-    "amplitude": ("1", "amplitude a = q/L, half peak to peak"),
-    "amplitude_error": ("1", "error bar of a, estimator"),
-    "first_harmonic": ("1", "first harmonic over L"),
-    "frequency": ("rad/s", "nonlinear frequency ω_NL"),
-    "frequency_error": ("rad/s", "error bar of ω_NL, estimator"),
-    "offset": ("1", "mean of q over L"),
-    "residual": ("1", "second bending mode, rms over L"),
-    "omega_n": ("rad/s", "natural frequency ω_n of the mesh"),
+    "amplitude": "amplitude a = q/L, half peak to peak",
+    "amplitude_error": "error bar of a, estimator",
+    "first_harmonic": "first harmonic over L",
+    "frequency": "nonlinear frequency ω_NL [rad/s]",
+    "frequency_error": "error bar of ω_NL, estimator [rad/s]",
+    "offset": "mean of q over L",
+    "residual": "second bending mode, rms over L",
+    "omega_n": "natural frequency ω_n of the mesh [rad/s]",
 }
-"""Quantities measured of a case: unit and long name."""
+"""Quantities measured of a case, with their labels."""
 
 
 def solve(case: Case) -> xr.Dataset:
@@ -48,14 +48,13 @@ def solve(case: Case) -> xr.Dataset:
     try:
         run = run_case(case)
         omega_n = _omega_n(case.beam, case.omega, case.model, case.elements)
-        measured = {**_steady(run), "omega_n": omega_n, "verdict": run.attrs["verdict"]}
+        measured = {**_steady(run), "omega_n": omega_n}
+        attrs = {**measured, "verdict": run.attrs["verdict"], "failure": ""}
     except SimulationError as error:
-        computed = error.run if run is None else run
-        result = xr.Dataset() if computed is None else computed[["q", "q_dot"]]
-        result.attrs = {"verdict": "failed", "failure": str(error)}
-        return result
-    result = run[["q", "q_dot"]]
-    result.attrs = {**measured, "failure": ""}
+        run = error.run if run is None else run
+        attrs = {"verdict": "failed", "failure": str(error)}
+    result = xr.Dataset() if run is None else run[["q", "q_dot"]]
+    result.attrs = attrs
     return result
 
 
@@ -68,7 +67,7 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
     measured = {name: float(getattr(steady, name)) for name in MEASURED if name != "omega_n"}
     for name, value in measured.items():
         if not math.isfinite(value):
-            raise SimulationError(f"the {MEASURED[name][1]} was measured as {value}")
+            raise SimulationError(f"the {MEASURED[name]} was measured as {value}")
     return measured
 
 
@@ -99,10 +98,9 @@ def collect(
             for name, column in columns.items():
                 column[i, j] = result.attrs[name]
     first = next(iter(cases.values())).describe()
-    labels = {name: f"{long_name} [{unit}]" for name, (unit, long_name) in MEASURED.items()}
     data = dataset(
         {
-            **{name: (dims, column, labels[name]) for name, column in columns.items()},
+            **{name: (dims, column, MEASURED[name]) for name, column in columns.items()},
             "verdict": (dims, verdict.astype(str), "verdict"),
             "failure": (dims, failure.astype(str), "why a case failed"),
         },

@@ -1,11 +1,7 @@
-"""Limits of numbers as meshes or steps are refined, with orders and errors.
+"""One fit to all runs of a submission: the limit of a number or a history, its bar, the orders.
 
-With f(h) = f₀ + C hᵖ three runs give the order p by the ratio of their changes,
-
-    (f₂ - f₁)/(f₃ - f₂) = (h₁ᵖ - h₂ᵖ)/(h₂ᵖ - h₃ᵖ),      f₀ = f₃ + (f₃ - f₂)/((h₂/h₃)ᵖ - 1).
-
-That is Richardson's extrapolation; the bar of f₀ is in the spirit of Roache's grid convergence
-index (1994), a factor of safety on the correction, smaller the better its order is known.
+Meshes at one step, steps on one mesh, diagonals and whole grids are all of use, and a declared
+order counts for as much as runs leave open; `error_models` says how.
 """
 
 from __future__ import annotations
@@ -13,239 +9,198 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
-_CONFIRMED = 0.25
-"""Share of the correction that its bar keeps where the order is measured: Roache's 1.25."""
+from .error_models import Declared, Models, bar_of, likeliest, models_of, shares
 
-_ASSUMED = 3.0
-"""Roache's factor of safety where the order is assumed."""
+_TELLING = 0.5  # bar of an order over the order, above which it is not measured
 
-_LEAST_ORDER = 1.0
-"""Order of a consistent method, taken where none is declared and none can be measured."""
 
-_HIGHEST_ORDER = 20.0
+LEAST_SHARE = 0.7
+"""Least share of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """An observed order beside the declared one. It decides nothing: a code is judged by its limit.
+
+    Attributes
+    ----------
+    value, bar : float
+        And its standard deviation; NaN where the runs do not tell it.
+    declared : float or None
+    why : str
+        Why it is not measured.
+    """
+
+    value: float = math.nan
+    bar: float = math.nan
+    declared: float | None = None
+    why: str = ""
+
+    @property
+    def low(self) -> bool:
+        """True where it is less than LEAST_SHARE of the declared one."""
+        return self.declared is not None and self.value < LEAST_SHARE * self.declared
+
+    def __str__(self) -> str:
+        if math.isnan(self.value):
+            return f"not measured: {self.why}"
+        return f"{self.value:.1f}" + (f" of {self.declared:g}" if self.declared else "")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Convergence:
-    """The limit of several runs, and how they tend to it; made by `convergence`.
+    """The limit of all runs, and how they tend to it; made by `converged`.
 
     Attributes
     ----------
-    sizes, values, noise : ndarray (runs,)
-        Mesh size or step, the number found, and the bar of what measured it; the finest last.
-    errors : ndarray (runs,)
-        Of discretization: value less limit, of functions the largest distance from the limit.
-    limit : float
-        The number at size zero; NaN of a single run.
-    bar : float
-        Of the limit.
-    order : float
-        As observed on the three finest runs whose changes stand out of the noise; NaN where not.
-    why : str
-        Why the order is not measured.
-    settles : bool
-        Whether the changes shrink, as far as one can tell.
+    elements, steps : ndarray (runs,)
+        The finest mesh last, on it the smallest step; steps are zero where there are none.
+    values, noise : ndarray (runs,)
+        The number found, and the bar of what measured it; of histories the largest size.
+    errors, in_mesh, in_step : ndarray (runs,)
+        Value less limit, and the parts that mesh and step have in it; of histories the largest.
+    limit, bar : float
+        The number on infinitely fine meshes with infinitely small steps; NaN and infinity of a
+        single mesh.
+    powers : tuple of float
+        p and r of the likeliest model, be they measured or not.
+    orders : dict
+        By "mesh", and "step" if there are several, the `Order` as observed.
+    growths : int
+        How often in a row changes grow from one mesh or step to the next.
     """
 
-    sizes: FloatArray = field(repr=False)
+    elements: FloatArray = field(repr=False)
+    steps: FloatArray = field(repr=False)
     values: FloatArray
     noise: FloatArray = field(repr=False)
-    errors: FloatArray = field(repr=False)
+    errors: FloatArray
+    in_mesh: FloatArray = field(repr=False)
+    in_step: FloatArray = field(repr=False)
     limit: float
     bar: float
-    order: float
-    why: str = ""
-    settles: bool = True
-
-    @property
-    def error_bars(self) -> FloatArray:
-        """Bars of `errors`, (runs,)."""
-        return self.bar + self.noise
+    powers: tuple[float, float]
+    orders: dict[str, Order]
+    growths: int = 0
 
 
-def convergence(
-    sizes: Sequence[float],
-    values: Sequence[float],
+def converged(
+    elements: Sequence[int],
+    steps: Sequence[float] | None,
+    values: ArrayLike,
     *,
     noise: float | Sequence[float] = 0.0,
-    declared: float | None = None,
+    declared: Declared = (None, None),
 ) -> Convergence:
-    """Extrapolate the values of several runs to size zero.
-
-    By the observed order if it can be measured, with a bar of twice the change by the declared
-    order; else by the declared order, or the first, with a bar of twice the correction. Where the
-    last change is no larger than the noise, the finest run is the limit. Where changes alternate or
-    grow, it is the limit with a bar of three changes.
+    """Fit all runs of one quantity, and return its limit with a bar that covers.
 
     Parameters
     ----------
-    sizes : sequence (runs,)
-        Mesh sizes or steps, in any unit and order; no two the same.
-    values : sequence (runs,) The results. noise : float or sequence (runs,)
+    elements : sequence (runs,)
+    steps : sequence (runs,), optional
+        In any unit; none of what is not integrated in time.
+    values : array_like (runs,) or (runs, samples)
+        Numbers, or functions at the same samples.
+    noise : float or sequence (runs,)
         Largest error of the measurement itself, in the unit of the values.
-    declared : float, optional
-        Order that the author expects.
+    declared : tuple of float, optional
+        Orders in mesh and step that the author declares.
 
     Raises
     ------
     ValueError
-        If there is no run, sizes are not positive or not distinct, or something is not finite.
+        If there is no run, a resolution is there twice or not positive, or a value is not finite.
     """
-    h, f = finite_array("sizes", sizes), finite_array("values", values)
-    bars = np.broadcast_to(finite_array("noise", noise), f.shape)
-    if h.ndim != 1 or h.shape != f.shape or not h.size:
-        raise ValueError(f"each run has a size and a value, got {h.size} sizes, {f.size} values")
-    if (h <= 0.0).any() or np.unique(h).size < h.size or (bars < 0.0).any():
-        raise ValueError(
-            f"sizes must be positive and distinct, noise not negative, got {list(h)}, {list(bars)}"
-        )
-    finest_last = np.argsort(-h)
-    h, f, bars = h[finest_last], f[finest_last], bars[finest_last]
-    if h.size == 1:
-        limit, bar, settles = math.nan, math.inf, True
-    else:
-        limit, bar, settles = _limit(h, f, bars, declared)
-    order, why = observed_order(h, np.diff(f), bars[:-1] + bars[1:])
+    n, f = finite_array("elements", elements), finite_array("values", values)
+    h = np.zeros(n.shape) if steps is None else finite_array("steps", steps)
+    if not n.size or not n.shape == h.shape == f.shape[:1]:
+        raise ValueError(f"each run has a mesh, a step and a value, got {n.size} and {len(f)}")
+    if (n <= 0.0).any() or (h < 0.0).any() or len(set(zip(n, h, strict=True))) < n.size:
+        raise ValueError("meshes and steps must be positive, and no two runs the same in both")
+    finest_last = np.lexsort((-h, n))
+    n, h, f = n[finest_last], h[finest_last], f[finest_last].reshape(n.size, -1)
+    bars = np.broadcast_to(finite_array("noise", noise), n.shape)[finest_last]
+    made: dict[str, Any] = {"elements": n, "steps": h, "noise": bars, "values": _of_rows(f)}
+    if np.unique(n).size == 1:
+        none = np.full(n.size, math.nan)
+        why = Order(declared=declared[0], why="one mesh, three are needed")
+        return Convergence(
+            **made, errors=none, in_mesh=none, in_step=none, limit=math.nan, bar=math.inf,
+            powers=(math.nan, math.nan), orders={"mesh": why},
+        )  # fmt: skip
+    y = h / (h.min() or 1.0)
+    if np.unique(n).size == np.unique(h).size == n.size:
+        # Steps that shrink with each mesh, and with nothing else, have no part of their own.
+        y, declared = np.ones(n.size), (min(filter(None, declared), default=None), None)
+    models = models_of(tuple(n[-1] / n), tuple(y), declared)
+    # The finest run is taken off, so that its digits are not lost.
+    moved = f - f[-1]
+    evidence = models.evidence(moved)
+    best = likeliest(models, evidence, moved)
+    limit = f[-1] + best.weights[0] @ moved
+    mesh, step = (one[0] @ best.projections[0] @ moved for one in best.parts())
+    bar = bar_of(models, evidence, best.weights[0], moved) + float(np.abs(best.weights[0]) @ bars)
     return Convergence(
-        sizes=h, values=f, noise=bars, errors=f - limit,
-        limit=limit, bar=bar, order=order, why=why, settles=settles,
+        **made, errors=_of_rows(f - limit), in_mesh=_of_rows(mesh),
+        in_step=_of_rows(step), limit=float(_of_rows(limit[None])[0]), bar=bar,
+        powers=(float(best.given[0][0]), float(best.given[1][0])),
+        orders=_orders(models, evidence, best, n, h, moved, bars), growths=_growths(n, h, f, bars),
     )  # fmt: skip
 
 
-def convergence_of_functions(
-    sizes: Sequence[float],
-    functions: FloatArray,
-    *,
-    noise: float = 0.0,
-    declared: float | None = None,
-) -> tuple[Convergence, FloatArray]:
-    """Extrapolate functions, such as histories, to size zero.
-
-    The way from the coarsest to the limit, its length measured by the largest change from run to
-    run, is a sequence of numbers, whose `convergence` tells how far the limit is. It lies ahead in
-    the direction of the last change.
-
-    Parameters
-    ----------
-    sizes : sequence (runs,)
-        Mesh sizes or steps, in any order; no two the same.
-    functions : ndarray (runs, samples)
-        At the same samples.
-    noise : float
-        Largest error of the functions themselves, such as that of Newton's method.
-    declared : float, optional
-        Order that the author expects.
-
-    Returns
-    -------
-    runs : Convergence
-        Its values and limit are lengths of way.
-    limit : ndarray (samples,)
-    """
-    finest_last = np.argsort(-np.asarray(sizes, dtype=np.float64))
-    f = functions[finest_last]
-    changes = np.abs(np.diff(f, axis=0)).max(axis=1)
-    way = np.concatenate(([0.0], np.cumsum(changes)))
-    runs = convergence(
-        np.asarray(sizes, dtype=np.float64)[finest_last].tolist(),
-        way.tolist(), noise=noise, declared=declared,
-    )  # fmt: skip
-    if f.shape[0] == 1 or not changes[-1]:
-        return runs, f[-1]
-    return runs, f[-1] + (runs.limit - way[-1]) / changes[-1] * (f[-1] - f[-2])
+def _of_rows(f: FloatArray) -> FloatArray:
+    """Return numbers as they are, of functions the largest sizes."""
+    return f[:, 0] if f.shape[1] == 1 else np.abs(f).max(axis=1)
 
 
-def observed_order(
-    sizes: Sequence[float] | FloatArray,
-    changes: Sequence[float] | FloatArray,
-    noise: Sequence[float] | FloatArray,
-) -> tuple[float, str]:
-    """Return the order on the three finest runs that show one; else NaN and why it is not measured.
-
-    Parameters
-    ----------
-    sizes : sequence (runs,)
-        Mesh sizes or steps, the finest last.
-    changes, noise : sequence (runs - 1,)
-        From each run to the next finer one, and the bar of that; of functions their norms.
-    """
-    h, change, slack = (np.asarray(values, dtype=np.float64) for values in (sizes, changes, noise))
-    if h.size < 3:
-        return math.nan, f"{h.size} {'run' if h.size == 1 else 'runs'}, three are needed"
-    for last in range(h.size, 2, -1):
-        three, two = slice(last - 3, last), slice(last - 3, last - 1)
-        if (np.abs(change[two]) > slack[two]).all():
-            break
-    else:
-        return math.nan, "the changes are below the floor"
-    before, after = change[two]
-    if before * after < 0.0:
-        return math.nan, "the values are not monotone"
-    if abs(before) <= abs(after) * _ratio(h[three], 0.0):
-        return math.nan, "the changes do not shrink"
-    if abs(before) - slack[two][0] <= (abs(after) + slack[two][1]) * _ratio(h[three], 0.0):
-        return math.nan, "the changes shrink by no more than the noise"
-    return _order(h[three], before / after), ""
+def _orders(
+    models: Models, evidence: FloatArray, best: Models, n: FloatArray, h: FloatArray,
+    moved: FloatArray, noise: FloatArray,
+) -> dict[str, Order]:  # fmt: skip
+    """Return the orders as observed, whatever was declared."""
+    seen = float(np.abs(moved).max()) > 4.0 * float(noise.max())
+    found = {}
+    for k, (name, sizes) in enumerate((("mesh", n), ("step", h))):
+        if name == "step" and not models.given[2].any():
+            continue
+        grid, value = models.given[k], float(best.given[k][0])
+        stated, count = models.declared[k], np.unique(sizes).size
+        grids = np.unique(grid)
+        place = np.searchsorted(grids, grid)
+        free = evidence + np.log(shares(grids, None) / shares(grids, stated))[place]
+        share = np.exp(free - free.max())
+        bar = math.sqrt(float(share @ (grid - value) ** 2 / share.sum()))
+        why = "" if bar <= _TELLING * value else "the runs do not tell it"
+        if not seen:
+            why = "the changes are below the floor"
+        if count < 3:
+            why = f"{count} {'meshes' if name == 'mesh' else 'steps'}, three are needed"
+        told = {} if why else {"value": value, "bar": bar}
+        found[name] = Order(declared=stated, why=why, **told)
+    return found
 
 
-def _limit(
-    h: FloatArray, f: FloatArray, bars: FloatArray, declared: float | None
-) -> tuple[float, float, bool]:
-    """Return the limit, its bar, and whether the changes shrink."""
-    changes, slack = np.diff(f), bars[:-1] + bars[1:]
-    last, finest, ratio = float(changes[-1]), float(f[-1]), h[-2] / h[-1]
-    if abs(last) <= slack[-1]:
-        # The true change is below two of the slack, what is left of the least order no larger.
-        return finest, 2.0 * float(slack[-1]) / min(1.0, ratio - 1.0), True
-    order, why = observed_order(h[-3:], changes[-2:], slack[-2:])
-    if not why:
-        correction = last / (ratio**order - 1.0)
-        expected = 0.0 if declared is None else last / (ratio**declared - 1.0)
-        # Off the declared order runs are too coarse for either: twice what it would change.
-        off = (_ASSUMED - 1.0) * abs(correction - expected)
-        doubt = max(_CONFIRMED * abs(correction), off)
-        return finest + correction, doubt + _noise_of_correction(h, changes, slack) + bars[-1], True
-    if why in ("the values are not monotone", "the changes do not shrink"):
-        settles = abs(changes[-2]) > abs(last)
-        return finest, _ASSUMED * abs(last) / (ratio**_LEAST_ORDER - 1.0) + bars[-1], settles
-    power = ratio ** (declared or _LEAST_ORDER) - 1.0
-    correction = last / power
-    bar = (_ASSUMED - 1.0) * abs(correction) + slack[-1] / power + bars[-1]
-    return finest + correction, bar, True
-
-
-def _noise_of_correction(h: FloatArray, changes: FloatArray, slack: FloatArray) -> float:
-    """Return how far the noise of both changes moves the correction at worst."""
-    before, after = np.abs(changes[-2:])
-    ratio, sizes = h[-2] / h[-1], h[-3:]
-
-    def correction(before: float, after: float) -> float:
-        return float(after / (ratio ** _order(sizes, before / after) - 1.0))
-
-    largest = correction(before - slack[-2], after + slack[-1])
-    smallest = correction(before + slack[-2], after - slack[-1])
-    middle = correction(before, after)
-    return max(largest - middle, middle - smallest)
-
-
-def _ratio(h: FloatArray, order: float) -> float:
-    """(h₁ᵖ - h₂ᵖ)/(h₂ᵖ - h₃ᵖ) of three sizes, by which changes of order p shrink."""
-    x = np.log(h / h[-1])
-    if order == 0.0:
-        return float((x[0] - x[1]) / x[1])
-    return float((np.exp(order * x[0]) - np.exp(order * x[1])) / np.expm1(order * x[1]))
-
-
-def _order(h: FloatArray, ratio: float) -> float:
-    """Order at which changes shrink by `ratio`, which grows with it; by bisection."""
-    low, high = 0.0, _HIGHEST_ORDER
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if _ratio(h, middle) < ratio else (low, middle)
-    return low
+def _growths(n: FloatArray, h: FloatArray, f: FloatArray, noise: FloatArray) -> int:
+    """Return how often in a row changes grow, over their share of ln n or ln h."""
+    rows = [(np.flatnonzero(h == one), np.log(n)) for one in np.unique(h)]
+    rows += [(np.flatnonzero(n == one), -np.log(np.maximum(h, 1e-300))) for one in np.unique(n)]
+    if all(len(row) < 3 for row, _ in rows):
+        last = np.flatnonzero(np.append(np.diff(n) > 0.0, [True]))  # of each mesh its finest
+        rows = [(last, np.log(n))]
+    most = 0
+    for row, level in rows:
+        change = np.abs(np.diff(f[row], axis=0)).max(axis=1) if len(row) > 1 else np.empty(0)
+        slack = noise[row][1:] + noise[row][:-1]
+        rate, streak = change / np.diff(level[row]), 0
+        for before, after, told in zip(rate, rate[1:], change[1:] > slack[1:], strict=False):
+            streak = streak + 1 if after > before and told else 0
+            most = max(most, streak)
+    return most

@@ -1,10 +1,10 @@
-"""Histories of the tip against the reference: q(t), amplitude, nonlinear frequency, orders."""
+"""Histories of the tip against the reference: q(t), amplitude, nonlinear frequency."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -16,10 +16,9 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from ..runs.oscillation import SteadyOscillation, steady_oscillation
 from .cases import Case
-from .convergence import Convergence
-from .outcomes import Finding, Order, Outcome, found_of
+from .convergence import Convergence, converged
+from .outcomes import Finding, Outcome, found_of
 from .references import Reference
-from .refinement import Refinement, limit_of_histories, limit_of_numbers, refinement
 from .submission import Declaration, Run
 
 HISTORY_FLOOR = 1e-6
@@ -30,6 +29,10 @@ LEAST_SHIFT = 5e-4
 """Least |ω_NL/ω_n - 1| that is judged: a twentieth of less is lost in the frequency's uncertainty
 over ten cycles."""
 
+COPY = 1e-7
+"""Difference from the reference over max|q| below which q(t) is taken for a copy: no mesh reaches a
+hundred-thousandth of what passes."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Histories:
@@ -39,7 +42,8 @@ class Histories:
     ----------
     case : Case
     runs : tuple of Run
-        Runs that did not fail.
+        Runs that are judged: they did not fail, and are neither copies of another run nor of the
+        reference.
     reference : Reference
     declaration : Declaration
     """
@@ -50,14 +54,14 @@ class Histories:
     declaration: Declaration
 
     @cached_property
-    def rows(self) -> Refinement:
-        """The runs in the order of meshes and of steps."""
-        return refinement(self.runs)
+    def finest(self) -> Run:
+        """Run of the finest mesh, at its smallest step."""
+        return finest_of(self.runs)
 
     @cached_property
     def scale(self) -> float:
         """The largest deflection of the reference, max|q| [m]."""
-        return float(np.abs(self.reference.history(self.rows.finest.time)).max())
+        return float(np.abs(self.reference.history(self.finest.time)).max())
 
     @cached_property
     def differences(self) -> dict[Run, FloatArray]:
@@ -67,23 +71,17 @@ class Histories:
     @cached_property
     def aligned(self) -> dict[Run, FloatArray]:
         """The differences of all runs at the finest one's times, as far as all of them go."""
-        finest = self.rows.finest
+        finest = self.finest
         time = finest.time[finest.time <= min(float(run.time[-1]) for run in self.runs)]
         return {
             run: d[: time.size] if run is finest else interpolate.CubicSpline(run.time, d)(time)
             for run, d in self.differences.items()
         }
 
-    def deflection(self, tolerance: float) -> tuple[Finding, dict[str, Order]]:
-        """Return the finding of q(t) itself, over max|q|, and the orders in mesh and step."""
-        runs, steps, _ = limit_of_histories(
-            self.rows, self.aligned, HISTORY_FLOOR, self.declaration
-        )
-        declared = self.declaration.order, self.declaration.order_in_step
-        orders = {"mesh": Order(value=runs.order, declared=declared[0], why=runs.why)}
-        if steps is not None:
-            orders["step"] = Order(value=steps.order, declared=declared[1], why=steps.why)
-        return self._found(runs, tolerance, self.reference.bound), orders
+    def deflection(self, tolerance: float) -> Finding:
+        """Return the finding of q(t) itself, over max|q|."""
+        runs = self._limit(self.aligned, HISTORY_FLOOR)
+        return self._found(runs, tolerance, self.reference.bound)
 
     @cached_property
     def oscillations(self) -> dict[Run, SteadyOscillation | str]:
@@ -93,14 +91,14 @@ class Histories:
     @cached_property
     def true_oscillation(self) -> SteadyOscillation | str:
         """The steady oscillation of the reference, measured alike."""
-        time = self.rows.finest.time
+        time = self.finest.time
         return self._oscillation(time, self.reference.history(time))
 
     def amplitude(self, tolerance: float) -> Finding:
         """Return the finding of the amplitude of the steady oscillation."""
         true = self.true_oscillation
         if isinstance(true, str):
-            return Finding(outcome=Outcome.NO_VERDICT, note=f"not measured: {true}")
+            return Finding(outcome=Outcome.UNDECIDED, note=f"not measured: {true}")
         measured = {
             run: (one.amplitude / true.amplitude - 1.0, one.amplitude_error / true.amplitude)
             for run, one in self.oscillations.items()
@@ -117,15 +115,17 @@ class Histories:
         """
         if isinstance(self.true_oscillation, str):
             note = f"not measured: {self.true_oscillation}"
-            return Finding(outcome=Outcome.NO_VERDICT, note=note)
-        speed, off = self.case.rotation.omega, 0.0 if linear is None else linear.limit
+            return Finding(outcome=Outcome.UNDECIDED, note=note)
+        speed = self.case.rotation.omega
+        # A limit that is known less well than it is off mends nothing.
+        off, doubt = mending(linear)
         known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
         runs = sorted(known, key=lambda run: (run.elements, -run.step))
         try:
             true = self.reference.frequencies_at([known[run].amplitude for run in runs])
             first = self.reference.first_frequency(speed)
         except (RuntimeError, ValueError) as error:
-            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+            return Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
         measured = {
             run: (known[run].frequency / w - 1.0 - off, known[run].frequency_error / w)
             for run, w in zip(runs, true.tolist(), strict=True)
@@ -133,8 +133,10 @@ class Histories:
         shift = float(true[-1]) / first - 1.0 if runs else math.nan
         if abs(shift) < LEAST_SHIFT:
             return None
-        bound = self.reference.bound + (0.0 if linear is None else linear.bar)
-        return self._of_numbers(measured, tolerance, bound, shift)
+        of_what = (
+            "the linear frequency of L.csv" if doubt > self.reference.bound else "the reference"
+        )
+        return self._of_numbers(measured, tolerance, self.reference.bound + doubt, shift, of_what)
 
     def _of_numbers(
         self,
@@ -142,25 +144,29 @@ class Histories:
         tolerance: float,
         bound: float,
         scale: float,
+        of_what: str = "the reference",
     ) -> Finding:
         """Return the finding from the runs' numbers, over `scale`."""
-        finest = self.oscillations[self.rows.finest]
-        if isinstance(finest, str):
-            return Finding(outcome=Outcome.NO_LIMIT, note=finest)
-        scaled = {run: (value / scale, bar / abs(scale)) for run, (value, bar) in measured.items()}
-        runs = limit_of_numbers(refinement(list(measured)), scaled, self.declaration)
-        return self._found(runs, tolerance, bound / abs(scale), scaled[self.rows.finest][0])
+        if not measured:
+            note = str(self.oscillations[self.finest])
+            return Finding(outcome=Outcome.DIFFERS, note=note, tolerance=tolerance)
+        runs = self._limit(
+            {run: np.array([value / scale]) for run, (value, _) in measured.items()},
+            [bar / abs(scale) for _, bar in measured.values()],
+        )
+        return self._found(runs, tolerance, bound / abs(scale), of_what)
+
+    def _limit(self, of: Mapping[Run, FloatArray], noise: float | Sequence[float]) -> Convergence:
+        return converged(
+            [run.elements for run in of], [run.step for run in of], list(of.values()),
+            noise=noise, declared=(self.declaration.order, self.declaration.order_in_step),
+        )  # fmt: skip
 
     def _found(
-        self, runs: Convergence, tolerance: float, bound: float, difference: float | None = None
+        self, runs: Convergence, tolerance: float, bound: float, of_what: str = "the reference"
     ) -> Finding:
-        found = found_of(runs, tolerance=tolerance, bound=bound, where=f"in {self.case.name}")
-        if difference is None:
-            difference = float(np.abs(self.differences[self.rows.finest]).max())
-        if found.outcome is Outcome.ANOTHER_LIMIT and not self.rows.steps_are_refined:
-            note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
-            return replace(found, outcome=Outcome.NO_VERDICT, note=note, difference=difference)
-        return replace(found, difference=difference)
+        where = f"in {self.case.name}"
+        return found_of(runs, tolerance=tolerance, bound=bound, where=where, of_what=of_what)
 
     def _oscillation(self, time: FloatArray, q: FloatArray) -> SteadyOscillation | str:
         driven = {"omega": self.case.rotation.omega, "ramp_time": self.case.ramp_time}
@@ -170,3 +176,52 @@ class Histories:
             return steady_oscillation(run)
         except ValueError as error:
             return str(error)
+
+
+def finest_of(runs: Sequence[Run]) -> Run:
+    """Return the run of the finest mesh, at its smallest step."""
+    return max(runs, key=lambda run: (run.elements, -run.step))
+
+
+def mending(linear: Convergence | None) -> tuple[float, float]:
+    """Return how far a code's own ω_n is off, and its bar; nothing where it is not known to be."""
+    if linear is None or not linear.bar < abs(linear.limit):
+        return 0.0, 0.0
+    return linear.limit, linear.bar
+
+
+def judged_apart(runs: Sequence[Run], truth: Reference) -> tuple[list[Run], list[str]]:
+    """Return the runs that are judged, and why the others are not, each reason once.
+
+    Others failed, are the reference itself, or the same as a coarser run to the last digit: a
+    script that ignores the mesh has run one only.
+    """
+    kept: list[Run] = []
+    others: dict[str, list[str]] = {}
+    for run in sorted(runs, key=lambda run: (run.elements, -run.step)):
+        reason = _reason(run, kept, truth)
+        if reason:
+            others.setdefault(reason, []).append(_name(run))
+        else:
+            kept.append(run)
+    return kept, [f"{reason}: {', '.join(names)}" for reason, names in others.items()]
+
+
+def _reason(run: Run, kept: Sequence[Run], truth: Reference) -> str:
+    """Return why a run is not judged beside those kept; nothing of one that is."""
+    if run.failure:
+        return f"failed, {run.failure}"
+    if any((one.elements, one.step) == (run.elements, run.step) for one in kept):
+        return "handed in twice"
+    true = truth.history(run.time)
+    off = float(np.abs(run.q - true).max() / np.abs(true).max())
+    if off < COPY:
+        return f"the reference itself, to {off:.0e}: hand in what the code computed"
+    same = [one for one in kept if np.array_equal(one.q, run.q)]
+    if same:
+        return f"the history of {_name(same[0])} to the last digit, mesh or step ignored"
+    return ""
+
+
+def _name(run: Run) -> str:
+    return f"{run.elements} elements at {1e3 * run.step:g} ms"

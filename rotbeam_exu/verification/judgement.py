@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from analytic import AnyBlade
 
 from .cases import CASES, Asked, Case
-from .convergence import Convergence, convergence
-from .history import Histories
-from .outcomes import Finding, Order, Outcome, found_of, worst_of
+from .convergence import Convergence, Order, converged
+from .history import Histories, judged_apart, mending
+from .outcomes import Finding, Outcome, found_of, worst_of
 from .references import Reference, reference
 from .submission import BackbonePoint, Declaration, Frequency, Submission
 
@@ -45,19 +45,31 @@ class Judgement:
     declaration : Declaration
     findings : dict
         By name of the case, and in it by quantity, a key of THRESHOLDS.
-    orders : dict
-        By name of the case, and in it of "mesh" and "step": of q(t).
     histories : dict
         By name of the case, the judged runs, their differences from the reference, and the scale.
     sources : dict
         By name of the case, the reference that was used.
+    remarks : dict
+        By name of the case, a sentence on each run that failed or is a copy: it is not judged.
+    asked : tuple of str
+        All cases that might have been submitted.
     """
 
     declaration: Declaration
     findings: dict[str, dict[str, Finding]]
-    orders: dict[str, dict[str, Order]]
     histories: dict[str, Histories]
     sources: dict[str, str]
+    remarks: dict[str, list[str]]
+    asked: tuple[str, ...]
+
+    @property
+    def orders(self) -> dict[str, dict[str, Order]]:
+        """By name of the case, and in it of "mesh" and "step", the orders of q(t)."""
+        return {
+            case: of["history"].runs.orders
+            for case, of in self.findings.items()
+            if "history" in of and of["history"].runs is not None
+        }
 
     @property
     def by_quantity(self) -> dict[tuple[str, str], Finding]:
@@ -74,21 +86,28 @@ class Judgement:
         return worst_of(found).outcome if found else Outcome.NOT_SUBMITTED
 
     @property
-    def passed(self) -> bool:
-        """True where something was submitted, and all that can be decided is the reference."""
-        outcomes = [found.outcome.passed for found in self.by_quantity.values()]
-        decided = [passed for passed in outcomes if passed is not None]
-        return bool(decided) and all(decided)
+    def passed(self) -> bool | None:
+        """True where all that was submitted is decided and right, False where something differs.
+
+        None where something is undecided, or nothing submitted: a code that is too coarse to be
+        judged does not pass.
+        """
+        passed = {self.outcome_of(case).passed for case in self.findings} or {None}
+        return False if False in passed else None if None in passed else True
 
     @property
     def outcome(self) -> str:
-        """One line: the worst outcome over all cases, and where it was found."""
-        by_outcome: dict[Outcome, list[str]] = {}
+        """One line: of all cases how many agree, and which are undecided or differ."""
+        by_outcome: dict[bool | None, list[str]] = {True: [], None: [], False: []}
         for case in self.findings:
-            by_outcome.setdefault(self.outcome_of(case), []).append(case)
-        order = [one for one in reversed(Outcome) if one is not Outcome.NOT_SUBMITTED]
-        said = [f"{one} ({', '.join(by_outcome[one])})" for one in order if one in by_outcome]
-        return "; ".join(said) or str(Outcome.NOT_SUBMITTED)
+            by_outcome[self.outcome_of(case).passed].append(case)
+        right, missing = len(by_outcome[True]), len(self.asked) - len(self.findings)
+        said = [f"{right} of {len(self.asked)} {'agrees' if right == 1 else 'agree'}"]
+        for passed, word in ((None, "undecided"), (False, "differ")):
+            if cases := by_outcome[passed]:
+                verb = "differs" if passed is False and len(cases) == 1 else word
+                said.append(f"{len(cases)} {verb} ({', '.join(cases)})")
+        return ", ".join(said + [f"{missing} not submitted"] * bool(missing))
 
     def __str__(self) -> str:
         lines = [f"{self.declaration.code}: {self.outcome}"]
@@ -97,6 +116,7 @@ class Judgement:
             lines.append(f"  {case:<5}{quantity:<18}{found}{allowed}")
         for case, orders in self.orders.items():
             lines += [f"  {case:<5}order in {name:<9}{order}" for name, order in orders.items()]
+        lines += [f"  {case:<5}{said}" for case, of in self.remarks.items() for said in of]
         return "\n".join(lines)
 
 
@@ -116,8 +136,8 @@ def judged(
     Returns
     -------
     Judgement
-        If the reference or the estimator fails, the outcome is "no verdict", and the note of the
-        finding says why; a code that fails has its own sentence there.
+        If the reference or the estimator fails, the outcome is "undecided", and the note of the
+        finding says why. A run that failed is told and not judged.
 
     Examples
     --------
@@ -129,13 +149,13 @@ def judged(
     >>> linear = {"L": CASES["L"]}
     >>> found = judged(handed_in(formulation_entry(Cable()), linear.values()), cases=linear)
     >>> print(found.outcome, found.passed)
-    converges to the reference (L) True
+    1 of 1 agrees True
     """
     known = CASES if cases is None else cases
     findings: dict[str, dict[str, Finding]] = {}
-    orders: dict[str, dict[str, Order]] = {}
     histories: dict[str, Histories] = {}
     sources: dict[str, str] = {}
+    remarks: dict[str, list[str]] = {}
     linear: dict[float, Convergence] = {}
     blade: AnyBlade | None = None
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
@@ -143,11 +163,11 @@ def judged(
         name = case.name
         if not submission.has(case):
             continue
-        orders[name], sources[name] = {}, "none"
+        sources[name] = "none"
         try:
             truth = reference(case, submission.declaration.theory)
         except (RuntimeError, ValueError) as error:
-            nothing = Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
+            nothing = Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
             findings[name] = dict.fromkeys(case.quantities, nothing)
             continue
         sources[name] = truth.source
@@ -161,48 +181,36 @@ def judged(
             found = _backbone(submission, truth, THRESHOLDS[quantity], own)
             findings[name] = {quantity: found}
         else:
-            seen = _histories(submission, truth)
-            if isinstance(seen, Finding):
-                findings[name] = dict.fromkeys(case.quantities, seen)
-            else:
-                histories[name] = seen
-                findings[name], orders[name] = _of_histories(seen, own)
+            handed = [run for run in submission.runs if run.case == name]
+            runs, remarks[name] = judged_apart(handed, truth)
+            if not runs:
+                nothing = Finding(outcome=Outcome.UNDECIDED, note=f"no run: {remarks[name][-1]}")
+                findings[name] = dict.fromkeys(case.quantities, nothing)
+                continue
+            histories[name] = Histories(
+                case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
+            )
+            findings[name] = _of_histories(histories[name], own)
     names = [name for name in known if name in findings]
     return Judgement(
         declaration=submission.declaration,
         findings={name: findings[name] for name in names},
-        orders={name: orders[name] for name in names},
         histories={name: histories[name] for name in names if name in histories},
         sources={name: sources[name] for name in names},
+        remarks={name: remarks[name] for name in names if remarks.get(name)},
+        asked=tuple(known),
     )
 
 
-def _histories(submission: Submission, truth: Reference) -> Histories | Finding:
-    """Return the runs of a case; a code cannot do a case that it refuses on its finest mesh."""
-    runs = [run for run in submission.runs if run.case == truth.case.name]
-    finest = max(runs, key=lambda run: (run.elements, -run.step))
-    if finest.failure:
-        return Finding(outcome=Outcome.NO_LIMIT, note=finest.failure)
-    return Histories(
-        case=truth.case,
-        runs=tuple(run for run in runs if not run.failure),
-        reference=truth,
-        declaration=submission.declaration,
-    )
-
-
-def _of_histories(
-    seen: Histories, linear: Mapping[float, Convergence]
-) -> tuple[dict[str, Finding], dict[str, Order]]:
-    """Return the findings on the runs of a case, by quantity, and their orders."""
-    history, orders = seen.deflection(THRESHOLDS["history"])
-    findings = {"history": history}
+def _of_histories(seen: Histories, linear: Mapping[float, Convergence]) -> dict[str, Finding]:
+    """Return the findings on the runs of a case, by quantity."""
+    findings = {"history": seen.deflection(THRESHOLDS["history"])}
     if seen.case.oscillates:
         findings["amplitude"] = seen.amplitude(THRESHOLDS["amplitude"])
         own = linear.get(seen.case.rotation.omega)
         shift = seen.shift(THRESHOLDS["nonlinear shift"], own)
         findings |= {} if shift is None else {"nonlinear shift": shift}
-    return findings, orders
+    return findings
 
 
 def _linear_frequency(
@@ -210,8 +218,8 @@ def _linear_frequency(
 ) -> tuple[Finding, dict[float, Convergence]]:
     """Return the worst finding of the first frequency over the speeds, and its limits by speed.
 
-    They are of ω_n over the reference, less one. A coarse mesh that the code refuses is left out;
-    the finest says that it does not converge. A speed that the theory refuses is no verdict.
+    They are of ω_n over the reference, less one. A mesh that the code refuses is left out. A speed
+    that the theory refuses is undecided.
     """
     rows: dict[float, list[Frequency]] = defaultdict(list)
     for one in sorted(submission.frequencies, key=lambda one: (one.speed, one.elements)):
@@ -223,13 +231,14 @@ def _linear_frequency(
         try:
             true = reference.first_frequency(speed)
         except ValueError as error:
-            return Finding(outcome=Outcome.NO_VERDICT, note=f"no reference: {error}")
-        if rows[speed][-1].failure:
-            return Finding(outcome=Outcome.NO_LIMIT, note=rows[speed][-1].failure)
+            return Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
         done = [one for one in rows[speed] if not one.failure]
+        if not done:
+            return Finding(outcome=Outcome.UNDECIDED, note=f"no mesh: {rows[speed][-1].failure}")
         values = [one.frequency / true - 1.0 for one in done]
-        sizes, declared = [1.0 / one.elements for one in done], submission.declaration.order
-        runs = convergence(sizes, values, noise=FLOOR, declared=declared)
+        declared = submission.declaration.order, None
+        elements = [one.elements for one in done]
+        runs = converged(elements, None, values, noise=FLOOR, declared=declared)
         where = f"at {speed:g} rad/s"
         return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
 
@@ -252,7 +261,7 @@ def _backbone(
     rows: dict[tuple[float, float], list[BackbonePoint]] = defaultdict(list)
     for point in submission.backbone:
         rows[point.speed, point.amplitude].append(point)
-    found, declared = [], submission.declaration.order
+    found, declared = [], (submission.declaration.order, None)
     for (speed, amplitude), points in rows.items():
         where = f"at {speed:g} rad/s and a = {amplitude:g}"
         try:
@@ -260,11 +269,11 @@ def _backbone(
             shift = true / reference.first_frequency(speed) - 1.0
         except (RuntimeError, ValueError) as error:
             note = f"no reference {where}: {error}"
-            found.append(Finding(outcome=Outcome.NO_VERDICT, note=note))
+            found.append(Finding(outcome=Outcome.UNDECIDED, note=note))
             continue
-        off, doubt = (linear[speed].limit, linear[speed].bar) if speed in linear else (0.0, 0.0)
+        off, doubt = mending(linear.get(speed))
         values = [(point.frequency / true - 1.0 - off) / shift for point in points]
-        runs = convergence([1.0 / one.elements for one in points], values, declared=declared)
+        runs = converged([one.elements for one in points], None, values, declared=declared)
         bound = (reference.bound + doubt) / abs(shift)
         found.append(found_of(runs, tolerance=tolerance, bound=bound, where=where))
     return worst_of(found)

@@ -1,4 +1,4 @@
-"""Outcomes of the judgement of a code: where it converges to, or why nothing can be said."""
+"""Outcomes of the judgement of a code: where its runs tend to, or what would decide it."""
 
 from __future__ import annotations
 
@@ -6,27 +6,29 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from .convergence import Convergence
 
-LEAST_SHARE = 0.7
-"""Least share of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
+FAR = 100.0
+"""Tolerances by which a finest run is far off: of q(t) as much as it swings."""
 
 
 class Outcome(StrEnum):
     """Outcome of one quantity, the best first."""
 
     REFERENCE = "converges to the reference"
+    AGREES = "agrees"
     NOT_SUBMITTED = "not submitted"
-    NO_VERDICT = "no verdict"
-    ANOTHER_LIMIT = "converges to another limit"
-    NO_LIMIT = "does not converge"
+    UNDECIDED = "undecided"
+    DIFFERS = "differs"
 
     @property
     def passed(self) -> bool | None:
         """True if the code is right; None if it cannot be decided, which is not its fault."""
-        if self in (Outcome.NOT_SUBMITTED, Outcome.NO_VERDICT):
+        if self in (Outcome.NOT_SUBMITTED, Outcome.UNDECIDED):
             return None
-        return self is Outcome.REFERENCE
+        return self is not Outcome.DIFFERS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,9 +43,9 @@ class Finding:
     bound : float
         Relative error of the reference itself.
     note : str
-        Why it cannot be decided, or where the code failed.
+        What would decide, or where and how the code differs.
     tolerance : float
-        Largest difference of the limit that passes.
+        Largest difference of the limit that passes, its uncertainty included.
     difference : float
         Of the finest run from the reference: its discretization included.
     """
@@ -60,75 +62,87 @@ class Finding:
         """Limit over reference, less one; NaN where there is no limit."""
         return math.nan if self.runs is None else self.runs.limit
 
+    @property
+    def within(self) -> float:
+        """How far the limit is from the reference at most; NaN where there is no limit."""
+        return math.nan if self.runs is None else abs(self.runs.limit) + self.runs.bar + self.bound
+
+    @property
+    def said(self) -> str:
+        """The outcome in words, with the distance that a code agrees within."""
+        within = f" within {self.within:.0e}" if self.outcome is Outcome.AGREES else ""
+        return f"{self.outcome}{within}"
+
     def __str__(self) -> str:
         if self.runs is None or math.isnan(self.runs.limit):
-            return f"{self.outcome}: {self.note}" if self.note else str(self.outcome)
-        runs = self.runs
-        order = f"order {runs.order:.1f}" if math.isfinite(runs.order) else f"no order: {runs.why}"
+            return f"{self.said}: {self.note}" if self.note else self.said
+        runs, order = self.runs, self.runs.orders["mesh"]
         text = (
-            f"{self.outcome}: model difference {runs.limit:+.1e} ± {runs.bar:.0e}, discretization "
-            f"{runs.errors[-1]:+.1e} on the finest mesh, {order}; floor {runs.noise[-1]:.0e}, "
-            f"reference ± {self.bound:.0e}"
+            f"{self.said}: model difference {runs.limit:+.1e} ± {runs.bar:.0e}, discretization "
+            f"{runs.errors[-1]:+.1e} on the finest mesh, order {order}; floor "
+            f"{runs.noise[-1]:.0e}, reference ± {self.bound:.0e}"
         )
         return f"{text}; {self.note}" if self.note else text
 
 
-@dataclass(frozen=True, kw_only=True)
-class Order:
-    """The order of q(t) over the author's own meshes or steps, compared with the declared one.
-
-    It decides nothing: a code is judged by its limit.
-
-    Attributes
-    ----------
-    value : float
-        NaN where it cannot be measured.
-    declared : float or None
-    why : str
-        Why it is not measured.
-    """
-
-    value: float
-    declared: float | None
-    why: str = ""
-
-    @property
-    def low(self) -> bool:
-        """True where it is less than LEAST_SHARE of the declared one."""
-        return self.declared is not None and self.value < LEAST_SHARE * self.declared
-
-    def __str__(self) -> str:
-        if math.isnan(self.value):
-            return f"not measured: {self.why}"
-        return f"{self.value:.1f}" + (f" of {self.declared:g}" if self.declared else "")
-
-
-def found_of(runs: Convergence, *, tolerance: float, bound: float, where: str) -> Finding:
+def found_of(
+    runs: Convergence, *, tolerance: float, bound: float, where: str, of_what: str = "the reference"
+) -> Finding:
     """Return the finding of relative differences to a reference that is known within `bound`.
 
-    The uncertainty d is the bar of the limit plus the bound of the reference. A code converges to
-    the reference if d is within the tolerance and the limit within tolerance + d: it cannot be told
-    apart from a right code. Refining lessens d, so it never fails a code whose true limit is within
-    the tolerance. The code converges to another limit if that is farther off; it does not converge
-    if changes grow and exceed the tolerance. In between its meshes are too coarse to judge.
+    The uncertainty d is the bar of the limit plus the bound. A code is right if its limit is within
+    tolerance - d: it converges to the reference if the limit is zero within d, else it agrees. It
+    differs if the limit is beyond tolerance + d, and does not converge if changes grow twice, or
+    once where the finest run is FAR off. In between it is undecided, and the note says which mesh
+    or step would decide. Refining lessens d, so it never fails a code whose true limit is within
+    the tolerance. With one step only nothing is decided: it may make or hide a difference.
     """
-    doubt, difference, note = runs.bar + bound, abs(runs.limit), ""
+    doubt, difference = runs.bar + bound, abs(runs.limit)
+    finest, note = abs(float(runs.values[-1])), ""
     if math.isnan(difference):
-        outcome, note = Outcome.NO_VERDICT, f"one run has no limit, {where}"
-    elif not runs.settles and doubt > tolerance:
-        outcome, note = Outcome.NO_LIMIT, f"{runs.why}, {where}"
-    elif difference > tolerance + doubt:
-        outcome = Outcome.ANOTHER_LIMIT
-        note = f"the limit differs from the reference by {runs.limit:+.1e} {where}"
-    elif doubt <= tolerance:
-        outcome = Outcome.REFERENCE
+        outcome, note = Outcome.UNDECIDED, f"one mesh has no limit {where}: hand in three"
+    elif runs.steps.any() and np.unique(runs.steps).size == 1:
+        outcome = Outcome.UNDECIDED
+        note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
+    elif difference + doubt <= tolerance:
+        outcome = Outcome.REFERENCE if difference <= doubt else Outcome.AGREES
+    elif runs.growths > 1 or (runs.growths and finest > FAR * tolerance):
+        outcome, note = Outcome.DIFFERS, f"does not converge {where}: the changes grow"
+    elif difference <= tolerance + doubt:
+        outcome = Outcome.UNDECIDED
+        note = f"known to {doubt:.0e} only {where}: {_remedy(runs, tolerance, bound, of_what)}"
     else:
-        outcome = Outcome.NO_VERDICT
-        note = f"the limit is known to {doubt:.0e} only {where}: refine"
+        outcome = Outcome.DIFFERS
+        note = f"the limit differs from the reference by {runs.limit:+.1e} {where}"
     return Finding(
         outcome=outcome, runs=runs, bound=bound, note=note, tolerance=tolerance,
         difference=float(runs.values[-1]),
     )  # fmt: skip
+
+
+def _remedy(runs: Convergence, tolerance: float, bound: float, of_what: str) -> str:
+    """Return which mesh or step would decide; the bar shrinks as the finest run's error does."""
+    if bound > max(runs.bar, 0.5 * tolerance):
+        return f"{of_what} is known to {bound:.0e} only"
+    off = abs(runs.limit)
+    room = 0.5 * tolerance if off < tolerance else max(off - tolerance, 0.5 * tolerance)
+    factor = max(runs.bar / room, 1.5)
+    mesh, step = abs(float(runs.in_mesh[-1])), abs(float(runs.in_step[-1]))
+    finer = []
+    if mesh >= 0.3 * step or not mesh:
+        elements = runs.elements[-1] * factor ** (1.0 / runs.powers[0])
+        few = np.unique(runs.elements).size < 3
+        finer.append("a third mesh" if few else f"about {_rounded(elements)} elements")
+    if step >= 0.3 * mesh and np.unique(runs.steps).size > 1:
+        smallest = float(runs.steps.min()) * factor ** (-1.0 / runs.powers[1])
+        finer.append(f"a step of about {1e3 * smallest:.1g} ms")
+    return f"{' and '.join(finer)} would decide"
+
+
+def _rounded(elements: float) -> int:
+    """Return a number of elements of two digits, even."""
+    digit = 10.0 ** max(math.floor(math.log10(elements)) - 1, 0)
+    return 2 * math.ceil(0.5 * elements / digit) * int(digit)
 
 
 def worst_of(findings: list[Finding]) -> Finding:

@@ -132,7 +132,7 @@ def verify(
     >>> from rotbeam_exu.verification.verify import verify
     >>> entry = formulation_entry(Cable(), elements=4, step=2e-3)
     >>> print(verify(entry, spin_up=SpinUp(omega=2.0, ramp_time=3.0), duration=8.0).outcome)
-    no verdict (L); converges to the reference (S)
+    1 of 2 agrees, 1 undecided (L)
     """
     if beam is None and spin_up is None:
         cases = [CASES[name] for name in DEFAULT]

@@ -2,18 +2,17 @@
 
 import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from analytic import (
-    Beam,
     Blade,
     PointMass,
     Section,
     SpinUp,
     Theory,
-    campbell,
     linear_modes,
     periodic_orbits,
     reduced_model,
@@ -21,10 +20,8 @@ from analytic import (
 )
 from analytic.exact.beam.continuum import Continuum
 from analytic.quadrature import gauss_points
+from tests.beams import UNIT
 
-UNIFORM = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
-UNIT = Blade(length=1.0, section=UNIFORM)
-"""EI = m = L = 1, so that ω is w̄."""
 HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2, 0.3)
 FLAP = 0.5 * math.pi
 
@@ -102,7 +99,8 @@ def test_a_turning_inertia_is_not_softened_by_the_rotation():
 @pytest.mark.parametrize("shear_share", [None, 0.3])
 @pytest.mark.parametrize("psi", [0.0, 0.7, FLAP])
 def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
-    unit = HUB_AND_ALL.with_setting_angle(psi).unit
+    """Of a blade with all there is, and with inertia of its sections."""
+    unit = replace(HUB_AND_ALL.with_setting_angle(psi).unit, rotary=1e-2)
     model = Continuum(1e-3, 6, 4, blade=unit, shear=shear_share)
     rng = np.random.default_rng(0)
     state = [0.3 * rng.standard_normal((2, model.size)) for _ in range(3)]
@@ -171,7 +169,8 @@ def test_a_blade_that_is_the_beam_has_its_numbers(beam):
 
 def test_stations_of_a_taper_come_near_it(fitted_order):
     smooth = lag(UNIT.with_taper(width=0.5), 4.0)[0]
-    counts, errors = np.array([4, 8, 16]), []
+    # Beyond 64 the functions smooth the smallest kinks.
+    counts, errors = np.array([4, 8, 16, 60, 180]), []
     for n in counts:
         at = [(x, 1.0 - 0.5 * x) for x in np.linspace(0.0, 1.0, n + 1)]
         flat = Section(axial_stiffness=tuple((x, 1e9 * y) for x, y in at), bending_stiffness=at,
@@ -218,14 +217,4 @@ def test_blades_are_values():
     stations = np.array([[0.0, 2.0], [1.0, 1.0]])
     section = Section(axial_stiffness=1e9, bending_stiffness=stations, mass_per_length=1.0)
     assert section.bending_stiffness == ((0.0, 2.0), (1.0, 1.0))
-
-
-def test_campbell_of_flap_on_a_hub(beam):
-    blade = beam.with_hub_radius(1.0).with_setting_angle(FLAP)
-    diagram = campbell(blade, [0.0, 2.0, 4.0], 2, 3)
-    assert np.all(np.diff(diagram.frequencies[:, 0]) > 0.0)
-
-
-def test_point_masses_are_plain_numbers():
     assert PointMass(position=np.float64(1.0), mass=1).position == 1.0
-    assert isinstance(Beam.reference().with_tip_mass(0.5), Blade)

@@ -7,12 +7,8 @@ import pytest
 
 from analytic import Blade, Section, reduced_model
 from analytic.input_checks import RotbeamWarning
+from tests.beams import UNIT
 
-UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0),
-)
-"""EI = m = L = 1, so that ω is w̄."""
 HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2, 0.3)
 
 

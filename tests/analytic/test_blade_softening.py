@@ -7,12 +7,8 @@ import pytest
 
 from analytic import Blade, Section, Theory, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
+from tests.beams import UNIT
 
-UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0),
-)
-"""EI = m = L = 1, so that ω is w̄."""
 FLAP = 0.5 * math.pi
 
 

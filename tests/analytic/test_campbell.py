@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, campbell, linear_modes
+from analytic import campbell, linear_modes
+from tests.beams import unit_beam
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +37,7 @@ def test_every_order_that_must_cross_does(diagram):
 
 def test_a_mode_is_followed_through_another(beam):
     """The axial mode of a thick beam rises more slowly than bending mode 3, which overtakes it."""
-    thick = Beam.from_stiffness(
-        length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
-    )
+    thick = unit_beam(5e-4)
     speeds = np.linspace(0.0, 14.0, 57)
     diagram = campbell(thick, speeds, 4)
     sorted_by_frequency = np.sort(diagram.frequencies, axis=1)

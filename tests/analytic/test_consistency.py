@@ -4,14 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from analytic import (
-    Beam,
-    Theory,
-    Variant,
-    linear_modes,
-    periodic_orbits,
-    reduced_model,
-)
+from analytic import Theory, Variant, linear_modes, periodic_orbits, reduced_model
 from analytic.beam import BETA_1
 from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points, transverse_basis
@@ -21,6 +14,7 @@ from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
 from analytic.reduced.speeds import softening_speed
 from analytic.unit_blade import UNIFORM
+from tests.beams import deflection_matrices, unit_beam
 
 STATIC = Variant(name="static", shape="rotating", axial="static")
 
@@ -48,15 +42,6 @@ def test_consistent_foreshortening_of_the_cantilever_mode():
     assert c.cubic_spin * BETA_1**4 == pytest.approx(2.86208, abs=5e-6)
 
 
-def rotating_eigenproblem(w_bar, count):
-    """Return K and M on polynomials of the deflection: K c = w̄_j² M c."""
-    x, weights = gauss_points(count + 4)
-    phi, slope, curvature = transverse_basis(count, x)
-    M = phi.T * weights @ phi
-    stiffening = 0.5 * w_bar**2 * slope.T * (weights * (1.0 - x**2)) @ slope
-    return curvature.T * weights @ curvature + stiffening - w_bar**2 * M, M
-
-
 def coupling_by_definition(w_bar, count):
     """Return D of every polynomial about Frobenius' mode, by nested quadrature."""
     x, weights = gauss_points(48)
@@ -73,7 +58,7 @@ def coupling_by_definition(w_bar, count):
 @pytest.mark.parametrize("w_bar", [2.0, 6.0, 12.0])
 def test_one_solve_is_the_sum_over_modes(w_bar):
     """Mode by mode, with the mode by power series: nothing is shared with the solve."""
-    K, M = rotating_eigenproblem(w_bar, 20)
+    K, M = deflection_matrices(w_bar, 20)
     # M is nearly singular, so the modes come from M c = K c / w̄_j², normalized to cᵀ K c = 1.
     reciprocal, vectors = eigh(M, K)
     reciprocal, vectors = reciprocal[::-1], vectors[:, ::-1]
@@ -102,9 +87,7 @@ def test_frc_is_the_lagrangian_with_the_rotating_mode(w_bar):
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 @pytest.mark.parametrize("w_bar", [100.0, 500.0])
 def test_frm_goes_far_beyond_the_power_series(w_bar):
-    beam = Beam.from_stiffness(
-        length=1.0, axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0
-    )
+    beam = unit_beam(1e-9)
     model = reduced_model(beam, w_bar, "FrM")
     orbits = periodic_orbits(beam, w_bar, [0.05], theory=Theory(extension=False))
     assert model.omega_n == pytest.approx(orbits.omega_n, rel=1e-10)
@@ -194,7 +177,7 @@ def test_tip_of_frm_carries_the_other_modes(beam):
     assert reduced_model(beam, 6.0, "FrC").perturbation.h2 == 0.0
     model = reduced_model(beam, 6.0, "FrM")
     w_bar = 6.0 / beam.frequency_scale
-    K, M = rotating_eigenproblem(w_bar, 14)
+    K, M = deflection_matrices(w_bar, 14)
     force = 4 * w_bar * coupling_by_definition(w_bar, 14)[0]
     # Forced at 2ω_n, mode by mode.
     reciprocal, vectors = eigh(M, K)

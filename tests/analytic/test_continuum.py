@@ -1,98 +1,11 @@
 """The equations of motion of the exact beam against the energies in displacements."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from numpy.polynomial import Legendre
 
-from analytic import periodic_orbits
 from analytic.exact.beam.discretization import continuum
-from analytic.quadrature import axial_basis, gauss_points
+from analytic.quadrature import gauss_points
 from analytic.unit_blade import UNIFORM
-
-
-@pytest.mark.parametrize("shear_share", [None, 0.3])
-@pytest.mark.parametrize("derivative", ["stiffness", "damping", "mass"])
-def test_tangent_is_the_derivative_of_the_residual(derivative, shear_share):
-    model = continuum(1e-2, 6, 5, replace(UNIFORM, rotary=1e-2), shear_share)
-    rng = np.random.default_rng(1)
-    state = [0.4 * rng.normal(size=(3, model.size)) for _ in range(3)]
-    which = ["stiffness", "damping", "mass"].index(derivative)
-    h = 1e-5
-    columns = []
-    for k in range(model.size):
-        sides = []
-        for sign in (1.0, -1.0):
-            moved = [part.copy() for part in state]
-            moved[which][:, k] += sign * h
-            sides.append(model.residual(*moved, 2.0, 0.3))
-        columns.append((sides[0] - sides[1]) / (2.0 * h))
-    tangent = getattr(model.tangent(*state, 2.0, 0.3), derivative)
-    # Central differences are good to h² and to round-off over h.
-    assert tangent == pytest.approx(np.stack(columns, axis=-1), abs=1e-8)
-
-
-def test_an_orbit_makes_the_action_stationary(beam):
-    """δ∫(T - V)dt = 0 with T and V written in u and v, for any clamped variation.
-
-    Shares nothing with the solver but the orbit: r = (x + u, v), strain |r'| - 1, curvature
-    (r' × r'')/|r'|².
-    """
-    omega = 6.0
-    orbits = periodic_orbits(beam, omega, [0.3])
-    rate, mu = omega / beam.frequency_scale, beam.slenderness
-    period = 2.0 * np.pi / orbits.frequency[0] * beam.frequency_scale
-    phases = 2.0 * np.pi * np.arange(64) / 64
-    x, weights = gauss_points(40)
-    states = [orbits.state(0, x * beam.length, phase) for phase in phases]
-    z, z_dot, slope = (
-        np.array(part)
-        for part in zip(
-            *(
-                (
-                    x + (s.u + 1j * s.v) / beam.length,
-                    (s.u_dot + 1j * s.v_dot) / beam.length / beam.frequency_scale,
-                    1.0 + s.u_slope + 1j * s.v_slope,
-                )
-                for s in states
-            ),
-            strict=True,
-        )
-    )
-    # Values at the Gauss points to values of the derivative, by the Legendre interpolant.
-    basis = axial_basis(x.size, x)
-    derivative = basis.curvature @ (basis.slope * weights[:, None]).T
-
-    def lagrangian(z, z_dot, slope):
-        second = slope @ derivative.T
-        stretch = np.abs(slope)
-        curvature = (slope.conj() * second).imag / stretch**2
-        kinetic = 0.5 * np.abs(z_dot + 1j * rate * z) ** 2
-        elastic = 0.5 * (stretch - 1.0) ** 2 / mu + 0.5 * curvature**2
-        return (kinetic - elastic) @ weights, elastic @ weights
-
-    rng = np.random.default_rng(3)
-    for _ in range(4):
-        polynomial = Legendre(rng.normal(size=5) + 1j * rng.normal(size=5), domain=[0, 1])
-        shape = x**2 * polynomial(x)
-        bend = 2.0 * x * polynomial(x) + x**2 * polynomial.deriv()(x)
-        k, start = rng.integers(1, 4), rng.uniform(0.0, 2.0 * np.pi)
-        in_time = np.cos(k * phases + start)[:, None]
-        in_time_rate = -k * 2.0 * np.pi / period * np.sin(k * phases + start)[:, None]
-        h = 1e-7  # the stiff axis makes the cubic remainder h³/μ
-        plus, minus = (
-            lagrangian(
-                z + s * h * in_time * shape,
-                z_dot + s * h * in_time_rate * shape,
-                slope + s * h * in_time * bend,
-            )
-            for s in (1.0, -1.0)
-        )
-        action = np.mean(plus[0] - minus[0])
-        # The elastic part alone, without its cancellation over time, sets the scale.
-        scale = np.mean(np.abs(plus[1] - minus[1]))
-        assert abs(action) < 1e-6 * scale
 
 
 def test_energy_norm_of_the_coordinates_is_the_elastic_energy():

@@ -41,6 +41,7 @@ def test_damping_ratios_in_rotation():
         damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 1, 0.1)), 0.0)
 
 
+@pytest.mark.slow  # test_forced integrates a period of responses, and Exudyn settles on gravity's
 def test_in_time_the_beam_settles_on_its_response_to_gravity():
     """From rest through a spin-up, by an integrator that knows no Fourier series."""
     omega, gravity = 2.0 * SCALE, 1.791 * FORCE / BEAM.mass_per_length

@@ -7,20 +7,12 @@ import pytest
 from scipy import linalg
 
 import analytic
-from analytic import (
-    AmplitudeNotReachedError,
-    Beam,
-    Blade,
-    Section,
-    Theory,
-    linear_modes,
-    periodic_orbits,
-)
+from analytic import AmplitudeNotReachedError, Theory, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
-from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
 from analytic.quadrature import axial_basis, gauss_points, transverse_basis
+from tests.beams import UNIT, deflection_matrices, unit_beam
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -40,10 +32,8 @@ def perturbed_lambda(rate):
     count = 16
     x, weights = gauss_points(60)
     basis = transverse_basis(count, x)
-    mass = basis.value.T @ (weights[:, None] * basis.value)
     tension = 0.5 * (1.0 - x**2) * weights
-    stiffness = np.eye(count) - rate**2 * mass
-    stiffness += rate**2 * basis.slope.T @ (tension[:, None] * basis.slope)
+    stiffness, mass = deflection_matrices(rate, count)
     inverse, vectors = linalg.eigh(mass, stiffness)
     square = 1.0 / inverse[-1]
     c = vectors[:, -1] / (transverse_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])
@@ -125,8 +115,7 @@ def test_an_orbit_takes_the_functions_that_its_frequency_needs(beam, functions):
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_near_a_resonance_no_orbit_depends_on_the_functions():
     """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24."""
-    section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
-    blade = Blade(length=1.0, section=section, hub_radius=5.0)
+    blade = UNIT.with_hub_radius(5.0)
     found = []
     for functions in (20, 24):
         try:
@@ -168,9 +157,7 @@ def test_the_difference_from_perturbation_theory_is_extensibility(beam, fitted_o
     slenderness = 1e-6 * 2.0 ** np.arange(4)
     apart = []
     for mu in slenderness:
-        unit = Beam.from_stiffness(
-            length=1.0, axial_stiffness=1.0 / mu, bending_stiffness=1.0, mass_per_length=1.0
-        )
+        unit = unit_beam(mu)
         apart.append(abs(periodic_orbits(unit, 8.0, [0.05]).lambda_omega - theory))
     assert fitted_order(slenderness, apart) == pytest.approx(1.0, abs=0.02)
 
@@ -242,20 +229,6 @@ def test_state_is_consistent_in_space_and_time(beam):
     assert straight.u[0] == straight.u_slope_dot[0] == 0.0
 
 
-def test_scaling_the_beam_leaves_the_nondimensional_backbone():
-    one = periodic_orbits(Beam.reference(), 4.0, [0.2])
-    beam = Beam.reference()
-    large = Beam(
-        length=beam.length * 2.0,
-        area=beam.area * 4.0,
-        second_moment=beam.second_moment * 16.0,
-        youngs_modulus=beam.youngs_modulus * 3.0,
-        density=beam.density * 5.0,
-    )
-    other = periodic_orbits(large, 4.0 * large.frequency_scale / beam.frequency_scale, [0.2])
-    assert other.frequency / other.omega_n == pytest.approx(one.frequency / one.omega_n, rel=1e-12)
-
-
 def test_orbits_of_the_first_mode_are_stable(beam):
     b = periodic_orbits(beam, 8.0, [0.1, 0.3])
     assert b.stable.all()
@@ -282,12 +255,6 @@ def test_amplitudes_in_any_order(beam):
     assert b.frequency[0] == b.frequency[2]
     assert b.amplitude.tolist() == [0.2, 0.01, 0.2]
     assert b.frequency[1] == pytest.approx(b.omega_n * (1.0 - b.lambda_omega * 1e-4), rel=1e-8)
-
-
-def test_an_amplitude_out_of_reach_names_the_last_reached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
-    with pytest.raises(RuntimeError, match=r"last amplitude reached is 0\.0.*% from mode"):
-        periodic_orbits(beam, 4.0, [0.2], mode=3, theory=Theory(extension=False))
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):

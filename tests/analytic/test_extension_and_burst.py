@@ -4,22 +4,15 @@ import warnings
 
 import pytest
 
-from analytic import VARIANTS, Beam, Theory, periodic_orbits, reduced_model
+from analytic import VARIANTS, Theory, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.speeds import softening_speed
-
-
-def unit_beam(slenderness):
-    """EI = ρA = L = 1, so that ω is w̄."""
-    return Beam.from_stiffness(
-        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
-    )
+from tests.beams import unit_beam
 
 
 def test_a_stocky_beam_is_named_with_the_two_numbers():
     with pytest.warns(
-        RotbeamWarning,
-        match=r"μ = .* = 0\.001: its λ_ω .* than FrM's -0\.0174 .* = 4\.0e-03",
+        RotbeamWarning, match=r"μ = .* = 0\.001: its λ_ω .* than FrM's -0\.0174 .* = 4\.0e-03"
     ) as caught:
         model = reduced_model(unit_beam(1e-3), 1.0, "FrM")
     assert caught[0].filename == __file__

@@ -84,8 +84,7 @@ def test_orbit_conserves_the_first_integral_and_closes(beam):
     np.testing.assert_allclose(run.y[:, -1], [0.2, 0.0], atol=1e-10)
     inside = np.abs(run.y[0]) < 0.15
     on_orbit = np.interp(
-        run.y[0][inside & (run.y[1] < 0)],
-        *(s[:51][::-1] for s in model.oscillator.orbit(0.2, 101)),
+        run.y[0][inside & (run.y[1] < 0)], *(s[:51][::-1] for s in model.oscillator.orbit(0.2, 101))
     )
     # Linear interpolation between 50 points of an arc: (π/50)²/8 of the speed.
     np.testing.assert_allclose(run.y[1][inside & (run.y[1] < 0)], on_orbit, rtol=1e-3)

@@ -150,8 +150,7 @@ def test_a_period_later_an_integrator_that_knows_no_fourier_series_is_back(integ
 
 
 @pytest.mark.parametrize(
-    ("w", "amplitude"),
-    [(1, 0.249537), (2, 0.318507), (3, 0.382298), (4, 0.453427), (5, 0.252023)],
+    ("w", "amplitude"), [(1, 0.249537), (2, 0.318507), (3, 0.382298), (4, 0.453427), (5, 0.252023)]
 )
 def test_the_beam_under_its_weight(w, amplitude):
     gravity = 1.791 * FORCE / BEAM.mass_per_length

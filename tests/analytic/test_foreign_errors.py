@@ -35,7 +35,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )  # fmt: skip
-from rotbeam_exu import natural_frequencies, simulate, simulate_3d, sweep
+from rotbeam_exu import natural_frequencies, simulate, sweep
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
@@ -126,7 +126,6 @@ def test_a_theory_is_a_theory(name, wrong):
         # Round-off gave λ_ω = -0.76 for 0.0197.
         (lambda: backbone_curve(BEAM, 6.0, 1e-6), "up_to must be at least 0.0001"),
         (lambda: backbone(BEAM, 6.0).branch(1e-300), "up_to must be at least 0.0001"),
-        (lambda: backbone_curve(BEAM, 6.0, up_to=1.0), "up_to must be below 1, got 1"),
         (lambda: stability_limit(STRIP, 6.0, largest=1e-300), "largest must be at least 0.0001"),
         (lambda: campbell(BEAM, []), "omegas must be a sequence of numbers"),
         (lambda: campbell(BEAM, None), "omegas must be numbers in rad/s, got None"),
@@ -136,7 +135,6 @@ def test_a_theory_is_a_theory(name, wrong):
             lambda: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], harmonics=10**6),
             "harmonics must be at most 100",
         ),
-        (lambda: campbell(BEAM, [0.0, 6.0], orders=10**5), "orders must be at most 1000"),
         (lambda: damping_ratios(DAMPED, 0.0, 200), "count must be at most 128, got 200"),
         (lambda: Blade(length=8.0, section=None), "section must be a Section, got None"),
         (
@@ -160,8 +158,6 @@ def test_a_theory_is_a_theory(name, wrong):
         ),
         (lambda: linear_modes(BEAM, np.timedelta64(6, "s")), "omega must be a number in rad/s"),
         (lambda: linear_modes(BEAM, 6.0, np.timedelta64(2)), "count must be a whole number"),
-        (lambda: simulate_3d(STRIP, None), "spin_up must be a SpinUp"),
-        (lambda: simulate_3d(STRIP, SLOW, element=3), "element must be the name of a formulation"),
         (lambda: simulate(BEAM, SLOW, element=3), "element must be the name of a formulation"),
         (lambda: simulate(BEAM, None), "spin_up must be a SpinUp"),
         (lambda: natural_frequencies(BEAM, 6.0, element=None), "element must be the name"),

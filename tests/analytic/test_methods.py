@@ -1,6 +1,6 @@
 """The methods on systems that are no beam: what they know of one is the System protocol."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -8,7 +8,10 @@ from scipy.special import ellipk
 
 from analytic.methods.continuation import Path, linear_orbit
 from analytic.methods.floquet import floquet_multipliers
-from analytic.methods.harmonic_balance import solve
+from analytic.methods.fourier import packed, unpacked
+from analytic.methods.harmonic_balance import jacobian, products, projected, solve
+from analytic.methods.newton import by_products, factored
+from analytic.methods.orbit import Orbit
 from analytic.methods.system import Tangent
 
 
@@ -99,3 +102,83 @@ def test_orbits_of_two_coordinates_conserve_energy_and_are_stable():
         there, back = orbit.coordinates(np.array([0.4, -0.4]))[0]
         assert there == pytest.approx([-back[0], back[1]])
         assert floquet_multipliers(orbit).stable()
+
+
+class Coupled(Duffing):
+    """Stiffness, damping and mass that vary along the motion and couple all coordinates."""
+
+    def residual(self, q, q_dot, q_ddot, phase=0.0, rate=0.0):
+        x, y = q.T
+        (x_dot, y_dot), (x_ddot, y_ddot) = q_dot.T, q_ddot.T
+        first = (1.0 + y) * x_ddot + x * y_ddot + 0.3 * x * x_dot + 0.7 * y_dot + x - x * y**2
+        second = x * x_ddot + y_ddot - 0.7 * x_dot + x_dot**2 + y + x**2 * y
+        return np.stack((first + rate**2 * np.cos(phase), second), axis=-1)
+
+    def tangent(self, q, q_dot, q_ddot, phase=0.0, rate=0.0):
+        def derivative(place):
+            state = [q, q_dot, q_ddot]
+            columns = []
+            for k in range(2):
+                ahead, behind = (
+                    [s + sign * 1e-5 * (i == place) * np.eye(2)[k] for i, s in enumerate(state)]
+                    for sign in (1.0, -1.0)
+                )
+                columns.append((self.residual(*ahead) - self.residual(*behind)) / 2e-5)
+            return np.stack(columns, axis=-1)
+
+        residual = self.residual(q, q_dot, q_ddot, phase, rate)
+        return Tangent(residual, derivative(0), derivative(1), derivative(2))
+
+
+class Lopsided(Coupled):
+    """As if nothing reversed time: full series, one unknown of which fixes the phase."""
+
+    odd, pinned = None, 1
+
+
+class Driven(Coupled):
+    """Under a drive, whose phase it has."""
+
+    odd, driven = None, True
+
+
+@pytest.mark.parametrize("system", [Coupled(), Lopsided(), Driven()])
+def test_the_jacobian_is_the_derivative_of_the_projected_residual(system):
+    """By its Fourier coefficients, by products, and by differences: half and full series."""
+    at = Orbit(system=system, frequency=1.3, coefficients=np.zeros((9, 2)))
+    unknowns = 0.1 * np.random.default_rng(0).standard_normal(
+        packed(at.coefficients, at.parts).size
+    )
+    assert unknowns.size == {Coupled: 9, Lopsided: 17, Driven: 18}[type(system)]
+
+    def residual(z):
+        coefficients = unpacked(z[:-1], at.parts, at.coefficients.shape)
+        return projected(replace(at, coefficients=coefficients, frequency=z[-1]))
+
+    z, h = np.append(unknowns, 1.3), 1e-5
+    differences = [(residual(z + s) - residual(z - s)) / (2.0 * h) for s in h * np.eye(z.size)]
+    here = replace(at, coefficients=unpacked(unknowns, at.parts, at.coefficients.shape))
+    matrix = jacobian(here)[:-1]
+    # Differences of cubic polynomials: their step's square.
+    assert matrix == pytest.approx(np.transpose(differences), abs=1e-9)
+    change = np.random.default_rng(1).standard_normal(z.size)
+    assert products(here)(change) == pytest.approx(matrix @ change, abs=1e-12)
+
+
+def test_old_factors_and_products_solve_as_new_factors_do():
+    """The rank in which they differ is the number of products, and too far off there is none."""
+    random = np.random.default_rng(0)
+    old = np.eye(60) + 0.1 * random.standard_normal((60, 60))
+    vector = random.standard_normal(60)
+    few, all_of_it = (random.standard_normal((60, rank)) for rank in (5, 60))
+    matrix, asked = old + few @ few.T, []
+
+    def product(x):
+        asked.append(x)
+        return matrix @ x
+
+    found = by_products(product, factored(old.copy()), vector)
+    assert found == pytest.approx(np.linalg.solve(matrix, vector), rel=1e-9)
+    assert len(asked) == 6
+    far = old + 10.0 * all_of_it
+    assert by_products(lambda x: far @ x, factored(old.copy()), vector) is None

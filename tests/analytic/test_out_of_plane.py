@@ -14,8 +14,7 @@ from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()
 UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0),
+    length=1.0, section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0)
 )
 
 
@@ -88,30 +87,18 @@ def test_they_are_values_and_travel(beam):
             lambda: BEAM.with_shape(Tube(radius=0.02, wall=0.001)),
             "radius=0.015, wall=0.0007746 fits it",
         ),
-        (
-            lambda: BEAM.with_shape(Tube(radius=0.001, wall=0.003)),
-            "0.002 m is the full circle",
-        ),
+        (lambda: BEAM.with_shape(Tube(radius=0.001, wall=0.003)), "0.002 m is the full circle"),
         (lambda: UNIT.with_shape(Rectangle()), "needs its width"),
         (lambda: UNIT.with_shape(Rectangle(width=1.0, ratio=2.0)), "not both"),
         (lambda: UNIT.with_shape(Rectangle(width=-1.0)), "width must be positive"),
-        (
-            lambda: UNIT.with_shape(Rectangle(height=1.0, width=0.1)),
-            "height=0.003464 fits it",
-        ),
+        (lambda: UNIT.with_shape(Rectangle(height=1.0, width=0.1)), "height=0.003464 fits it"),
         (lambda: UNIT.with_shape(Tube(radius=1.0, wall=0.1)), "radius=0.001414 fits it"),
         (lambda: UNIT.with_section_out_of_plane(0.0), "bending_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, -1.0), "torsion_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, 1.0, -1.0), "polar_inertia must not be"),
-        (
-            lambda: UNIT.with_shape(Rectangle(ratio=1e-4)),
-            "between 0.001 and 1000, got 0.0001",
-        ),
+        (lambda: UNIT.with_shape(Rectangle(ratio=1e-4)), "between 0.001 and 1000, got 0.0001"),
         (lambda: Rectangle(ratio=2.0, poisson_ratio=0.6), "poisson_ratio must be at most 0.5"),
-        (
-            lambda: UNIT.with_shape(Tube()).with_taper(height=0.5),
-            "taper both alike",
-        ),
+        (lambda: UNIT.with_shape(Tube()).with_taper(height=0.5), "taper both alike"),
     ],
 )
 def test_contradictions_are_refused(wrong, sentence):

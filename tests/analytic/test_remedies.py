@@ -20,13 +20,7 @@ from analytic import (
 )
 from analytic.input_checks import RotbeamWarning, finite_array
 from analytic.methods.continuation import Care
-
-
-def unit_beam(slenderness):
-    """EI = ρA = L = 1, so that ω is w̄."""
-    return Beam.from_stiffness(
-        length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
-    )
+from tests.beams import unit_beam
 
 
 def complaint(function, *arguments, **options):
@@ -41,8 +35,7 @@ def complaint(function, *arguments, **options):
 
 
 @pytest.mark.parametrize(
-    ("omega", "advice"),
-    [(10.0, "take FrM"), (400.0, "take FrM"), (1000.0, "rotate slower")],
+    ("omega", "advice"), [(10.0, "take FrM"), (400.0, "take FrM"), (1000.0, "rotate slower")]
 )
 def test_one_mode_is_not_enough(omega, advice):
     beam = unit_beam(1e-10)

@@ -5,12 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from analytic.exact.beam.continuum import Continuum
 from analytic.exact.space.basis import StrainFunctions
 from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
 from analytic.exact.space.unit import SpaceUnit
+from analytic.exact.space.vectors import Frames
 from analytic.line import Line
 from analytic.theory import Theory
 
@@ -187,3 +189,15 @@ def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd
         there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
         off = np.abs(there - sign * here).max()
         assert (off < 1e-12) == (odd is not None)
+
+
+@pytest.mark.parametrize("turns", [0.5, 1.0, 4.0])
+def test_frames_of_a_helix(turns):
+    """With constant curvatures the frame turns evenly about them, wound up by several turns too."""
+    model = space(SpaceUnit(flap=0.5, torsion=0.1), bending=12)
+    frames = Frames(model.functions.grid, np.array([0.5, 1.0]))
+    K = turns * np.array([0.5, -2.0, 3.0])
+    at, places = frames.of(np.broadcast_to(K[:, None, None], (3, 1, model.points.size)))
+    found = np.concatenate((at, places), axis=-1)[:, :, 0]
+    for x, R in zip([*model.points, 0.5, 1.0], np.moveaxis(found, -1, 0), strict=True):
+        assert pytest.approx(Rotation.from_rotvec(x * K).as_matrix(), abs=1e-12) == R

@@ -198,22 +198,6 @@ def test_the_polar_inertia_of_a_taper_is_that_of_its_slices():
     assert found[0] == pytest.approx(found[1], rel=1e-9)
 
 
-@pytest.mark.parametrize("polar", [None, 2e-4])
-def test_torsion_of_a_taper_by_the_plane_and_in_space(polar):
-    """Two derivations: L2 of `beam.space` about the plane, and the whole blade with a cone of 0."""
-    section = Section(
-        mass_per_length=[1.0, -0.5], axial_stiffness=[1e4, -4e3], bending_stiffness=[1.0, -0.6]
-    )
-    blade = Blade(length=1.0, section=section).with_section_out_of_plane(0.0625, 0.08, polar)
-    # In rotation flap's inertia of the sections, which L2 leaves out, has 2e-7 and, of the larger
-    # polar inertia, 7e-7: it goes with the square.
-    for w, apart in ((0.0, 1e-9), (4.0, 1e-6)):
-        found = linear_modes(blade.with_precone(1e-7), w, 14, theory=Theory())
-        torsion = np.sort(np.argsort(-found.shares[:, 2])[:2])
-        known = linear_modes(blade, w, 2, plane="torsion").frequencies
-        assert found.frequencies[torsion] == pytest.approx(known, rel=apart)
-
-
 def test_a_limp_coned_blade_lies_in_the_plane_of_rotation():
     """The faster, the nearer: the clamp's bend is thin as 1/w̄."""
     heights = []

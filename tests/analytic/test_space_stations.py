@@ -4,9 +4,20 @@ import math
 
 import numpy as np
 import pytest
+from scipy import optimize, special
+from scipy.spatial.transform import Rotation
 
-from analytic import Beam, Blade, Section, Theory, linear_modes, steady_state
+from analytic import (
+    Beam,
+    Blade,
+    Section,
+    Theory,
+    linear_modes,
+    periodic_orbits,
+    steady_state,
+)
 from analytic.description import describe, from_description
+from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
 
 MU, R, G = 1e-4, 1.0 / 16.0, 0.08
@@ -89,8 +100,6 @@ def test_stiffness_that_varies_against_another_between_stations():
     κ' of (GJ φ')' + ω² j φ = 0 with GJ = g (1 - x/2) and s = √(1 - x/2):
     φ = J0(z s) Y0(z) - Y0(z s) J0(z), z = 4 ω √(j/g), and φ'(1) = 0.
     """
-    from scipy import optimize, special
-
     stiffness = STIFFNESS.copy()
     stiffness[:, 3] *= 1.0 - 0.5 * X
 
@@ -236,3 +245,53 @@ def test_arcs_on_both_sides_of_a_kink(about):
     along, across = (arc(0.0, at) + arc(bent * at + kink, 1.0 - at)) / bent
     known = [along, across, 0.0] if about == 2 else [along, 0.0, -across]
     assert state.tip == pytest.approx(known, abs=1e-12)
+
+
+def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():
+    """Three straight parts, the sections of which are set and twisted; rotations by scipy."""
+    blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_setting_angle(0.4).with_twist(0.5)
+    blade = blade.with_kink(0.3, prebend=0.6, sweep=-0.2).with_kink(0.6, sweep=0.8)
+    state = steady_state(blade, 0.0, theory=Theory(extension=False, trapeze=False))
+    turn, known = np.eye(3), np.array([0.3, 0.0, 0.0])
+    for at, length, angles in ((0.3, 0.3, [0.0, 0.6, -0.2]), (0.6, 0.4, [0.0, 0.0, 0.8])):
+        section = Rotation.from_rotvec([0.4 + 0.5 * at, 0.0, 0.0])
+        turn = turn @ Rotation.from_rotvec(section.apply(angles)).as_matrix()
+        known = known + length * turn[:, 0]
+    assert state.tip == pytest.approx(known, abs=1e-12)
+
+
+# x, twist [degrees], m, EI2, EI3, GJ, EA, j2, j3: stations of a blade of 61.5 m, among many more.
+LARGE = np.array([
+    [0.0, 13.308, 678.9, 1.811e10, 1.811e10, 5.564e9, 9.729e9, 972.9, 973.0],
+    [5.2, 13.308, 450.3, 7.230e9, 1.022e10, 2.324e9, 5.491e9, 456.8, 641.5],
+    [15.2, 11.072, 349.5, 2.389e9, 4.948e9, 3.114e8, 3.012e9, 148.6, 453.8],
+    [24.2, 8.534, 313.8, 1.362e9, 3.751e9, 1.744e8, 1.944e9, 80.2, 308.6],
+    [36.2, 4.971, 220.6, 3.145e8, 1.829e9, 4.592e7, 7.608e8, 17.3, 134.8],
+    [48.2, 2.116, 129.6, 7.631e7, 7.096e8, 1.453e7, 3.289e8, 4.4, 61.4],
+    [57.2, 0.319, 66.3, 2.384e7, 2.617e8, 4.940e6, 9.224e7, 1.3, 17.1],
+    [61.5, 0.0, 10.3, 1.700e5, 5.010e6, 1.900e5, 3.530e6, 0.02, 0.68],
+])  # fmt: skip
+
+
+def large():
+    x, twist, m, flap, lag, torsion, axial, j2, j3 = LARGE.T
+    stiffness = np.stack([axial, axial, axial, torsion, flap, lag], axis=1)
+    mass = np.stack([m, j2 + j3, j2, j3], axis=1)
+    return Blade.from_stations(x, stiffness, mass, twist=np.radians(twist)).with_hub_radius(1.5)
+
+
+def test_frequencies_of_a_table_with_kinks_settle():
+    """Torsion too, whose functions are those of the inertia at the stations: to 1e-7."""
+    modes = linear_modes(large(), 1.267, 6)
+    assert modes.error < 1e-7
+    finer = space_modes_on(modes.model.refined(), large(), 1.267, 6).frequencies
+    assert modes.frequencies == pytest.approx(finer, rel=2e-8)
+
+
+@pytest.mark.slow
+def test_orbits_of_a_table_with_kinks_are_reached():
+    """Kinks leave a residual of 2e-4 and no change of the frequency."""
+    orbits = periodic_orbits(large(), 1.267, [0.01], gauge="flap")
+    assert orbits.frequency_error[0] < 1e-8
+    softening = (1.0 - orbits.frequency[0] / orbits.omega_n) / 0.01**2
+    assert softening == pytest.approx(orbits.lambda_omega, rel=1e-2)  # 7e-8 of the frequency

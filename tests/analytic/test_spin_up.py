@@ -29,40 +29,12 @@ def test_angle_is_equation_1(omega, ramp_time, share):
     )
 
 
-@given(speeds, times, st.floats(0.01, 2.0))
-def test_rate_and_acceleration_are_the_derivatives(omega, ramp_time, share):
-    spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-    t, h = share * ramp_time, 1e-4 * ramp_time
-    slope = (spin_up.angle(t + h) - spin_up.angle(t - h)) / (2 * h)
-    bend = (spin_up.rate(t + h) - spin_up.rate(t - h)) / (2 * h)
-    # Central differences: h²/6 times the third derivative, at most (2π/T)² ω; at t = T, where the
-    # third derivative of the rate jumps, h times it.
-    assert spin_up.rate(t) == pytest.approx(slope, abs=1e-6 * omega)
-    assert spin_up.acceleration(t) == pytest.approx(bend, abs=1e-5 * omega / ramp_time)
-
-
-def test_the_ramp_joins_the_steady_rotation_smoothly():
-    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
-    for quantity in (spin_up.angle, spin_up.rate, spin_up.acceleration):
-        gaps = np.array([abs(quantity(3.0 + h) - quantity(3.0 - h)) for h in (1e-2, 1e-4, 1e-6)])
-        # Continuous: the jump goes with the step, at the rate of the next derivative or faster.
-        assert np.all(gaps[1:] <= 0.011 * gaps[:-1] + 1e-14)
-    assert spin_up.acceleration(3.0) == pytest.approx(0.0, abs=1e-30)
-    assert spin_up.rate(3.0) == 6.0
-    assert spin_up.angle(3.0) == pytest.approx(9.0)
-
-
 def test_largest_acceleration_is_twice_the_mean():
+    """The speed's derivatives and its two ends are tested with the other ramps."""
     spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    assert spin_up.angle(3.0) == pytest.approx(9.0)
     t = np.linspace(0.0, 3.0, 30001)
     assert spin_up.acceleration(t).max() == pytest.approx(2.0 * 6.0 / 3.0)
-
-
-def test_scalars_and_arrays_agree():
-    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
-    t = np.linspace(-1.0, 5.0, 61)
-    for quantity in (spin_up.angle, spin_up.rate, spin_up.acceleration):
-        assert np.array_equal(quantity(t), [quantity(float(x)) for x in t])
 
 
 def test_before_the_start_the_beam_is_at_rest():

@@ -14,6 +14,7 @@ from analytic import (
     Rectangle,
     Section,
     SpinUp,
+    Theory,
     Tube,
     campbell,
     linear_modes,
@@ -129,6 +130,7 @@ def test_the_limit_rises_with_the_growth_that_counts(beam, strip_at_6):
     assert np.sign(grows.growth_rate / grows.frequency - 3.0).tolist() == [-1.0, 1.0]
 
 
+@pytest.mark.slow  # test_limit_search has tongues on growths that are known
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_a_tongue_in_the_range_is_no_limit(beam):
     """A round bar that does not twist, at w̄ = 4.43: unstable about a = 0.5, stable at 0.6."""
@@ -158,16 +160,32 @@ def test_all_spin_ups_of_the_paper_leave_the_plane_as_a_rectangle_and_not_as_a_t
     assert planar_stability(beam.with_shape(Tube()), omega, ends).stable.all()
 
 
-def test_the_limit_lies_between_the_amplitudes_that_tell(beam):
+LIMIT_OF_SOFT_FLAP = 0.39117
+"""By another code, where it grows at all: as the root of the distance from there."""
+
+
+@pytest.mark.slow  # amplitudes that tell are below, and test_limit_search has known growths
+def test_the_limit_is_found_between_the_amplitudes_that_tell(beam):
     blade = beam.with_section_out_of_plane(0.01, math.inf)
-    # Another code has 0.39117, where it grows at all: as the root of the distance from there.
     limit = stability_limit(blade, 2.0, growth=1e-3, largest=0.45)
-    assert limit.amplitude == pytest.approx(0.39117, abs=1.5e-4)
+    assert limit.amplitude == pytest.approx(LIMIT_OF_SOFT_FLAP, abs=1.5e-4)
     assert limit.converged
     assert limit.kind == "period doubling"
     assert "leave their plane from a = 0.391" in str(limit)
     assert "up to the 0.45 looked at, by 0.001 per radian and more" in str(limit)
-    found = planar_stability(blade, 2.0, [limit.amplitude + 1e-3, limit.amplitude - 1e-3])
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:internal resonance")
+def test_a_rectangle_of_three_to_one_has_a_tongue_of_the_sum(beam):
+    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=3.0)), 2.0, largest=0.36).tongues
+    (tongue,) = [one for one in found if one.kind == "sum resonance"]
+    assert (tongue.low, tongue.high) == pytest.approx((0.2955, 0.3532), rel=2e-4)
+
+
+def test_on_either_side_of_the_limit_an_orbit_leaves_its_plane_or_stays(beam):
+    blade = beam.with_section_out_of_plane(0.01, math.inf)
+    found = planar_stability(blade, 2.0, [LIMIT_OF_SOFT_FLAP + 1e-3, LIMIT_OF_SOFT_FLAP - 1e-3])
     assert found.stable.tolist() == [False, True]
     assert found.growth_rate[0] > 0.0
     assert found.kind == ("period doubling", "")
@@ -237,24 +255,9 @@ def test_a_stability_of_growth_that_overflows_is_finite(beam):
     assert not found.converged[0]
 
 
-def test_all_three_families_in_the_campbell_diagram(beam):
-    blade = beam.with_shape(Rectangle())
-    diagram = campbell(blade, [0.0, 1.0, 2.0], 2, 3, planes=("lag", "flap", "torsion"))
-    assert diagram.planes == ("lag", "lag", "flap", "flap", "torsion", "torsion")
-    for plane, columns in (("lag", [0, 1]), ("flap", [2, 3]), ("torsion", [4, 5])):
-        wanted = linear_modes(blade, 2.0, 2, plane=plane).frequencies
-        assert diagram.frequencies[-1, columns] == pytest.approx(wanted, rel=1e-9)
-    met = [one for one in diagram.crossings if one.plane == "flap" and one.order == 3]
-    for one in met:
-        at = linear_modes(blade, one.omega, one.mode, plane="flap").frequencies[-1]
-        assert at == pytest.approx(3.0 * one.omega, rel=1e-8)
-    assert met
-
-
 ROUND = Tube()
 UNIT = Blade(
-    length=1.0,
-    section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0),
+    length=1.0, section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0)
 )
 
 
@@ -279,10 +282,7 @@ UNIT = Blade(
         ),
         (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 1.5), "between 0 and 1"),
         (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),
-        (
-            lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, growth=0.0),
-            "growth must be",
-        ),
+        (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, growth=0.0), "growth must be"),
         (
             lambda: linear_modes(
                 UNIT.with_section_out_of_plane(1.0, math.inf), 1.0, plane="torsion"
@@ -294,6 +294,15 @@ UNIT = Blade(
                 UNIT.with_section_out_of_plane(1.0, 0.5, 0.0), 1.0, plane="torsion"
             ),
             "torsion has no modes without polar inertia",
+        ),
+        (
+            lambda: linear_modes(
+                UNIT.with_section_out_of_plane(1.0, 0.5),
+                1.0,
+                plane="torsion",
+                theory=Theory(trapeze=False),
+            ),
+            "without polar inertia: .* and trapeze=False",
         ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
@@ -324,14 +333,25 @@ def test_a_strip_at_rest_has_a_limit_and_a_square_none(beam):
     assert strip.amplitude == pytest.approx(0.00782, rel=1e-3)
 
 
-def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam):
-    """Flap and torsion of the growth's own matrices are those of `linear_modes`, name by name."""
+TAPERED = Blade(
+    length=8.0,
+    section=Section(
+        mass_per_length=[0.2, -0.1], axial_stiffness=[5e6, -2e6], bending_stiffness=[566.0, -300.0]
+    ),
+)
+
+
+@pytest.mark.parametrize("polar", [None, 5e-5])
+def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, polar):
+    """Flap and torsion by L2 are those of `linear_modes`, in other coordinates, name by name."""
     blade = beam.with_shape(Rectangle())
+    if polar:
+        blade = TAPERED.with_section_out_of_plane(0.0625, 0.08, polar)
     planar = steady_rotation(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
     space = Space(blade, 27)
-    frequencies, rows, names = _steady_modes(space, with_points_for(planar, space.functions))
+    rows, frequencies, names = _steady_modes(space, with_points_for(planar, space.functions))
     assert len(names) == len(rows) == frequencies.size == 54
-    of = dict(zip(names, frequencies * beam.frequency_scale, strict=True))
+    of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))
     for plane in ("flap", "torsion"):
         known = linear_modes(blade, 4.0, 2, plane=plane).frequencies
         assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=1e-8)

@@ -71,7 +71,7 @@ def answers(blade):
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 @pytest.mark.parametrize(
     "count",
-    [2, 30, pytest.param(60, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.slow)],
+    [30, *(pytest.param(count, marks=pytest.mark.slow) for count in (2, 60, 200))],
 )
 def test_no_answer_depends_on_where_the_section_is_cut(count):
     """A random blade of polynomials, and the same with its mass at random stations."""
@@ -86,7 +86,9 @@ def test_no_answer_depends_on_where_the_section_is_cut(count):
         assert other == pytest.approx(one, rel=1e-9), name
 
 
-@pytest.mark.parametrize("stations", [11, 41, 400, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "stations", [11, 41, *(pytest.param(n, marks=pytest.mark.slow) for n in (400, 10_000))]
+)
 def test_a_straight_taper_at_stations_is_the_polynomial(stations):
     """As a hostile tester wrote it: 1e-3 off with 21 stations, at any number of functions."""
     x = np.linspace(0.0, 1.0, stations)

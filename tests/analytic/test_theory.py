@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import Beam, Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.theory import BERNOULLI_EULER, Theory
+from tests.beams import SHARE, unit_beam
 
-SHARE = (5.0 / 6.0) / 2.6
 SHEARED = Theory(rotary_inertia=True, shear=SHARE)
-STUBBY = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0
-)
+STUBBY = unit_beam(1e-3)
 
 
 def first_frequency(blade, theory):
@@ -85,11 +83,6 @@ def test_the_spin_up_without_extension_is_the_limit_of_slender_beams():
     limit = spin_up_response(STUBBY, spin_up, times, theory=Theory(extension=False)).q
     apart = [
         np.abs(spin_up_response(beam, spin_up, times).q - limit).max()
-        for beam in (
-            Beam.from_stiffness(
-                length=1.0, axial_stiffness=EA, bending_stiffness=1.0, mass_per_length=1.0
-            )
-            for EA in (1e3, 1e4)
-        )
+        for beam in (unit_beam(1e-3), unit_beam(1e-4))
     ]
     assert 8.0 < apart[0] / apart[1] < 12.0

@@ -5,15 +5,7 @@ import pytest
 import sympy as sp
 
 from analytic import Beam, reduced_model
-from analytic.reduced.symbolic import (
-    A_PRIME,
-    G1,
-    G2,
-    OMEGA_N,
-    PHI_PRIME,
-    A,
-    multiple_time_scales,
-)
+from analytic.reduced.symbolic import A_PRIME, G1, G2, OMEGA_N, PHI_PRIME, A, multiple_time_scales
 
 SOLUTION = multiple_time_scales()
 

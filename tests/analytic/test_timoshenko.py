@@ -9,11 +9,9 @@ from scipy.linalg import block_diag, expm
 from scipy.optimize import brentq
 
 from analytic import Beam, Theory, linear_modes
+from tests.beams import SHARE, unit_beam
 
-SHARE = (5.0 / 6.0) / 2.6
-STUBBY = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0
-)
+STUBBY = unit_beam(1e-3)
 """EI = m = L = 1 and μ = 1e-3: shear takes percents off its second and third frequency."""
 
 

@@ -1,5 +1,7 @@
-"""What the exact answers cost, against the simulation they judge, in the same run."""
+"""What exact answers cost, against the simulation they judge, in the same run; and models."""
 
+import subprocess
+import sys
 import time
 from statistics import median
 
@@ -12,25 +14,35 @@ from analytic import (
     SpeedRipple,
     SpinUp,
     Theory,
+    backbone,
     backbone_curve,
     forced_response,
+    linear_modes,
     periodic_orbits,
+    reduced_model,
     residual_amplitude,
     spin_up_response,
 )
+from analytic.methods.harmonic_balance import LastTangent, jacobian
+from analytic.quadrature import gauss_points
 from rotbeam_exu import simulate
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 pytestmark = pytest.mark.benchmarks
 
 
-def seconds(function, repeats=3):
+def seconds(function, repeats=3, clock=time.perf_counter):
     taken = []
     for _ in range(repeats):
-        start = time.perf_counter()
+        start = clock()
         function()
-        taken.append(time.perf_counter() - start)
+        taken.append(clock() - start)
     return median(taken)
+
+
+def cpu_seconds(function, repeats=3):
+    """Of one thread, whatever else the machine does."""
+    return seconds(function, repeats, time.process_time)
 
 
 def share(function, omega):
@@ -55,6 +67,57 @@ def test_ten_orbits_take_a_thirtieth_of_a_simulation(beam, omega):
 @pytest.mark.parametrize("omega", [4.0, 6.0, 8.0])
 def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
     assert share(lambda: backbone_curve(beam, omega), omega) < 0.05
+
+
+@pytest.fixture(scope="module")
+def factorization():
+    """An orbit of the paper's beam on 120 harmonics, and what its tangent and factoring it take."""
+    orbit = backbone(Beam.reference(), 6.0).path.seed.with_harmonics(120)
+    return orbit, cpu_seconds(lambda: LastTangent().factor(orbit))
+
+
+def test_a_jacobian_of_120_harmonics_takes_a_third_of_its_factorization(factorization):
+    """By products of all waves at all times it was two thirds."""
+    orbit, factoring = factorization
+    assert cpu_seconds(lambda: jacobian(orbit)) < factoring / 3.0
+
+
+def test_a_branch_to_ninety_percent_takes_eighteen_factorizations(factorization):
+    """Once 40: 32 tangents are factored, of which the largest nine cost half of it."""
+    taken = cpu_seconds(lambda: backbone(Beam.reference(), 6.0).branch(up_to=0.9), repeats=1)
+    assert taken < 18.0 * factorization[1]
+
+
+FLAT = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+).with_section_out_of_plane(1.0 / 16.0, 0.08)
+
+
+@pytest.mark.parametrize(
+    ("blade", "omega", "gauge"),
+    [
+        (FLAT.with_twist(0.5236), 1.0, "flap"),
+        (FLAT.with_twist(0.5236), 2.0, None),
+        (FLAT.with_precone(0.0873), 1.0, "flap"),
+    ],
+)
+def test_orbits_in_space_take_forty_times_those_in_the_plane(blade, omega, gauge):
+    plane = cpu_seconds(lambda: periodic_orbits(FLAT, omega, [0.05, 0.1]), repeats=9)
+    space = cpu_seconds(lambda: periodic_orbits(blade, omega, [0.05, 0.1], gauge=gauge))
+    assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
+
+
+def test_a_spin_up_in_space_takes_forty_times_that_in_the_plane():
+    motion, times = SpinUp(omega=4.0, ramp_time=12.0), np.linspace(0.0, 20.0, 21)
+    plane, space = (
+        cpu_seconds(lambda b=blade: spin_up_response(b, motion, times, tolerance=1e-6))
+        for blade in (FLAT, FLAT.with_twist(0.5236))
+    )
+    assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
+
+
+def test_modes_of_a_twisted_blade_take_a_tenth_of_a_second():
+    assert cpu_seconds(lambda: linear_modes(FLAT.with_twist(0.5236), 2.0, 4)) < 0.1
 
 
 def test_a_million_points_of_a_curve_take_five_multiplications(beam):
@@ -125,3 +188,44 @@ def test_a_thousand_ramp_times_take_a_twentieth_of_one_transient(beam):
     times = np.linspace(0.0, 12.0, 101)
     exact = seconds(lambda: spin_up_response(beam, spin_up, times, tolerance=1e-6))
     assert form < exact / 20.0, f"{form:.4f} s against {exact:.3f} s"
+
+
+@pytest.mark.parametrize(("variant", "limit"), [("FrE", 5e-3), ("FrM", 50e-3)])
+def test_one_model(benchmark, variant, limit):
+    # From nothing: without the cached quadrature points.
+    model = benchmark.pedantic(
+        reduced_model,
+        args=(Beam.reference(), 6.0, variant),
+        setup=gauss_points.cache_clear,
+        rounds=50,
+    )
+    assert model.w_n > 3.5
+    if benchmark.enabled:
+        assert benchmark.stats.stats.median < limit
+
+
+def test_a_million_amplitudes_against_the_bare_formula(benchmark):
+    model = reduced_model(Beam.reference(), 6.0)
+    a = np.linspace(0.0, 0.2, 1_000_000)
+    omega_n, lambda_omega = model.omega_n, model.lambda_omega
+    result = benchmark(model.frequency, a)
+    np.testing.assert_allclose(result, omega_n * (1 - lambda_omega * a**2), rtol=1e-14)
+    if benchmark.enabled:
+        bare = []
+        for _ in range(10):
+            start = time.perf_counter()
+            omega_n * (1 - lambda_omega * a**2)
+            bare.append(time.perf_counter() - start)
+        assert benchmark.stats.stats.min < 5 * min(bare)
+
+
+def test_import(benchmark):
+    code = "import time; t = time.perf_counter(); import analytic; print(time.perf_counter() - t)"
+
+    def seconds():
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+        return float(run.stdout)
+
+    taken = benchmark.pedantic(seconds, rounds=1)
+    if benchmark.enabled:
+        assert min(taken, seconds(), seconds()) < 0.3

@@ -5,6 +5,7 @@ import pytest
 
 from analytic import Beam, SpinUp, spin_up_response
 from rotbeam_exu import figures
+from tests.beams import REED_TOML
 
 
 def film(call, monkeypatch, tmp_path, *options):
@@ -20,10 +21,7 @@ def film(call, monkeypatch, tmp_path, *options):
 
 
 def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path):
-    (tmp_path / "reed.toml").write_text(
-        "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
-        "youngs_modulus = 2.1e11\ndensity = 7850\n"
-    )
+    (tmp_path / "reed.toml").write_text(REED_TOML)
     code, out, shown = film(call, monkeypatch, tmp_path, "--config", tmp_path / "reed.toml")
     assert code == 0
     assert "360 times slower" in out

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from analytic import Beam
 from rotbeam_exu.cli.motion import chosen_motion, chosen_times
-
-REED = Beam(length=0.05, area=2.5e-6, second_moment=5.208e-14, youngs_modulus=2.1e11, density=7850)
+from tests.beams import REED
 
 
 def test_the_paper_s_beam_keeps_the_paper_s_motion():

@@ -102,7 +102,6 @@ def test_a_full_disk_names_the_file(call, tmp_path):
     said = "File too large; make room, or write elsewhere"
     assert error == f"rotbeam: cannot write {target}: {said}\n"
     assert not list(tmp_path.iterdir())
-    assert call(*FILM, target)[0] == 0  # there is room again
 
 
 def test_the_library_names_the_file_as_well(tmp_path):

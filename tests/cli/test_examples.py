@@ -103,11 +103,3 @@ def test_an_example_ends_well(call, folder, example):
     code, out, error = call(command, *arguments)
     assert code == 0, error
     assert out
-
-
-def test_the_help_prints_the_examples_of_its_command(call, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "80")
-    for command in _COMMANDS:
-        out = call(command, "--help")[1]
-        lines = {line.strip() for line in out.splitlines()}
-        assert set(documented(command)[1]) <= lines

@@ -1,7 +1,5 @@
 """A sweep with a failed case: exit code 1, the whole reason, and where; progress in plain lines."""
 
-import pytest
-
 from rotbeam_exu import load
 from rotbeam_exu.sweeps import grid
 
@@ -10,14 +8,9 @@ GRID = ("--omega", "2", "6", "--ramp-time", "2.5", "--elements", "2", "--step", 
         "--duration", "10", "--jobs", "1")  # fmt: skip
 
 
-@pytest.fixture
-def swept(call, tmp_path, monkeypatch):
+def test_a_failed_case_is_exit_code_one_and_its_whole_sentence(call, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    return call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
-
-
-def test_a_failed_case_is_exit_code_one_and_its_whole_sentence(swept, tmp_path):
-    code, out, error = swept
+    code, out, error = call("sweep", *GRID, "--cache", tmp_path / "cache", "-o", tmp_path)
     data = load(tmp_path / "sweep-cable-2.nc")
     failed = [str(text) for text in data["failure"].to_numpy().ravel() if text]
     assert 0 < len(failed) <= 2
@@ -31,15 +24,12 @@ def test_a_failed_case_is_exit_code_one_and_its_whole_sentence(swept, tmp_path):
     assert [line for line in out.splitlines() if line.startswith("written ")] == [
         f"written {tmp_path}/sweep-cable-2.{kind}" for kind in ("nc", "csv")
     ]
-
-
-def test_without_a_terminal_each_finished_case_is_a_line_on_standard_error(swept):
-    lines = [line for line in swept[2].splitlines() if line.startswith("spin-ups")]
-    assert [line.partition(" done")[0] for line in lines] == [
-        "spin-ups: 1 of 2",
-        "spin-ups: 2 of 2",
-    ]
-    assert "spin-ups:" not in swept[1]
+    # Without a terminal each finished case is a line on standard error.
+    lines = [line.partition(" done")[0] for line in error.splitlines()]
+    assert [line for line in lines if line[:8] == "spin-ups"] == [
+        "spin-ups: 1 of 2", "spin-ups: 2 of 2",
+    ]  # fmt: skip
+    assert "spin-ups:" not in out
 
 
 def test_equal_sentences_are_printed_once_with_all_their_places(call, tmp_path, monkeypatch):

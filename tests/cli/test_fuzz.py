@@ -5,7 +5,6 @@ import io
 import tempfile
 import warnings
 
-import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -93,7 +92,13 @@ def tried(arguments):
     return code, *streams
 
 
-def check(arguments):
+# 25 by default, 625 by `make test-all`.
+@settings(
+    max_examples=settings().max_examples ** 2 // 16, deadline=None, derandomize=True,
+    suppress_health_check=list(HealthCheck),
+)  # fmt: skip
+@given(command_lines())
+def test_a_command_line_answers_or_says_why_not(arguments):
     code, out, err = tried(arguments)
     assert code in (0, 1, 2), (arguments, code)
     assert "Traceback" not in out + err
@@ -105,22 +110,6 @@ def check(arguments):
         assert len(sentences) == 1, (arguments, sentences)
         assert sentences[0].startswith("rotbeam: ")
         assert len(sentences[0]) > len("rotbeam: x")
-
-
-FUZZ = {"deadline": None, "suppress_health_check": list(HealthCheck)}
-
-
-@settings(max_examples=25, derandomize=True, **FUZZ)
-@given(command_lines())
-def test_a_command_line_answers_or_says_why_not(arguments):
-    check(arguments)
-
-
-@pytest.mark.slow
-@settings(max_examples=600, **FUZZ)
-@given(command_lines())
-def test_many_command_lines_answer_or_say_why_not(arguments):
-    check(arguments)
 
 
 def test_no_arguments_and_no_command():

@@ -13,7 +13,7 @@ from rotbeam_exu.cli.output import ready_streams
 @pytest.mark.parametrize(
     ("encoding", "shown"),
     [
-        ("ascii", "omega_NL Omega +- x m^2 theta lambda ... - e ? ?"),
+        ("ascii", "omega_NL Omega +- x m^2 theta lambda ... - ? ? ?"),
         ("latin-1", "omega_NL Omega ± × m² theta lambda ... - é ? ?"),
         # Of a pipe or a file on Windows.
         ("cp1252", "omega_NL Omega ± × m² theta lambda … - é ? ?"),

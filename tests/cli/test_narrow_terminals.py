@@ -3,7 +3,7 @@
 import pytest
 
 from rotbeam_exu.verification import verify as room
-from rotbeam_exu.verification.convergence import convergence
+from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
 from rotbeam_exu.verification.outcomes import found_of
 from rotbeam_exu.verification.submission import Declaration
@@ -39,7 +39,7 @@ def test_no_number_is_cut_or_broken(call, monkeypatch, command, columns):
 
 
 def test_the_verdict_tables(call, monkeypatch):
-    runs = convergence([0.25, 0.125, 0.0625], [1.23e-4 + h**4 for h in (0.25, 0.125, 0.0625)])
+    runs = converged((40, 80, 160), None, [1.23e-4 + n**-4.0 for n in (40, 80, 160)])
     found = found_of(runs, tolerance=2e-4, bound=1e-8, where="anywhere")
     monkeypatch.setattr(
         room,
@@ -47,7 +47,7 @@ def test_the_verdict_tables(call, monkeypatch):
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
             findings={"S1": dict.fromkeys(THRESHOLDS, found)},
-            orders={}, histories={}, sources={},
+            histories={}, sources={}, remarks={}, asked=("S1",),
         ),
     )  # fmt: skip
     monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))

@@ -1,10 +1,11 @@
-"""Numbers on the command line: what is none is refused, and what would never end."""
+"""Numbers and options of an element: what is none is refused, and what would never end."""
 
+import json
 import math
 
 import pytest
 
-from rotbeam_exu import comparison
+from rotbeam_exu import load
 from rotbeam_exu.cli.output import print_columns
 
 
@@ -84,19 +85,40 @@ def test_what_no_memory_holds_is_one_sentence(call, tmp_path, arguments):
     assert not list(tmp_path.iterdir())
 
 
-def test_what_takes_long_begins_and_ctrl_c_ends_it(call, tmp_path, monkeypatch):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(comparison, "residual", stopped)
-    # A million transients are days.
-    code, _, error = call("ramp", "--points", "1000000", "--out", tmp_path)
-    assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
-
-
 def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):
     print_columns({"ω_NL": [3.73033, 3.730329], "a": [0.1, 0.05], "±": [1e-9, math.nan]}, "table")
     rows = [line.split() for line in capsys.readouterr().out.splitlines() if line[0] == "│"]
     assert [row[1::2] for row in rows] == [
         ["3.730330", "0.10", "1e-09"], ["3.730329", "0.05", "-"],
     ]  # fmt: skip
+
+
+SHORT = ("run", "--omega", "2", "--ramp-time", "3", "--elements", "2", "--duration", "8",
+         "--step", "0.01", "--no-figure")  # fmt: skip
+
+
+def test_options_reach_the_element_and_the_file(call, tmp_path):
+    options = ("--option", "nodes=3", "--option", "poisson_ratio=0.25")
+    out = call(*SHORT, "--element", "exact", *options, "--out", tmp_path)[1]
+    assert "exact, nodes=3, poisson_ratio=0.25" in out
+    run = load(next(tmp_path.glob("*.nc")))
+    assert run.attrs["element"] == "exact"
+    made = {"kind": "Exact", "nodes": 3, "poisson_ratio": 0.25}
+    assert made.items() <= json.loads(run.attrs["element_options"]).items()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--option", "nodes=3"), "element 'cable' has no option 'nodes'; it has no options"),
+        (("--element", "exact", "--option", "nodes"), "given as name=value, got 'nodes'"),
+        (("--element", "exact", "--option", "nodes=5"), "nodes must be 2 or 3, got 5"),
+        (("--element", "substructures", "--option", "frame=chord"), "unknown frame 'chord'"),
+        (("--element", "ancf3", "--option", "poisson_ratio=much"), "poisson_ratio must be a numb"),
+    ],
+)
+def test_refuses(call, tmp_path, arguments, sentence):
+    code, _, error = call(*SHORT, *arguments, "--out", tmp_path)
+    assert code == 2
+    assert sentence in error
+    assert len(error.strip().splitlines()) == 1

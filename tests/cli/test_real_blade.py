@@ -21,7 +21,14 @@ WRITTEN = {
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-@pytest.mark.parametrize("name", WRITTEN)
+@pytest.mark.parametrize(
+    "name",
+    # What a ramp leaves of any blade, and how this one responds, is tested in the theory.
+    [
+        pytest.param(one, marks=pytest.mark.slow if one in ("ramp", "tip force") else ())
+        for one in WRITTEN
+    ],
+)
 def test_a_command_writes_its_results(call, tmp_path, name):
     code, out, error = call(*WRITTEN[name], "--config", NREL, "--out", tmp_path)
     assert code == 0, error
@@ -31,6 +38,7 @@ def test_a_command_writes_its_results(call, tmp_path, name):
             assert sum(map(int, data.isnull().sum().values())) < sum(v.size for v in data.values())
 
 
+@pytest.mark.slow  # test_stations asks the same of the library
 def test_the_response_to_gravity_is_the_sag_that_a_user_asked_for(call, tmp_path):
     """It ended with advice that changed no digit."""
     asked = ("--from", "2", "--to", "2.1", "--points", "2", "--no-figure", "--out", tmp_path)

@@ -37,7 +37,7 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             code, _, error = call("run", *sum(arguments.items(), ()), "--out", tmp_path)
             assert code == 2
             assert sentence in error
-            assert "--force" in error
+            assert "choose another folder with --out, or --force" in error
             assert len(error.strip().splitlines()) == 1
     assert all(path.read_bytes() == text for path, text in before.items())
     other = ("--frame", "rotating", "--no-figure", "--force")
@@ -62,7 +62,7 @@ def test_a_failed_run_is_kept_and_marked(call, tmp_path):
         code, _, error = call(*failing, "--duration", duration)
         assert code == 1
         kept = tmp_path / f"cable-2-omega-6-ramp-2.5{name}.nc"
-        assert f"what was computed is in {kept}, marked failed" in error
+        assert f"the part that was computed is in {kept}, marked failed" in error
         run = load(kept)
         assert run.attrs["verdict"].startswith("failed: ")
         assert run.attrs["duration"] == duration

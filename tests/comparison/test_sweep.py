@@ -118,26 +118,19 @@ def test_a_number_changed_by_hand_is_not_believed(beam, serial, cache):
     assert len(list(cache.glob("*.damaged"))) == 1
 
 
-def test_a_failed_case_stays_on_record_with_its_sentence(beam):
+def test_a_failed_case_stays_on_record_with_its_sentence_and_what_was_computed(beam, tmp_path):
     # 9 s end 0.5 s after the longer ramp: less than two cycles.
-    grid = {"omegas": [6.0], "ramp_times": [3.0, 8.5]}
-    found = sweep(beam, **grid, **COARSE, jobs=1, on_error="record")
-    assert found["verdict"].to_numpy().tolist() == [["passed", "failed"]]
-    assert "run for" in found["failure"].to_numpy()[0, 1]
-    assert np.isnan(found["frequency"].to_numpy()[0, 1])
-    assert list(sweeps.failures(found).values()) == [[(6.0, 8.5)]]
-    with pytest.raises(SimulationError, match=r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"):
-        sweep(beam, **grid, **COARSE, jobs=1)
-
-
-def test_what_was_computed_of_a_failed_case_is_kept(beam, tmp_path):
     grid = {"omegas": [6.0], "ramp_times": [3.0, 8.5], "history": True, "jobs": 1}
     found = sweep(beam, **grid, **COARSE, on_error="record", cache=tmp_path)
     run = simulate(beam, SpinUp(omega=6.0, ramp_time=8.5), **COARSE)
     assert found["verdict"].to_numpy().tolist() == [["passed", "failed"]]
     assert np.array_equal(found["q"].sel(ramp_time=8.5).squeeze(), run["q"])
+    assert "run for" in found["failure"].to_numpy()[0, 1]
+    assert np.isnan(found["frequency"].to_numpy()[0, 1])
+    assert list(sweeps.failures(found).values()) == [[(6.0, 8.5)]]
     # From the cache the same; and the error of a sweep that ends holds what was there by then.
-    with pytest.raises(SimulationError) as stop:
+    sentence = r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"
+    with pytest.raises(SimulationError, match=sentence) as stop:
         sweep(beam, **grid, **COARSE, cache=tmp_path)
     xr.testing.assert_identical(stop.value.run, found)
 
@@ -177,12 +170,13 @@ def test_a_mistake_in_an_element_is_no_failed_case(beam):
         sweep(beam, **SMALL, **COARSE, jobs=1, element=Misshapen(), on_error="record")
 
 
-def test_numbers_of_numpy_are_numbers(beam, serial, tmp_path):
+def test_numbers_of_numpy_are_numbers(beam, serial, cache):
+    known = {path.name for path in cache.glob("*.nc")}
     grid = {name: np.array(values) for name, values in SMALL.items()}
     coarse = {"elements": np.int64(2), "step": np.float64(1e-2), "duration": np.int64(9)}
-    for _ in range(2):
-        found = sweep(beam, **grid, **coarse, jobs=1, cache=tmp_path, history=True)
-        xr.testing.assert_identical(found, serial)
+    found = sweep(beam, **grid, **coarse, jobs=1, cache=cache, history=True)
+    xr.testing.assert_identical(found, serial)
+    assert {path.name for path in cache.glob("*.nc")} == known
 
 
 def test_shards_make_the_whole(beam, serial, tmp_path):
@@ -214,16 +208,11 @@ class DyingPool(Executor):
         return future
 
 
-@pytest.mark.parametrize(
-    ("error", "said"),
-    [
-        (BrokenProcessPool("a worker died"), "a worker process died"),
-        # Of Dask's client, whose scheduler is gone.
-        (CancelledError(), "the executor gave its cases up, as a Dask scheduler does that ends,"),
-    ],
-)
-def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error, said):
-    with pytest.raises(SimulationError, match=f"{said} with . of 4 cases to do; run again"):
+# Of Dask's client, whose scheduler is gone, the second.
+@pytest.mark.parametrize("error", [BrokenProcessPool("a worker died"), CancelledError()])
+def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error):
+    said = "a worker process died, or its executor ended, with . of 4 cases to do; run again"
+    with pytest.raises(SimulationError, match=said):
         sweep(beam, **SMALL, **COARSE, cache=tmp_path, executor=DyingPool(error))
     kept = {path: path.stat().st_mtime_ns for path in tmp_path.glob("*.nc")}
     assert len(kept) <= 1
@@ -293,7 +282,7 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"omegas": []}, "omegas is empty"),
+        ({"omegas": []}, "omegas must be a sequence of numbers"),
         ({"ramp_times": [3.0, 2.0, 3.0]}, "ramp_times holds 3 more than once"),
         ({"omegas": [-1.0]}, "omega must not be negative"),
         ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
@@ -301,12 +290,7 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
         ({"jobs": -1}, "jobs must be at least 1"),
         ({"jobs": True}, "jobs must be a whole number, got True"),
         ({"shard": (1.5, 4)}, r"shard must be a whole number, got 1\.5"),
-        ({"step": np.nan}, "step must be finite, got nan s"),
-        ({"step": np.inf}, "step must be finite, got inf s"),
-        ({"step": -1.0}, "step must be positive"),
         ({"duration": 2.5}, "duration 2.5 s ends before .* begins at ramp_time 3 s; take a longer"),
-        ({"elements": 2.5}, r"elements must be a whole number, got 2\.5"),
-        ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         ({"element": "brick"}, "unknown element 'brick'"),
         ({"element": Cable}, "element must be the name of a formulation, or an instance"),
         ({"omegas": ["6"]}, "omegas must be numbers in rad/s"),
@@ -341,8 +325,6 @@ def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):
         assert "make room and run again" in job.stderr
         assert "Traceback" not in job.stderr
         # Whole files only.
-        from rotbeam_exu import load
-
         for path in disk.glob("[0-9a-f]*.nc"):
             assert load(path).sizes["time"] > 0
         assert not list(disk.glob(".*"))

@@ -3,24 +3,26 @@
 import pytest
 
 from rotbeam_exu import load
-from rotbeam_exu.cli import main
 from rotbeam_exu.sweeps import grid
+from tests.beams import REED_TOML
 
 COARSE = {"--elements": "2", "--step": "0.005", "--duration": "9", "--jobs": "1"}
 
 
-def call(tmp_path, *options):
-    coarse = [
-        text for name, value in COARSE.items() if name not in options for text in (name, value)
-    ]
-    main(["sweep", *coarse, "--cache", f"{tmp_path}/cache", "--out", f"{tmp_path}/out", *options])
+@pytest.fixture
+def swept(call, tmp_path):
+    def run(*options):
+        coarse = (pair for pair in COARSE.items() if pair[0] not in options)
+        out = ("--cache", tmp_path / "cache", "--out", tmp_path / "out")
+        return call("sweep", *sum(coarse, ()), *out, *options)
+
+    return run
 
 
-def test_table_files_and_failures_by_cause(tmp_path, capsys):
-    with pytest.raises(SystemExit) as stop:
-        call(tmp_path, "--omega", "4", "6", "--ramp-time", "3", "8.5", "--history")
-    assert stop.value.code == 1
-    printed = capsys.readouterr().out
+def test_table_files_and_failures_by_cause(swept, tmp_path):
+    code, printed, error = swept("--omega", "4", "6", "--ramp-time", "3", "8.5", "--history")
+    assert code == 1
+    assert "2 of 4 spin-ups failed; why is above, and as `failure` in" in error
     assert "the tip does not oscillate within the" in printed
     assert printed.count("passed") == 2
     data = load(tmp_path / "out" / "sweep-cable-2.nc")
@@ -31,14 +33,13 @@ def test_table_files_and_failures_by_cause(tmp_path, capsys):
     assert len(lines) == 5
 
 
-def test_shards_share_a_cache(tmp_path, capsys):
+@pytest.mark.slow  # test_sweep has them through Python
+def test_shards_share_a_cache(swept, tmp_path):
     grid = ("--omega", "4", "6", "--ramp-time", "3")
-    call(tmp_path, *grid, "--shard", "1/2")
-    assert "pending" in capsys.readouterr().out
-    call(tmp_path, *grid, "--shard", "2/2")
+    assert "pending" in swept(*grid, "--shard", "1/2")[1]
+    swept(*grid, "--shard", "2/2")
     assert (tmp_path / "out" / "sweep-cable-2-shard-2-2.nc").exists()
-    call(tmp_path, *grid)
-    assert "pending" not in capsys.readouterr().out.split("sweep-cable-2-shard-2-2")[1]
+    assert "pending" not in swept(*grid)[1]
 
 
 @pytest.mark.parametrize(
@@ -47,34 +48,19 @@ def test_shards_share_a_cache(tmp_path, capsys):
         (["--shard", "5/4"], "shard 5/4: the part must be between 1 and 4"),
         (["--shard", "two"], "shard must read k/n, as 1/4, got 'two'"),
         (["--omega", "4", "4"], "omegas holds 4 more than once"),
-        (["--elements", "0"], "elements must be at least 1, got 0"),
         (["--step", "nan"], "step must be finite, got nan s"),
-        (["--step", "inf"], "step must be finite, got inf s"),
-        (["--step", "-1"], "step must be positive, got -1.0 s"),
-        (["--duration", "nan"], "duration must be finite, got nan s"),
         (["--omega", "0", "4"], "at omega = 0 rad/s the beam stays at rest"),
         (["--ramp-time", "3", "-3"], "ramp_time must be positive, got -3.0 s"),
-        (["--jobs", "0"], "jobs must be at least 1, got 0"),
-        (["--element", "brick"], "unknown element 'brick'"),
     ],
 )
-def test_bad_input_exits_with_2_and_one_sentence(tmp_path, capsys, options, sentence):
-    with pytest.raises(SystemExit) as stop:
-        call(tmp_path, "--omega", "6", "--ramp-time", "3", *options)
-    error = capsys.readouterr().err
-    assert stop.value.code == 2
+def test_bad_input_exits_with_2_and_one_sentence(swept, options, sentence):
+    code, _, error = swept("--omega", "6", "--ramp-time", "3", *options)
+    assert code == 2
     assert sentence in error
     assert len(error.splitlines()) == 1
 
 
-def test_a_sweep_of_which_nothing_passes_exits_with_1(tmp_path, capsys):
-    with pytest.raises(SystemExit) as stop:
-        call(tmp_path, "--omega", "6", "--ramp-time", "8.5")
-    assert stop.value.code == 1
-    assert "1 of 1 spin-ups failed; why is above, and as `failure` in" in capsys.readouterr().err
-
-
-def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, monkeypatch):
+def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(call, tmp_path, monkeypatch):
     asked = {}
 
     def stop(beam, **options):
@@ -83,15 +69,11 @@ def test_a_beam_of_one_s_own_is_swept_over_the_paper_s_ratios(tmp_path, capsys, 
 
     monkeypatch.setattr(grid, "sweep", stop)
     config = tmp_path / "reed.toml"
-    config.write_text(
-        "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
-        "youngs_modulus = 2.1e11\ndensity = 7850\n"
-    )
-    with pytest.raises(SystemExit):
-        main(["sweep", "--config", str(config), "--out", str(tmp_path)])
+    config.write_text(REED_TOML)
+    out = call("sweep", "--config", config, "--out", tmp_path)[1]
     # ω_0 is 1050.4 rad/s, 361.06 times the paper's.
     assert asked["omegas"] == [720.0, 1400.0, 2200.0, 2900.0]
     assert asked["ramp_times"][0] == pytest.approx(3.375 / 361.06, rel=1e-3)
     assert asked["duration"] == pytest.approx(0.042)
     assert asked["step"] == 2e-6
-    assert "omega 720, 1400, 2200, 2900 rad/s" in capsys.readouterr().out
+    assert "ω = 720, 1400, 2200, 2900 rad/s" in out

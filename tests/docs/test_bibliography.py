@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
-
 DOCS = Path(__file__).parents[2] / "docs"
 ENTRIES = re.findall(
     r"^@\w+\{(\w+),", (DOCS / "references.bib").read_text(encoding="utf-8"), re.MULTILINE
@@ -20,14 +18,3 @@ def test_each_citation_has_one_entry():
     assert len(ENTRIES) == len(set(ENTRIES))
     missing = {page.name: cited(page) - set(ENTRIES) for page in DOCS.rglob("*.md")}
     assert {name: keys for name, keys in missing.items() if keys} == {}
-
-
-@pytest.mark.parametrize(
-    ("page", "keys"),
-    [
-        ("spin_up", {"smith1957", "aspinwall1980", "singer1990"}),
-        ("harmonic_balance", {"kerschen2009", "pesheck2002", "arvin2011"}),
-    ],
-)
-def test_those_who_came_before_are_named(page, keys):
-    assert keys <= cited(DOCS / "theory" / f"{page}.md")

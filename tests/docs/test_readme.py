@@ -7,14 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic import (
-    Beam,
-    SpinUp,
-    Theory,
-    linear_modes,
-    periodic_orbits,
-    reduced_model,
-)
+from analytic import Beam, SpinUp, Theory, linear_modes, periodic_orbits, reduced_model
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.files.beam_file import load_beam

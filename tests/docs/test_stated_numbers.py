@@ -23,10 +23,8 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
 )
-from rotbeam_exu import natural_frequencies, simulate, simulate_3d, steady_oscillation
-from rotbeam_exu.cli.respond import Dampings
+from rotbeam_exu import kicked, natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Cable, Chain
-from rotbeam_exu.files.beam_file import load_beam
 
 DOCS = Path(__file__).parents[2] / "docs"
 _GRAVITY = 9.81  # [m/s²]
@@ -64,11 +62,7 @@ def says(page, words):
 
 
 def elements_by_quadrature():
-    return (
-        (0, OtherQuadrature(quadrature=0)),
-        (1, OtherQuadrature(quadrature=1)),
-        (2, Cable()),
-    )
+    return ((0, OtherQuadrature(quadrature=0)), (1, OtherQuadrature(quadrature=1)), (2, Cable()))
 
 
 def test_reduced_integration_costs_accuracy_in_linear_frequencies(beam):
@@ -131,6 +125,7 @@ def test_gravity_would_bend_and_buckle_the_strip(beam):
     assert beam.area / height == pytest.approx(width, rel=0.01)
 
 
+@pytest.mark.slow  # designed ramps are tested in test_residual
 def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
     page, readme = "theory/spin_up.md", "../README.md"
     assert says(page, "the tip goes to $-0.71L$")
@@ -174,35 +169,13 @@ def test_the_strip_buckles_on_the_mildest_ramp_already(beam):
     page = "theory/planar.md"
     assert says(page, "2 rad/s in 3.375 s, it is twisted by 0.1 at 1.2 s, bent by 0.107 $L$")
     motion = SpinUp(omega=2.0, ramp_time=3.375)
-    settings = {"kick": 1e-6, "duration": 3.4, "elements": 32, "step": 2.5e-4}
-    run = simulate_3d(beam.with_shape(Rectangle()), motion, **settings)
+    settings = {"element": "space_exact", "duration": 3.4, "elements": 32, "step": 2.5e-4}
+    strip = beam.with_shape(Rectangle())
+    run = simulate(strip, motion, initial_state=kicked(strip), **settings)
     at = int((np.abs(run["twist"]) > 0.1).argmax("time"))
     # Another code, a discrete rod, has 1.20 s and 0.106.
     assert float(run["time"][at]) == pytest.approx(1.2, abs=0.01)
     assert abs(float(run["q"][at])) / beam.length == pytest.approx(0.107, abs=2e-3)
-
-
-@pytest.mark.parametrize(
-    ("page", "words"),
-    [
-        ("scope.md", "relative to the turning frame"),
-        ("theory/forced_response.md", "velocity is that in the turning frame"),
-        ("howto/forced_response.md", "velocity in the turning frame"),
-        ("howto/own_beam.md", "velocity relative to the turning frame"),
-    ],
-)
-def test_external_damping_is_said_to_be_no_drag(page, words):
-    text = " ".join((DOCS / page).read_text(encoding="utf-8").split())
-    assert words in text
-    assert "oint masses" in text
-    assert "the air takes" not in text
-
-
-@pytest.mark.parametrize("told", [Damping, Dampings, load_beam], ids=lambda told: told.__name__)
-def test_so_do_docstring_command_and_file(told):
-    text = " ".join(told.__doc__.split())
-    assert "turning frame" in text
-    assert "point masses" in text
 
 
 def test_point_masses_have_no_external_damping(beam):
@@ -217,18 +190,3 @@ def test_point_masses_have_no_external_damping(beam):
     assert damping_ratios(blade, 0.0, 1)[0] == pytest.approx(
         1e-3 * area / (2.0 * modes.frequencies[0] * inertia), rel=1e-7
     )
-
-
-def test_no_page_says_what_a_referee_refuted():
-    root = DOCS.parent
-    pages = [root / "README.md", *DOCS.rglob("*.md")]
-    text = {page: " ".join(page.read_text(encoding="utf-8").split()) for page in pages}
-    for words in (
-        "worse by refining",
-        "methods that share no formula",
-        "which shares nothing with this one",
-        "costs no more than a formula",
-        "In its plane of bending everything",
-        "leave almost nothing in any",
-    ):
-        assert [page.name for page in pages if words in text[page]] == []

@@ -1,9 +1,14 @@
 import shutil
+import warnings
+from concurrent.futures import Executor, Future
+from contextlib import contextmanager, nullcontext
 from functools import cache
 
 import numpy as np
 import pytest
 
+from analytic.input_checks import RotbeamWarning
+from rotbeam_exu.explorer import data as room
 from rotbeam_exu.explorer import explorer_data, explorer_page
 
 OMEGAS = tuple(np.arange(0.0, 12.5, 2.0).tolist())
@@ -16,19 +21,30 @@ ARGUMENTS = [
 ]  # fmt: skip
 
 
+class AtOnce(Executor):
+    """Computes in this process: one of its own would only import the same again."""
+
+    def submit(self, function, /, *arguments, **options):
+        future = Future()
+        future.set_result(function(*arguments, **options))
+        return future
+
+
 @pytest.fixture(scope="session")
 def data():
     """The Explorer's data on a coarser grid and mesh."""
-    return explorer_data(
-        omegas=OMEGAS,
-        amplitudes=AMPLITUDES,
-        finite_element_omegas=(6.0,),
-        ramp_times=(3.0, 2.5),
-        exact_ramp_times=RAMPS,
-        elements=4,
-        step=2e-3,
-        jobs=1,  # processes of its own would only import the same again
-    )
+    with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings():
+        patch.setattr(room, "worker_pool", lambda *_: nullcontext(AtOnce()))
+        warnings.simplefilter("ignore", RotbeamWarning)
+        return explorer_data(
+            omegas=OMEGAS,
+            amplitudes=AMPLITUDES,
+            finite_element_omegas=(6.0,),
+            ramp_times=(3.0, 2.5),
+            exact_ramp_times=RAMPS,
+            elements=4,
+            step=2e-3,
+        )
 
 
 @pytest.fixture(scope="session")
@@ -66,9 +82,9 @@ def context(browser):
     return of
 
 
-@pytest.fixture
-def open_page(context):
-    """Return a function that opens a URL and refuses noise: messages, errors, the network."""
+@contextmanager
+def pages_of(context):
+    """Give a function that opens a URL and refuses noise: messages, errors, the network."""
     noise, pages = [], []
 
     def opened(url, *, phone=False, dark=False, motion=False, width=None):
@@ -93,6 +109,19 @@ def open_page(context):
     for page in pages:
         page.close()
     assert noise == []
+
+
+@pytest.fixture
+def open_page(context):
+    with pages_of(context) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def page(context, url):
+    """One page for all tests of a module that do no more than move its sliders."""
+    with pages_of(context) as opened:
+        yield opened(url)
 
 
 def settle(page):

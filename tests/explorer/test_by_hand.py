@@ -9,8 +9,8 @@ from analytic import periodic_orbits, reduced_model
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 
 
-def test_keyboard(open_page, url, data):
-    page = open_page(url)
+def test_keyboard(page, at):
+    at(page, 6.0, 0.3)
     value = page.locator("#omega-value")
     page.get_by_label("Speed ω").focus()
     for key, wanted in (("ArrowRight", "8.00"), ("ArrowLeft", "6.00"), ("Home", "0.00")):
@@ -65,8 +65,7 @@ def test_touch(open_page, url):
     assert page.locator("#omega-value").inner_text() == "6.00 rad/s"
 
 
-def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(open_page, url, at, beam):
-    page = open_page(url)
+def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(page, at, beam):
     at(page, 6.0, 0.3)
     page.locator("#softening > svg").focus()
     page.keyboard.press("ArrowLeft")
@@ -105,8 +104,7 @@ def test_the_spin_up_is_read_without_a_mouse(open_page, url, at, data):
     assert page.locator("#ramp-value").inner_text() == "3 s"
 
 
-def test_the_speed_is_ruled_on_its_axis(open_page, url, at):
-    page = open_page(url)
+def test_the_speed_is_ruled_on_its_axis(page, at):
     for omega in (0.0, 6.0, 12.0):
         at(page, omega, 0.2)
         label = page.locator("#softening text.here")

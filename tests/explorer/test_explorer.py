@@ -45,8 +45,7 @@ def test_it_refers_to_nothing_outside(data):
     assert found <= {"http://www.w3.org/2000/svg"}  # a name, not an address
 
 
-def test_numbers_are_those_of_the_api(open_page, url, at, beam):
-    page = open_page(url)
+def test_numbers_are_those_of_the_api(page, at, beam):
     for omega, a in STATES:
         at(page, omega, a)
         exact = periodic_orbits(beam, omega, [a])
@@ -97,8 +96,7 @@ def test_curves_lie_where_the_axes_say(open_page, url, at, drawn, beam, data):
             assert y[np.argmin(np.abs(x - omega))] == pytest.approx(at_omega, abs=1e-3)
 
 
-def test_orbits_are_those_of_the_api(open_page, url, at, drawn, beam):
-    page = open_page(url)
+def test_orbits_are_those_of_the_api(page, at, drawn, beam):
     for omega, a in STATES:
         at(page, omega, a)
         orbit = periodic_orbits(beam, omega, [a]).orbit(0, 121)
@@ -121,8 +119,7 @@ def test_orbits_are_those_of_the_api(open_page, url, at, drawn, beam):
         assert float(said[1]) == pytest.approx(np.abs(wanted).max(), abs=1e-3)
 
 
-def test_exact_orbit_to_the_digits_shown(open_page, url, at, beam):
-    page = open_page(url)
+def test_exact_orbit_to_the_digits_shown(page, at, beam):
     at(page, 6.0, 0.6)
     found = page.evaluate(
         "[...Array(13).keys()].map(k => exactState(state.w, state.a, k*Math.PI/6))"
@@ -132,8 +129,7 @@ def test_exact_orbit_to_the_digits_shown(open_page, url, at, beam):
     np.testing.assert_allclose(found, wanted, atol=5e-6)
 
 
-def test_the_beam_moves_as_the_exact_one(open_page, url, at, beam):
-    page = open_page(url)
+def test_the_beam_moves_as_the_exact_one(page, at, beam):
     for omega in (0.0, 6.0, 12.0):
         at(page, omega, 0.6)
         phases = np.linspace(0.0, 2.0 * np.pi, 7)
@@ -149,8 +145,7 @@ def test_the_beam_moves_as_the_exact_one(open_page, url, at, beam):
         np.testing.assert_allclose(beam.length * found[..., 1], y, atol=3e-4 * beam.length)
 
 
-def test_the_beam_is_drawn_to_scale(open_page, url, at, beam):
-    page = open_page(url)
+def test_the_beam_is_drawn_to_scale(page, at, beam):
     at(page, 6.0, 0.4)
     page.locator("#phase").evaluate("e => { e.value = 90; e.dispatchEvent(new Event('input')); }")
     root, scale, tip = page.evaluate(
@@ -184,8 +179,7 @@ def curve(page, chart, model="exact"):
     return page.locator(f"#{chart} path[data-model={model}]").get_attribute("d")
 
 
-def test_sliders_move_the_curves(open_page, url, at):
-    page = open_page(url)
+def test_sliders_move_the_curves(page, at):
     at(page, 6.0, 0.3)
     before = [curve(page, chart) for chart in ("backbone", "orbit", "softening")]
     marker = page.locator("#softening line.now").get_attribute("x1")
@@ -202,13 +196,22 @@ def test_sliders_move_the_curves(open_page, url, at):
     assert page.locator("#beam path.beam").get_attribute("d") != moved
 
 
-def test_an_orbit_that_is_not_found_is_a_gap(open_page, data, tmp_path):
+def test_what_is_not_found_is_a_gap(open_page, data, tmp_path):
+    """An orbit, a model's oscillation, a spin-up."""
     gap = data.copy(deep=True)
     for name in ("exact_frequency", "harmonics", "axis_x", "axis_y"):
         gap[name].loc[{"omega": 6.0, "a": 0.6}] = np.nan
+    for name in ("omega_n", "lambda_omega", "lambda_x", "kappa", "h2", "first_harmonic"):
+        gap[name].loc[{"model": "CI"}] = np.nan
+    for name in ("spin_up", "exact_left"):
+        gap[name].loc[{"exact_ramp_time": 3.0}] = np.nan
     path = tmp_path / "gap.html"
     path.write_text(explorer_page(gap), encoding="utf-8")
-    page = open_page(f"{path.as_uri()}#a=0.6", motion=True)  # the fixture listens
+    page = open_page(f"{path.as_uri()}#omega=6&a=0.6&T=3", motion=True)  # the fixture listens
+    assert cells(page, "CI") == ["–"] * 3
+    assert not curve(page, "backbone", "CI")
+    assert "Too violent" in page.locator("#about-spin-up").inner_text()
+    assert not page.locator("#spin-up path[data-model=exact]").get_attribute("d")
     assert "No exact orbit was found" in page.locator("#warning").inner_text()
     assert cells(page, "exact")[2] == "–"
     assert not page.locator("#beam circle").is_visible()
@@ -270,19 +273,7 @@ def test_motion_in_real_time_unless_unwanted(open_page, url, beam):
     assert page.evaluate("state.phase") == at_rest
 
 
-def test_a_model_without_oscillation_has_no_curve(open_page, data, tmp_path):
-    broken = data.copy(deep=True)
-    for name in ("omega_n", "lambda_omega", "lambda_x", "kappa", "h2", "first_harmonic"):
-        broken[name].loc[{"model": "CI"}] = np.nan
-    path = tmp_path / "broken.html"
-    path.write_text(explorer_page(broken), encoding="utf-8")
-    page = open_page(path.as_uri())
-    assert cells(page, "CI") == ["–"] * 3
-    assert not curve(page, "backbone", "CI")
-
-
-def test_what_the_exact_orbits_warn_of_is_said(open_page, url, at, beam):
-    page = open_page(url)
+def test_what_the_exact_orbits_warn_of_is_said(page, at, beam):
     at(page, 2.0, 0.6)
     with pytest.warns(RotbeamWarning, match="internal resonance") as caught:
         periodic_orbits(beam, 2.0, [0.25, 0.6])

@@ -188,7 +188,7 @@ BAD = {
 }  # fmt: skip
 
 
-def test_a_bad_file_gets_one_sentence(open_page, url):
+def test_a_bad_file_gets_one_sentence_also_beside_a_good_one(open_page, url):
     page = open_page(url)
     for text, wanted in BAD.items():
         page.evaluate("document.getElementById('refused').textContent = ''")
@@ -199,10 +199,7 @@ def test_a_bad_file_gets_one_sentence(open_page, url):
         assert said.endswith(".")
         assert said.count(". ") == 0
         assert page.locator("#own-list li").count() == 0
-
-
-def test_a_good_file_beside_a_bad_one(open_page, url):
-    page = open_page(url)
+    page.evaluate("document.getElementById('refused').textContent = ''")
     choose(page, ("bad.csv", "x\n1\n"), ("good.csv", "a,omega_NL\n0.1,3.7\n"))
     assert page.locator("#refused").inner_text().startswith("bad.csv: ")
     assert page.locator("#own-list li").count() == 1

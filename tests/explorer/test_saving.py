@@ -79,7 +79,7 @@ def test_tables_are_the_data(open_page, url, at, beam, data):
     assert length == pytest.approx(1.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("dark", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, dark):
     page = open_page(url, dark=dark)
     for chart in ("backbone", "orbit", "beam", "spin-up", "left"):

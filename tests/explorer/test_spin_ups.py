@@ -5,7 +5,7 @@ import pytest
 
 import rotbeam_exu.explorer.data as room
 from analytic import SpinUp, residual_amplitude, spin_up_response
-from rotbeam_exu.explorer import explorer_data, explorer_page
+from rotbeam_exu.explorer import explorer_data
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 
@@ -82,8 +82,7 @@ def test_what_is_left_lies_where_the_decades_say(open_page, url, data):
     assert page.locator("#ramp-value").inner_text() == "6.5 s"
 
 
-def test_other_speeds_show_the_nearest_and_say_so(open_page, url, at):
-    page = open_page(url)
+def test_other_speeds_show_the_nearest_and_say_so(page, at):
     about = page.locator("#about-spin-up")
     at(page, 6.0, 0.2)
     assert "nearest" not in about.inner_text()
@@ -92,7 +91,7 @@ def test_other_speeds_show_the_nearest_and_say_so(open_page, url, at):
     assert "nearest" in about.inner_text()
 
 
-def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monkeypatch):
+def test_a_spin_up_that_fails_leaves_a_gap(beam, monkeypatch):
     def too_violent(*_, **__):
         raise RuntimeError("Newton's method fails")
 
@@ -103,14 +102,6 @@ def test_a_spin_up_that_fails_leaves_a_gap(open_page, beam, data, tmp_path, monk
     monkeypatch.undo()
     # Thrown about: minutes, were it computed.
     assert np.isnan(room.exact_spin_up(beam, 8.0, 1.0, 15.0)[1])
-    broken = data.copy(deep=True)
-    for name in ("spin_up", "exact_left"):
-        broken[name].loc[{"exact_ramp_time": 3.0}] = np.nan
-    path = tmp_path / "broken.html"
-    path.write_text(explorer_page(broken), encoding="utf-8")
-    page = open_page(f"{path.as_uri()}#omega=6&T=3")
-    assert "Too violent" in page.locator("#about-spin-up").inner_text()
-    assert not page.locator("#spin-up path[data-model=exact]").get_attribute("d")
 
 
 def test_speeds_keep_their_order(beam):

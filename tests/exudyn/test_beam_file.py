@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from analytic import Beam, Blade, Damping, Ellipse, Rectangle, Section
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.runs.attributes import beam_attributes, beam_of
+from tests.beams import BLADE_TOML
 
 GOOD = """[beam]
 length = 8.0
@@ -67,54 +68,80 @@ def test_a_shape_is_read(tmp_path):
     ).with_shape(Ellipse(ratio=2.0))
 
 
-DAMPED = """[blade]
+WHOLE = """[blade]
 length = 8.0
+hub_radius = 0.5
 
 [blade.section]
-axial_stiffness = 5e6
-bending_stiffness = 566.0
-mass_per_length = 0.2
+axial_stiffness = 5.03e6
+bending_stiffness = [[0.0, 600.0], [4.0, 550.0], [8.0, 500.0]]
+mass_per_length = [0.2, -0.02]
+
+[[blade.point_mass]]
+position = 4.0
+mass = 0.1
 
 [blade.damping]
 bending = 1e-3
 external = 0.02
 """
+DAMPED = f"{BLADE_TOML}\n[blade.damping]\nbending = 1e-3\nexternal = 0.02\n"
 
 
-def test_the_damping_of_a_blade_is_read(tmp_path):
-    blade = load_beam(written(tmp_path / "blade.toml", DAMPED))
-    assert blade.damping == Damping(bending=1e-3, external=0.02)
-    without = DAMPED.partition("[blade.damping]")[0]
-    assert not load_beam(written(tmp_path / "blade.toml", without)).damping
+def test_a_whole_blade_is_read(tmp_path):
+    section = Section(
+        axial_stiffness=5.03e6,
+        bending_stiffness=((0.0, 600.0), (4.0, 550.0), (8.0, 500.0)),
+        mass_per_length=(0.2, -0.02),
+    )
+    blade = Blade(length=8.0, hub_radius=0.5, section=section).with_point_mass(0.1, 4.0)
+    damped = blade.with_damping(Damping(bending=1e-3, external=0.02))
+    assert load_beam(written(tmp_path / "blade.toml", WHOLE)) == damped
+    bare = WHOLE.partition("[blade.damping]")[0]
+    assert load_beam(written(tmp_path / "blade.toml", bare)) == blade
 
 
 def test_no_rotary_inertia_is_other_than_none_told(tmp_path):
-    section = "mass_per_length = 0.2"
-    assert section in DAMPED
     for told, found in (("", None), ("rotary_inertia = 0", 0.0), ("rotary_inertia = 1e-4", 1e-4)):
-        blade = load_beam(
-            written(tmp_path / "blade.toml", DAMPED.replace(section, f"{section}\n{told}"))
-        )
+        blade = load_beam(written(tmp_path / "blade.toml", f"{BLADE_TOML}{told}\n"))
         assert blade.section.rotary_inertia == found
         assert beam_of(beam_attributes(blade)) == blade
+
+
+MASS = "mass_per_length = [0.2, -0.02]"
+PLANE = f"{MASS}\n[blade.section.out_of_plane]\n"
 
 
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
+        ("hub_radius", "hub_radios", r"unknown key 'hub_radios' in \[blade\]; did you mean 'hub_r"),
+        ("mass_per_length", "mass_length", r"did you mean 'mass_per_length'\?"),
+        ("position = 4.0", "", r"\[\[blade.point_mass\]\] lacks position"),
+        ("[4.0, 550.0]", "[9.0, 550.0]", "must ascend"),
+        ("0.5", "-0.5", "hub_radius must not be negative"),
+        ("[blade.section]", "[beam]", r"has both \[beam\] and \[blade\]"),
         ("bending = 1e-3", "bendin = 1", "'bendin' in .blade.damping.; did you mean 'bending'"),
-        (
-            "bending = 1e-3",
-            "ratio = 1e-3",
-            "in .blade.damping.; known are bending, axial, external",
-        ),
+        ("bending = 1e-3", "ratio = 1e-3", "in .blade.damping.; known are bending, axial, ext"),
         ("bending = 1e-3", "bending = -1.0", "bending must not be negative, .* it gives none"),
         ("[blade.damping]", "[blade.dampings]", "'dampings' in .blade.; did you mean 'damping'"),
         ("[blade.damping]", "[[blade.damping]]", "write .blade.damping. as a table"),
+        (MASS, f"{MASS}\nout_of_plane = 1.0", r"write \[blade.section.out_of_plane\] as a table"),
+        (MASS, f"{PLANE}torsion_ratio = 1.0", "lacks bending_ratio"),
+        (MASS, f"{PLANE}bending_ratio = 1.0\ntorsion = 1.0", "did you mean 'torsion_ratio'"),
+        (MASS, f"{PLANE}bending_ratio = -1.0", "bending_ratio must be positive"),
+        (MASS, f'{MASS}\nshape = "Tube"', "write a shape as a table"),
+        (MASS, f'{MASS}\nshape = {{ kind = "Blade" }}', "'Blade' is no known SectionShape"),
+        (MASS, f'{MASS}\nshape = {{ kind = "Tube", height = 1.0 }}', "this is no Tube"),
+        (
+            MASS,
+            PLANE.replace("\n", '\nshape = { kind = "Tube" }\n', 1) + "bending_ratio = 1.0",
+            "say the same: keep one",
+        ),
     ],
 )
-def test_a_bad_damping_is_one_sentence(tmp_path, old, new, sentence):
-    path = written(tmp_path / "blade.toml", DAMPED.replace(old, new, 1))
+def test_a_bad_blade_file_is_one_sentence(tmp_path, old, new, sentence):
+    path = written(tmp_path / "blade.toml", WHOLE.replace(old, new, 1))
     with pytest.raises(ValueError, match=sentence) as refused:
         load_beam(path)
     assert str(path) in str(refused.value)

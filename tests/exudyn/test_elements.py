@@ -1,16 +1,17 @@
 """What every formulation keeps: rigid motion, frames, the potential of its forces, its order."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 
-from analytic import Beam, Rectangle
+from analytic import Beam, Rectangle, Theory, linear_modes
 from rotbeam_exu import natural_frequencies
 from rotbeam_exu.fem.elements import (
     FORMULATIONS,
-    SPACE_FORMULATIONS,
     Ancf3,
     Cable,
     Exact,
@@ -24,13 +25,20 @@ from rotbeam_exu.fem.elements.linear_frames import FrameRow
 from rotbeam_exu.fem.mesh import Mesh
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.fem.units import Units
+from tests.beams import THICK
 
 BEAM = Beam.reference()
-MODELS = [cls() for cls in FORMULATIONS.values()]
+CURVED = (
+    BEAM.with_section_out_of_plane(0.25, 0.2).with_twist(0.5).with_prebend(0.02).with_sweep(0.01)
+)
+TAPERED = BEAM.with_hub_radius(0.8).with_taper(0.3, 0.5).with_tip_mass(0.1)
+TURNING = BEAM.with_tip_mass(BEAM.mass, 0.1 * BEAM.mass * BEAM.length**2)
+MODELS = [cls() for cls in FORMULATIONS.values() if not cls.leaves_plane]
 MODELS += [Exact(nodes=3), Ancf3(law="coupled"), Substructures(frame="pinned")]
 CASES = [(model, BEAM) for model in MODELS]
 CASES += [(SpaceCable(), BEAM.with_section_out_of_plane(bending_ratio=1.0))]
 CASES += [(SpaceExact(), BEAM.with_shape(Rectangle()))]
+CASES += [(SpaceExact(), CURVED)]
 of_all = pytest.mark.parametrize(("model", "blade"), CASES, ids=[str(one) for one, _ in CASES])
 
 
@@ -46,8 +54,7 @@ def deformed(model, reference, size):
 
 
 def test_all_are_here():
-    known = {*FORMULATIONS.values(), *SPACE_FORMULATIONS.values()}
-    assert {type(model) for model, _ in CASES} == known
+    assert {type(model) for model, _ in CASES} == {*FORMULATIONS.values()}
 
 
 @of_all
@@ -135,9 +142,6 @@ def test_tangent_and_force_are_derivatives(row, reference):
     assert np.abs(tangent - tangent.T).max() < 1e-14 * np.abs(tangent).max()
 
 
-THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
-
-
 @pytest.mark.parametrize(
     ("model", "blade", "omega", "coarsest", "limit"),
     [
@@ -147,6 +151,9 @@ THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e
         (Exact(nodes=3), THICK, 5.0, 4, Exact(nodes=3)),
         # Soft in shear, for which round-off stays below the error of 32 elements.
         (Ancf3(shear_correction=0.1), BEAM, 6.0, 8, Ancf3(shear_correction=0.1)),
+        # Its section is that of each Gauss point, and it turns with a tip mass.
+        (Ancf3(shear_correction=0.1), TAPERED, 6.0, 8, Ancf3(shear_correction=0.1)),
+        (Ancf3(shear_correction=0.01), TURNING, 3.3, 8, Ancf3(shear_correction=0.01)),
         (Linear(), BEAM, 2.0, 4, Linear()),
         (Substructures(cells=1), BEAM, 4.0, 8, Cable()),
         (Substructures(frame="pinned", cells=1), BEAM, 4.0, 8, Cable()),
@@ -162,3 +169,24 @@ def test_the_order_is_the_declared_one(model, blade, omega, coarsest, limit, fit
     )
     errors = np.abs(np.array(found) / exact - 1.0)
     assert -fitted_order(meshes, errors) == pytest.approx(model.order, abs=0.15)
+
+
+@pytest.mark.parametrize(
+    ("model", "blade", "omega", "stiffness", "elements"),
+    [
+        (partial(Exact, nodes=3), THICK, 5.0, (1.0, 10.0, 100.0), 64),
+        (Ancf3, BEAM, 0.0, (0.01, 0.1, 1.0), 32),
+    ],
+    ids=["exact", "ancf3"],
+)
+def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(
+    model, blade, omega, stiffness, elements, fitted_order
+):
+    """The gap is shear compliance, 1/k_s; the limit comes from another theory and another code."""
+    limit = linear_modes(blade, omega, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
+    found = [
+        natural_frequencies(blade, omega, element=model(shear_correction=k), elements=elements)[0]
+        for k in stiffness
+    ]
+    gaps = 1.0 - np.array(found) / limit
+    assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.02)

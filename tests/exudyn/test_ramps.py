@@ -3,17 +3,23 @@
 import numpy as np
 import pytest
 
-from analytic import FourierRamp, SpeedTable, SpinUp, SteadyRotation, spin_up_response
+from analytic import FourierRamp, SpeedTable, spin_up_response
 from rotbeam_exu import load, save, simulate
-from rotbeam_exu.fem.case import Case
 from rotbeam_exu.runs.attributes import motion_of
 
 DOWN = FourierRamp(start=6.0, omega=1.0, ramp_time=2.0, cosines=(-1.2, 0.2), sines=(0.2, -0.1))
 TABLE = SpeedTable([0.0, 1.0, 2.0, 3.0], [2.0, 3.0, 5.0, 6.0])
 
 
-@pytest.mark.parametrize("frame", ["inertial", "rotating"])
-@pytest.mark.parametrize("motion", [DOWN, TABLE], ids=["down", "table"])
+@pytest.mark.parametrize(
+    ("motion", "frame"),
+    [
+        (DOWN, "inertial"),
+        (TABLE, "rotating"),
+        pytest.param(DOWN, "rotating", marks=pytest.mark.slow),
+        pytest.param(TABLE, "inertial", marks=pytest.mark.slow),
+    ],
+)
 def test_against_the_exact_transient(beam, motion, frame):
     run = simulate(beam, motion, duration=4.0, step=2e-3, frame=frame)
     exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-6)
@@ -23,13 +29,6 @@ def test_against_the_exact_transient(beam, motion, frame):
     # It starts stretched, hence without axial waves.
     first, second = run["axial_strain"].to_numpy()[:2]
     assert first == pytest.approx(second, rel=1e-2)
-
-
-@pytest.mark.parametrize(
-    "motion", [DOWN, TABLE, SpinUp(omega=2.0, ramp_time=1.0), SteadyRotation(omega=2.0)]
-)
-def test_inputs_say_how_it_is_driven(beam, motion):
-    assert motion_of(Case(beam=beam, spin_up=motion).describe()) == motion
 
 
 def test_so_does_the_file_of_a_run(beam, tmp_path):

@@ -6,21 +6,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from analytic import (
-    Beam,
-    SpinUp,
-    SteadyRotation,
-    Theory,
-    linear_modes,
-    periodic_orbits,
-    spin_up_response,
-)
+from analytic import SpinUp, SteadyRotation, Theory, linear_modes, periodic_orbits, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Ancf3, Exact
+from tests.beams import SHARE, THICK
 
-SHARE = (5.0 / 6.0) / 2.6
 REISSNER = Theory(rotary_inertia=True, shear=SHARE)
-THICK = Beam(length=1.0, area=1e-2, second_moment=1e-2 / 1200, youngs_modulus=1e9, density=1e3)
 
 
 @pytest.mark.parametrize(
@@ -52,7 +43,7 @@ def test_rotary_inertia_is_that_which_is_told(model, told, has):
     """Zero is none, of elements as of theory; of what is not told elements have their own."""
     theory = model.theory
     blades = with_rotary_inertia(told), with_rotary_inertia(has), with_rotary_inertia(0.05)
-    found, _, heavy = (natural_frequencies(one, 50.0, element=model, elements=32) for one in blades)
+    found, _, heavy = (natural_frequencies(one, 50.0, element=model, elements=16) for one in blades)
     _, exact, exactly_heavy = (
         linear_modes(one, 50.0, theory=Theory(shear=theory.shear)).frequencies for one in blades
     )

@@ -15,11 +15,11 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from rotbeam_exu import simulate
+from analytic.exact.beam.state import BeamState
+from rotbeam_exu import kicked, natural_frequencies, simulate
+from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
-from rotbeam_exu.fem.elements.reissner_in_space import FrameNodes, directors
-from rotbeam_exu.fem.linearization import flap_frequencies
-from rotbeam_exu.fem.out_of_plane import SpaceState, simulate_3d
+from rotbeam_exu.fem.elements.node_kinds import FrameNodes, directors
 from rotbeam_exu.fem.picture import ray_traced
 from rotbeam_exu.runs.check import energy_drift
 from rotbeam_exu.runs.growth import growth_rate_of
@@ -37,7 +37,7 @@ def test_rates_of_a_state_are_those_of_its_coordinates():
     def coordinates(t):
         moved = dict(zip(names, values + t * rates, strict=True))
         moving = {f"{name}_dot": rate for name, rate in zip(names, rates, strict=True)}
-        return FrameNodes().coordinates(x, SpaceState(**moved, **moving))
+        return FrameNodes().coordinates(x, BeamState(**moved, **moving))
 
     _, rate = coordinates(0.0)
     difference = (coordinates(1e-6)[0] - coordinates(-1e-6)[0]) / 2e-6
@@ -54,14 +54,20 @@ def test_twist_is_the_angle_about_the_tangent():
     at = np.zeros((1, 2, 7))
     at[:, :, 3:] = p
     turned = SpaceExact().turned(at, np.array([1.2]))
-    np.testing.assert_allclose(SpaceExact().twist(turned), 0.3, rtol=1e-14)
+    sections = SpaceExact().sections(turned)[:, -1]
+    np.testing.assert_allclose(twist(sections), 0.3, rtol=1e-14)
 
 
 @pytest.mark.parametrize("omega", [0.0, 2.0, 6.0])
-def test_flap_frequencies_of_the_cable(omega, fitted_order):
-    exact = linear_modes(ALIKE, omega, 3, plane="flap").frequencies
+def test_frequencies_of_the_cable_in_space(omega, fitted_order):
+    """Lag and flap of a blade that bends alike in both planes, the lowest three of each."""
+    exact = np.sort([linear_modes(ALIKE, omega, 3, plane=p).frequencies for p in ("lag", "flap")])
+    exact = np.sort(exact.ravel())
     meshes = [8, 16, 32]
-    errors = [flap_frequencies(ALIKE, omega, elements=n) / exact - 1.0 for n in meshes]
+    errors = [
+        natural_frequencies(ALIKE, omega, element="space_cable", elements=n, count=6) / exact - 1.0
+        for n in meshes
+    ]
     assert np.abs(errors[-1]).max() < 1e-5
     # Cubic elements: with the fourth power.
     assert -fitted_order(meshes, [error[0] for error in errors]) == pytest.approx(4.0, abs=0.1)
@@ -69,9 +75,9 @@ def test_flap_frequencies_of_the_cable(omega, fitted_order):
 
 def test_without_a_kick_the_cable_in_space_is_the_cable_in_its_plane():
     spin_up = SpinUp(omega=6.0, ramp_time=1.0)
-    settings = {"element": "cable", "elements": 4, "duration": 2.0, "step": 5e-3}
+    settings = {"elements": 4, "duration": 2.0, "step": 5e-3}
     planar = simulate(Beam.reference(), spin_up, **settings)
-    space = simulate_3d(ALIKE, spin_up, kick=0.0, **settings)
+    space = simulate(ALIKE, spin_up, element="space_cable", **settings)
     assert np.array_equal(space["w"], np.zeros(space["time"].size))
     for name in set(planar.data_vars):
         scale = np.abs(planar[name]).max().item()
@@ -82,9 +88,10 @@ def test_without_a_kick_the_cable_in_space_is_the_cable_in_its_plane():
 def test_energy_and_both_frames():
     orbit = periodic_orbits(ALIKE, 2.0, [0.3])
     runs = [
-        simulate_3d(
-            ALIKE, SteadyRotation(omega=2.0), element="cable", elements=4, duration=2.0, step=5e-3,
-            frame=frame, kick=1e-3, initial_state=lambda x: orbit.state(0, x),
+        simulate(
+            ALIKE, SteadyRotation(omega=2.0), element="space_cable", elements=4, duration=2.0,
+            step=5e-3, frame=frame,
+            initial_state=kicked(ALIKE, 1e-3, lambda x: orbit.state(0, x)),
         )
         for frame in ("inertial", "rotating")
     ]  # fmt: skip
@@ -98,9 +105,9 @@ def test_drift_of_the_geometrically_exact_beam_is_that_of_the_step():
     orbit = periodic_orbits(TUBE, 2.0, [0.3])
     drifts = [
         energy_drift(
-            simulate_3d(
-                TUBE, SteadyRotation(omega=2.0), elements=4, duration=1.0, step=step,
-                initial_state=lambda x: orbit.state(0, x),
+            simulate(
+                TUBE, SteadyRotation(omega=2.0), element="space_exact", elements=4, duration=1.0,
+                step=step, initial_state=kicked(TUBE, 1e-6, lambda x: orbit.state(0, x)),
             )
         )[0]
         for step in (1e-2, 5e-3)
@@ -149,21 +156,27 @@ def test_rate_of_a_known_growth(rate):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"element": "cable"}, "element='exact'"),
-        ({"element": "shell"}, "known are 'cable', 'exact'"),
+        ({"element": "space_cable"}, "element='space_exact'"),
+        ({"element": "shell"}, "'space_cable', 'space_exact'"),
         ({"frame": "rotating"}, "frame='inertial'"),
-        ({"kick": 0.5}, "1e-6"),
-        ({"kick": np.nan}, "kick"),
-        ({"blade": Beam.reference()}, r"blade.with_shape\(Rectangle"),
-        ({"blade": ALIKE}, "element='cable'"),
-        ({"blade": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
-        ({"blade": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
+        ({"beam": Beam.reference()}, r"with_section_out_of_plane\(bending_ratio"),
+        ({"beam": RECTANGLE.with_section_out_of_plane(1.0, np.inf)}, "element='space_cable'"),
+        ({"beam": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
+        ({"beam": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
+        ({"beam": RECTANGLE.with_offsets(mass=(0.01, 0.0))}, r"blade.with_offsets\(\)"),
+        ({"beam": RECTANGLE.with_twist(0.1), "initial_state": kicked(RECTANGLE)}, "in its plane"),
     ],
 )
 def test_what_is_refused(change, sentence):
-    arguments = {"blade": RECTANGLE, "motion": SpinUp(omega=2.0, ramp_time=1.0), **change}
+    arguments = {"beam": RECTANGLE, "spin_up": SpinUp(omega=2.0, ramp_time=1.0), **change}
     with pytest.raises(ValueError, match=sentence):
-        simulate_3d(**arguments)
+        simulate(**{"element": "space_exact", **arguments})
+
+
+@pytest.mark.parametrize("kick", [0.5, np.nan])
+def test_a_kick_is_small(kick):
+    with pytest.raises(ValueError, match="kick"):
+        kicked(RECTANGLE, kick)
 
 
 def test_a_growth_needs_two_periods():
@@ -173,13 +186,13 @@ def test_a_growth_needs_two_periods():
         growth_rate_of(growing(0.1).drop_vars("w"))
 
 
-def run_on_an_orbit(blade, omega, amplitude, periods, **settings):
+def run_on_an_orbit(blade, omega, amplitude, periods, element="space_exact", **settings):
     """Return a run from the planar orbit, over a number of its periods."""
     orbit = periodic_orbits(blade, omega, [amplitude])
     steps = round(periods * 2.0 * np.pi / orbit.frequency[0] / settings["step"])
-    return simulate_3d(
-        blade, SteadyRotation(omega=omega), duration=steps * settings["step"],
-        initial_state=lambda x: orbit.state(0, x), **settings,
+    return simulate(
+        blade, SteadyRotation(omega=omega), element=element, duration=steps * settings["step"],
+        initial_state=kicked(blade, 1e-6, lambda x: orbit.state(0, x)), **settings,
     )  # fmt: skip
 
 
@@ -189,14 +202,14 @@ def run_on_an_orbit(blade, omega, amplitude, periods, **settings):
     [
         (RECTANGLE, 2.0, 0.02, {"elements": 16}),
         (TUBE, 2.0, 0.5, {"elements": 8}),
-        (ALIKE, 4.35 * ALIKE.frequency_scale, 0.5, {"element": "cable", "elements": 16}),
-        (ALIKE, 4.48 * ALIKE.frequency_scale, 0.5, {"element": "cable", "elements": 16}),
+        (ALIKE, 4.35 * ALIKE.frequency_scale, 0.5, {"element": "space_cable", "elements": 16}),
+        (ALIKE, 4.48 * ALIKE.frequency_scale, 0.5, {"element": "space_cable", "elements": 16}),
     ],
     ids=["rectangle below its limit", "tube", "cable below its tongue", "cable above it"],
 )
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_a_stable_plane_keeps_a_kick_for_fifty_periods(blade, omega, amplitude, settings):
-    run = run_on_an_orbit(blade, omega, amplitude, 50, step=1e-2, kick=1e-6, **settings)
+    run = run_on_an_orbit(blade, omega, amplitude, 50, step=1e-2, **settings)
     assert np.abs(run["w"]).max() < 1e-5 * blade.length
 
 
@@ -209,7 +222,7 @@ def test_an_unstable_rectangle_grows_as_theory_says():
     stability = planar_stability(RECTANGLE, 2.0, [0.045])
     rates = []
     for elements in (32, 64):
-        run = run_on_an_orbit(RECTANGLE, 2.0, 0.045, 4.0, elements=elements, step=5e-3, kick=1e-6)
+        run = run_on_an_orbit(RECTANGLE, 2.0, 0.045, 4.0, elements=elements, step=5e-3)
         growth = growth_rate_of(run)
         assert growth.decades > 2.95
         rates.append(growth.rate)
@@ -229,7 +242,7 @@ def test_the_cable_grows_inside_its_tongue(amplitude, w_bar, periods):
     """
     omega = w_bar * ALIKE.frequency_scale
     stability = planar_stability(ALIKE, omega, [amplitude])
-    settings = {"element": "cable", "elements": 8, "step": 5e-3, "kick": 1e-6}
+    settings = {"element": "space_cable", "elements": 8, "step": 5e-3}
     growth = growth_rate_of(run_on_an_orbit(ALIKE, omega, amplitude, periods, **settings))
     assert growth.decades > 2.95
     assert growth.rate == pytest.approx(stability.growth_rate[0], rel=0.03)

@@ -133,25 +133,16 @@ def scaled(run, time=1.0, length=1.0):
     )
 
 
-@pytest.mark.parametrize("time", [1e-9, 1e-4, 1e5, 1e9])
-@pytest.mark.parametrize("length", [1e-6, 1e6])
-def test_units_do_not_matter(time, length):
-    run = signal(second=1e-3)
-    here, there = steady_oscillation(run), steady_oscillation(scaled(run, time, length))
-    assert there.frequency * time == pytest.approx(here.frequency, rel=1e-9)
-    for name in ("amplitude", "first_harmonic", "residual"):
-        assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-9)
-    assert there.cycles == here.cycles
-
-
 @settings(max_examples=10, deadline=None)
 @given(time=st.floats(-9.0, 9.0), length=st.floats(-6.0, 6.0), frequency=st.floats(2.9, 4.2))
-def test_units_do_not_matter_at_random(time, length, frequency):
+def test_units_do_not_matter(time, length, frequency):
     run = signal(frequency=frequency, second=1e-3)
     here = steady_oscillation(run)
     there = steady_oscillation(scaled(run, 10.0**time, 10.0**length))
     assert there.frequency * 10.0**time == pytest.approx(here.frequency, rel=1e-9)
-    assert there.amplitude == pytest.approx(here.amplitude, rel=1e-9)
+    for name in ("amplitude", "first_harmonic", "residual"):
+        assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-9)
+    assert there.cycles == here.cycles
 
 
 def test_twenty_samples_a_period_are_enough_and_fewer_are_refused():

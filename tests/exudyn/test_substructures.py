@@ -6,31 +6,30 @@ import pytest
 
 from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import (
-    SimulationError,
-    figures,
-    simulate,
-)
+from rotbeam_exu import SimulationError, figures, simulate
 from rotbeam_exu.fem.elements import Substructures, formulation
-from rotbeam_exu.fem.linearization import growth_rate
-from rotbeam_exu.fem.stability import divergence_speed, divergence_speeds
+from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
+from rotbeam_exu.fem.linearization import Linearization
 
 
 @pytest.mark.parametrize("frame", ["tangent", "pinned"])
 def test_divergence_speed_grows_with_the_number(beam, frame):
-    speeds = [divergence_speed(beam, n, frame) for n in (1, 2, 3, 4, 6, 8)]
+    speeds = [Substructures(frame=frame).divergence_speed(beam, n) for n in (1, 2, 3, 4, 6, 8)]
     assert np.all(np.diff(speeds) > 0.0)
 
 
 def test_the_divergence_speed_depends_on_the_frame(beam):
     """Pinned frames see half the rotation from chord to tangent, and hold out longer."""
     for n in (1, 2, 4):
-        assert divergence_speed(beam, n, "pinned") > 2.0 * divergence_speed(beam, n, "tangent")
+        pinned, tangent = (
+            Substructures(frame=f).divergence_speed(beam, n) for f in ("pinned", "tangent")
+        )
+        assert pinned > 2.0 * tangent
 
 
 def test_one_tangent_frame_is_the_linear_beam(beam):
     # Eight cubic cells are within 4e-6 of the beam.
-    assert divergence_speed(beam, 1, cells=8) == pytest.approx(beam.omega_0, rel=5e-6)
+    assert Substructures(cells=8).divergence_speed(beam, 1) == pytest.approx(beam.omega_0, rel=5e-6)
 
 
 @pytest.mark.parametrize(
@@ -38,15 +37,25 @@ def test_one_tangent_frame_is_the_linear_beam(beam):
 )
 def test_it_is_where_growth_sets_in(beam, frame, n):
     """All eigenvalues about the steady state, with Coriolis terms, through Exudyn."""
-    model, speed = Substructures(frame=frame), divergence_speed(beam, n, frame)
-    assert growth_rate(beam, 0.999 * speed, element=model, elements=n) == 0.0
-    above = growth_rate(beam, 1.0002 * speed, element=model, elements=n)
+    model, speed = Substructures(frame=frame), Substructures(frame=frame).divergence_speed(beam, n)
+    assert Linearization.of(beam, 0.999 * speed, element=model, elements=n).growth_rate == 0.0
+    above = Linearization.of(beam, 1.0002 * speed, element=model, elements=n).growth_rate
     # Divergence sets in like a square root.
-    assert growth_rate(beam, 1.0008 * speed, element=model, elements=n) == pytest.approx(
-        2.0 * above, rel=0.02
-    )
+    assert Linearization.of(
+        beam, 1.0008 * speed, element=model, elements=n
+    ).growth_rate == pytest.approx(2.0 * above, rel=0.02)
 
 
+def test_a_run_above_the_divergence_speed_that_stays_bounded_says_so(beam):
+    noticed = r"above the divergence speed, 4\.45\d+ rad/s, of 2 'sub"
+    with pytest.warns(RotbeamWarning, match=noticed):
+        simulate(
+            beam, SpinUp(omega=4.6, ramp_time=6.0), element=Substructures(cells=1), elements=2,
+            duration=6.6, step=1.5e-2,
+        )  # fmt: skip
+
+
+@pytest.mark.slow  # by eigenvalues above, and one frame in time below
 def test_stable_below_and_unstable_above(beam):
     """After a gentle spin-up to 6 rad/s a stable beam hardly moves; two tangent frames buckle."""
 
@@ -57,9 +66,7 @@ def test_stable_below_and_unstable_above(beam):
         )  # fmt: skip
         return np.abs(run["q"].sel(time=slice(12.0, 15.0))).max().item()
 
-    with pytest.warns(
-        RotbeamWarning, match=r"above the divergence speed, 4\.45\d+ rad/s, of 2 'sub"
-    ):
+    with pytest.warns(RotbeamWarning, match="above the divergence speed"):
         buckled = steady(2, "tangent")
     stable = [steady(3, "tangent"), steady(2, "pinned")]
     assert buckled > 2.0 * max(stable), (buckled, stable)
@@ -82,14 +89,18 @@ def test_figure(beam):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"substructures": 0}, "substructures must be at least 1, got 0"),
-        ({"substructures": 2, "frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
-        ({"substructures": 2, "cells": 0}, "cells must be at least 1, got 0"),
+        ({"frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
+        ({"cells": 0}, "cells must be at least 1, got 0"),
     ],
 )
-def test_refuses(beam, options, sentence):
+def test_refuses(options, sentence):
     with pytest.raises(ValueError, match=sentence):
-        divergence_speed(beam, **options)
+        Substructures(**options)
+
+
+def test_refuses_a_row_of_no_elements(beam):
+    with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
+        Substructures().divergence_speed(beam, 0)
 
 
 def test_refuses_options_that_it_does_not_have():

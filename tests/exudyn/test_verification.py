@@ -4,20 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from analytic import Beam, spin_up_response
+from analytic import Beam
 from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.cli import main
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.cases import CASES, frequency_case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.peers import peer
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.verify import Entry, cost_at_error, handed_in, verify
+from rotbeam_exu.verification.verify import handed_in, verify
 
 
 def finding(entry, speeds=(0.0, 6.0)):
@@ -35,7 +32,7 @@ def test_the_quadratic_exact_element_converges_on_any_meshes(elements):
 def test_the_locking_law_converges_to_another_limit():
     """Its bending stiffness is E/(1 - ν²): frequencies higher by (1 - ν²)^(-1/2) at rest."""
     found = finding(formulation_entry(Ancf3(law="coupled")), (0.0, 2.0))
-    assert found.outcome is Outcome.ANOTHER_LIMIT
+    assert found.outcome is Outcome.DIFFERS
     assert found.model_difference == pytest.approx((1.0 - 0.3**2) ** -0.5 - 1.0, rel=1e-4)
 
 
@@ -50,22 +47,27 @@ def test_a_beam_that_shears_has_its_own_truth(poisson_ratio):
 
 
 def test_each_element_that_converges_is_told_so():
-    for model in (Cable(), Exact(), Ancf3(poisson_ratio=0.0)):
+    for model in (Cable(), Exact()):
         found = finding(formulation_entry(model), (0.0, 8.0))
         assert found.outcome is Outcome.REFERENCE, str(found)
+    # The paper's element is off by 8e-5, which is significant.
+    found = finding(formulation_entry(Ancf3(poisson_ratio=0.0)), (0.0, 8.0))
+    assert found.outcome is Outcome.AGREES, str(found)
+    assert found.within < 1e-4
 
 
 def test_the_linear_frame_does_not_converge():
     found = finding(formulation_entry(Linear()))
-    assert found.outcome is Outcome.NO_LIMIT
+    assert found.outcome is Outcome.UNDECIDED
     assert "is unstable" in found.note
 
 
+@pytest.mark.slow  # test_orbits_in_exudyn starts there, test_judgement judges it
 def test_the_cable_converges_to_the_reference_from_an_orbit():
     """Without a ramp, where the beam hardens: ω_NL/ω_n - 1 of its own, 1.5e-3, to a twentieth."""
     entry = formulation_entry(Cable(), elements=8, step=4e-3)
     found = judged(handed_in(entry, [CASES["O"]]))
-    assert found.outcome == "converges to the reference (O)", str(found)
+    assert found.outcome == "1 of 12 agrees, 11 not submitted", str(found)
     assert abs(found.findings["O"]["nonlinear shift"].model_difference) < 0.02
 
 
@@ -85,65 +87,39 @@ def test_a_case_that_an_element_does_not_do_is_not_submitted():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("model", [Cable(), Exact(), Exact(nodes=3), Ancf3(poisson_ratio=0.0)])
-def test_each_element_that_is_right_converges_to_the_reference(model):
-    found = verify(formulation_entry(model))
+@pytest.mark.parametrize(
+    ("model", "step"),
+    # With steps of 1 ms the cable's S4 is known to 1e-2 only.
+    [(Cable(), 5e-4), (Exact(), 1e-3), (Exact(nodes=3), 1e-3), (Ancf3(poisson_ratio=0.0), 1e-3)],
+)
+def test_each_element_that_is_right_passes(model, step):
+    found = verify(formulation_entry(model, step=step))
     assert found.passed, str(found)
 
 
 @pytest.mark.slow
 def test_the_locking_law_shows_in_the_history_too():
     found = verify(formulation_entry(Ancf3(law="coupled")))
-    assert found.outcome_of("S1") is Outcome.ANOTHER_LIMIT, str(found)
-
-
-def of_second_order(case, *, elements, step):
-    time = np.linspace(0.0, case.duration, round(case.duration / 0.01) + 1)
-    exact = spin_up_response(case.blade, case.motion, time, tolerance=1e-6)
-    q = exact.q * (1.0 + step**2 + 1e-2 / elements**2)
-    return xr.Dataset({"q": ("time", q), "q_dot": ("time", exact.q_dot)}, {"time": time})
-
-
-def test_cost_is_read_off_a_ladder():
-    """An error of second order in a ladder that halves the mesh falls by four a rung."""
-    entry = Entry(name="mine", simulate=of_second_order)
-    seconds, ladder = cost_at_error(entry, 2e-4)
-    assert ladder[:-1, 0] / ladder[1:, 0] == pytest.approx(4.0, rel=1e-2)
-    assert ladder[:, 1].min() <= seconds <= ladder[:, 1].max()
-    assert np.isnan(cost_at_error(entry, 1e-9)[0])
+    assert found.outcome_of("S1") is Outcome.DIFFERS, str(found)
 
 
 @pytest.mark.slow
-def test_command_line(capsys, monkeypatch):
+def test_command_line(call, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(room, "DEFAULT", ("L", "S1"))
-    main(["verify", "--element", "linear"])
-    out = capsys.readouterr().out
-    assert "does not converge (L, S1" in out
-    assert "linear: does not converge: the tip's distance from the clamp" in out
-
-
-def test_command_line_refuses_what_it_does_not_know(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["verify", "--element", "shell"])
-    assert stop.value.code == 2
-    assert "unknown element 'shell'; known are 'cable'," in capsys.readouterr().err
-
-
-def test_unknown_peer():
-    with pytest.raises(ValueError, match="unknown code 'ansys'; known are 'kratos'"):
-        peer("ansys")
+    out = call("verify", "--element", "linear")[1]
+    assert "1 undecided (S1), 1 differs (L)" in out
+    assert "undecided: no run: failed, the tip's distance from the clamp" in out
 
 
 @pytest.mark.slow
-def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(tmp_path, capsys, monkeypatch):
+def test_a_beam_of_ones_own_is_judged_at_its_own_speeds(call, tmp_path, monkeypatch):
     """A twentieth as long: 400 times as fast, and the same numbers, for μ hardly matters."""
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 0.4\naxial_stiffness = 2e9\n"
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
     )
-    main(["verify", "--element", "cable", "--config", str(tmp_path / "beam.toml")])
-    shown = capsys.readouterr().out
+    shown = call("verify", "--element", "cable", "--config", tmp_path / "beam.toml")[1]
     assert "ω = 2400 rad/s in T = 0.0075 s" in shown
-    assert "converges to the reference (L, S)" in shown
+    assert "2 of 2 agree" in shown

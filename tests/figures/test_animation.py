@@ -12,11 +12,6 @@ from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-
-
 @pytest.fixture(scope="module")
 def response(beam):
     times, points = np.linspace(0.0, 4.0, 21), np.linspace(0.0, beam.length, 41)
@@ -169,39 +164,25 @@ def test_nothing_to_animate_is_refused(beam):
         animate(response)
 
 
-def test_the_command_writes_a_gif(tmp_path, capsys):
-    out = tmp_path / "beam.gif"
-    main(["animate", "--duration", "3.2", "--rate", "2", "--out", str(out)])
-    assert "beam.gif" in capsys.readouterr().out
-    with Image.open(out) as picture:
-        assert picture.n_frames == 7
-
-
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (["--out", "beam.avi"], "the ending must be .gif or .mp4"),
         (["--rate", "0"], "rate must be at least 1"),
-        (["--duration", "-1"], "duration must be positive"),
-        (["--omega", "nan"], "omega must be finite"),
     ],
 )
-def test_bad_arguments_are_one_sentence(tmp_path, capsys, monkeypatch, arguments, sentence):
+def test_bad_arguments_are_one_sentence(call, tmp_path, monkeypatch, arguments, sentence):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(SystemExit) as stop:
-        main(["animate", *arguments])
-    assert stop.value.code == 2
-    assert sentence in capsys.readouterr().err
+    code, _, error = call("animate", *arguments)
+    assert code == 2
+    assert sentence in error
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "largest"),
-    [
-        (["--omega", "6"], 5e6),
-        (["--omega", "4", "--duration", "6", "--beside", "linear"], 2e6),
-    ],
+    [(["--omega", "6"], 5e6), (["--omega", "4", "--duration", "6", "--beside", "linear"], 2e6)],
 )
 def test_films_of_the_site_are_small_and_short(tmp_path, arguments, largest):
     out = tmp_path / "beam.gif"

@@ -1,18 +1,10 @@
 """The pictures of the stability of the plane: what they show is in the data."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 from analytic import Rectangle, Tube, planar_stability
 from rotbeam_exu import comparison, dataset_of, figures
-
-
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
 
 
 def test_growth_over_the_amplitude(beam):

@@ -10,20 +10,13 @@ from rotbeam_exu import dataset_of, figures
 BEAM = Beam.reference()
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def curves():
     return [
         dataset_of(
             forced_response(
                 BEAM.with_damping(Damping.from_ratio(BEAM, ratio=ratio)), 6.0,
-                SpeedRipple(amplitude=0.002), [3.7, 3.76],
+                SpeedRipple(amplitude=0.002), [3.7, 3.76], functions=8,
             )
         )
         for ratio in (8e-4, 2e-3)
@@ -86,6 +79,6 @@ def test_under_gravity_there_is_no_backbone_and_no_single_speed():
 
 def test_a_least_amplitude_is_a_dip():
     damped = BEAM.with_damping(Damping(external=1.5 * BEAM.mass_per_length * BEAM.frequency_scale))
-    data = dataset_of(forced_response(damped, [1.4, 2.0], Gravity()))
+    data = dataset_of(forced_response(damped, [1.4, 2.0], Gravity(), functions=8))
     marks = [mark for mark in data["mark"].to_numpy() if mark]
     assert marks == ["start", "peak", "dip", "end"]

@@ -10,13 +10,6 @@ from rotbeam_exu import figures
 from rotbeam_exu.paper import MODEL_LINES
 
 
-@pytest.fixture(autouse=True)
-def without_display(monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    yield
-    plt.close("all")
-
-
 @pytest.fixture
 def data():
     """As of Figure 14, with three models and one mesh at one speed."""

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from analytic import Blade, Damping, FourierRamp, Gravity, PointMass, Section, SpinUp, TipForce
-from rotbeam_exu.cli import main
 from rotbeam_exu.verification import kit as room
 from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
@@ -200,16 +199,14 @@ def test_the_kit_is_whole_or_not_there(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_empty_folder_is_taken_by_the_command(tmp_path, capsys, monkeypatch):
+def test_an_empty_folder_is_taken_by_the_command(call, tmp_path, monkeypatch):
     monkeypatch.setattr(room, "kit_files", lambda: {"README.md": b"read me"})
     (tmp_path / "kit").mkdir()
-    main(["kit", str(tmp_path / "kit")])
+    assert "1 files in" in call("kit", tmp_path / "kit")[1]
     assert (tmp_path / "kit" / "README.md").read_bytes() == b"read me"
-    assert "1 files in" in capsys.readouterr().out
-    with pytest.raises(SystemExit) as stop:
-        main(["kit", str(tmp_path / "kit")])
-    assert stop.value.code == 2
-    assert "is not empty" in " ".join(capsys.readouterr().err.split())
+    code, _, error = call("kit", tmp_path / "kit")
+    assert code == 2
+    assert "is not empty" in " ".join(error.split())
 
 
 def test_the_kit_is_the_same_each_time():

@@ -5,7 +5,6 @@ import pytest
 
 from analytic import spin_up_response
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu.cli import main
 from rotbeam_exu.verification import peers
 from rotbeam_exu.verification.cases import CASES, spin_up_case
 from rotbeam_exu.verification.peers import NotInstalledError, installed, peer
@@ -38,12 +37,11 @@ def test_another_peer_is_a_class_and_a_line(monkeypatch):
         peer("third")
 
 
-def test_the_command_line_says_so_too(capsys, monkeypatch):
+def test_the_command_line_says_so_too(call, monkeypatch):
     monkeypatch.setattr(peers, "installed", lambda name: False)
-    with pytest.raises(SystemExit) as stop:
-        main(["verify", "--element", "kratos"])
-    assert stop.value.code == 2
-    assert "pip install '.[peers]'" in capsys.readouterr().err
+    code, _, error = call("verify", "--element", "kratos")
+    assert code == 2
+    assert "pip install '.[peers]'" in error
 
 
 @needs_kratos

@@ -1,229 +1,152 @@
-"""Limits, orders and errors from a few runs, on series whose limit is known."""
+"""Limits, orders and errors by one fit to all runs, on series whose limit is known."""
 
 import math
 
 import numpy as np
 import pytest
 
-from rotbeam_exu.verification.convergence import (
-    convergence,
-    convergence_of_functions,
-    observed_order,
-)
+from rotbeam_exu.verification.convergence import Order, converged
 
 LIMIT = 2.5
 
 
-def series(sizes, *, order=2.0, size=1.0, higher=0.0):
-    """f = f₀ + C (hᵖ + c hᵖ⁺¹)."""
-    h = np.asarray(sizes, dtype=float)
-    return LIMIT + size * h**order * (1.0 + higher * h)
+def series(elements, steps=None, *, order=2.0, size=1.0, higher=0.0, in_step=3e-3):
+    """f = f₀ + C (xᵖ + c xᵖ⁺¹) + D h², x = 1/n."""
+    x = 1.0 / np.asarray(elements, dtype=float)
+    h = np.zeros(x.size) if steps is None else np.asarray(steps, dtype=float)
+    return LIMIT + size * x**order * (1.0 + higher * x) + in_step * h**2
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.7, 4.0, 8.0])
-@pytest.mark.parametrize("sizes", [(0.4, 0.2, 0.1), (0.3, 0.2, 0.15), (0.1, 0.2, 0.17, 0.4)])
-def test_a_pure_power_is_found_to_round_off(order, sizes):
-    found = convergence(sizes, series(sizes, order=order))
-    assert found.order == pytest.approx(order, abs=1e-6)
-    assert found.limit == pytest.approx(LIMIT, abs=1e-9)
-    assert found.why == ""
-    exact = np.sort(np.asarray(sizes))[::-1] ** order
-    assert found.errors == pytest.approx(exact, abs=1e-9)
+@pytest.mark.parametrize("elements", [(4, 8, 16), (10, 15, 20), (16, 8, 9, 4)])
+def test_a_pure_power_is_found(order, elements):
+    """To a tenth of the finest run's error: two in a hundred of it are left to chance."""
+    values = series(elements, order=order)
+    found = converged(elements, None, values, declared=(order, None))
+    finest = max(elements) ** -order
+    assert found.limit == pytest.approx(LIMIT, abs=0.1 * finest)
+    if order > 1.0 or len(elements) > 3:
+        assert found.orders["mesh"].value == pytest.approx(order, rel=0.02)
+    else:  # three meshes cannot tell it from a half and from one and a half
+        assert found.orders["mesh"].why == "the runs do not tell it"
+    assert abs(found.limit - LIMIT) <= found.bar
+    exact = 1.0 / np.sort(elements) ** order
+    assert found.errors == pytest.approx(exact, abs=0.1 * finest)
+    assert found.errors == pytest.approx(found.in_mesh, rel=1e-3, abs=0.1 * finest)
+
+
+TOGETHER = (8, 16, 32, 16, 16), (2.0, 2.0, 2.0, 1.0, 4.0)
+"""Meshes at one of the steps that were tried on one of them."""
+APART = (8, 16, 32, 64, 64, 64), (2.0, 2.0, 2.0, 1.0, 0.5, 0.25)
+"""Steps on a mesh of their own, all smaller."""
+DIAGONAL = (8, 16, 32), (4.0, 2.0, 1.0)
+"""As the step of an explicit code goes with its mesh."""
+GRID = (8, 8, 8, 16, 16, 16, 32, 32, 32), (4.0, 2.0, 1.0) * 3
+
+
+@pytest.mark.parametrize("runs", [TOGETHER, APART, DIAGONAL, GRID])
+def test_all_runs_count_however_they_are_laid(runs):
+    values = series(*runs, size=0.5)
+    found = converged(*runs, values, declared=(2.0, 2.0))
+    finest = 0.5 / max(runs[0]) ** 2 + 3e-3 * min(runs[1]) ** 2
+    assert abs(found.limit - LIMIT) < 0.1 * finest
+    assert abs(found.limit - LIMIT) <= found.bar < 3.0 * finest
+    # Along a diagonal mesh and step are one.
+    names = {"mesh"} if runs is DIAGONAL else {"mesh", "step"}
+    assert {name: round(one.value) for name, one in found.orders.items()} == dict.fromkeys(names, 2)
+
+
+def test_errors_of_mesh_and_step_are_told_apart():
+    found = converged(*GRID, series(*GRID, size=0.5), declared=(2.0, 2.0))
+    assert found.in_mesh == pytest.approx(0.5 / found.elements**2, rel=0.05)
+    assert found.in_step == pytest.approx(3e-3 * found.steps**2, rel=0.05)
+    assert (found.elements[-1], found.steps[-1]) == (32, 1.0)
+
+
+def test_functions_are_fitted_alike():
+    """cos t + C(t)/n² + D(t) h² tends to cos t; numbers are functions of one sample."""
+    time = np.linspace(0.0, 1.0, 5)
+    n, h = (np.array(one)[:, None] for one in TOGETHER)
+    values = np.cos(time) + 0.5 / n**2 * (1.0 + time) + 3e-3 * h**2 * (2.0 - time)
+    found = converged(*TOGETHER, values, declared=(2.0, 2.0))
+    assert found.limit == pytest.approx(1.0, abs=1e-3)
+    off = np.abs(values - np.cos(time)).max(axis=1)[[0, 4, 1, 3, 2]]
+    assert found.errors == pytest.approx(off, abs=2e-4)
+    assert 0.0 < found.bar < 2e-2
+    alone = converged(*TOGETHER, values[:, :1], declared=(2.0, 2.0))
+    assert alone.limit == converged(*TOGETHER, values[:, 0], declared=(2.0, 2.0)).limit
 
 
 @pytest.mark.parametrize("declared", [None, 2.0])
-@pytest.mark.parametrize("higher", [-2.0, -0.5, 0.5, 3.0])
+@pytest.mark.parametrize("higher", [-8.0, -2.0, 2.0, 12.0])
 def test_the_bar_holds_where_the_first_mesh_is_too_coarse(higher, declared):
-    """A next term as large as the first on the coarsest mesh."""
-    for finest in (0.1, 0.05, 0.025):
-        sizes = (4 * finest, 2 * finest, finest)
-        found = convergence(sizes, series(sizes, higher=higher), declared=declared)
-        assert abs(found.limit - LIMIT) <= found.bar
-        assert np.all(np.abs(found.errors - (found.values - LIMIT)) <= found.error_bars)
-
-
-def test_the_bar_holds_where_the_declared_order_is_met_by_chance():
-    """h² + 0.3 h³ - (28 · 0.3/180) h⁴ shows an order of two on 4, 2 and 1, though it has more."""
-    h = np.array([4.0, 2.0, 1.0])
-    found = convergence(h, h**2 + 0.3 * h**3 - 28 * 0.3 / 180 * h**4, declared=2.0)
-    assert found.order == pytest.approx(2.0)
-    assert 0.2 < abs(found.limit) <= found.bar
-
-
-def test_bars_hold_and_shrink_as_meshes_are_refined():
+    """A next term as large as the first on the coarsest mesh; bars shrink with the meshes."""
     bars = []
-    for finest in 0.1 * 0.5 ** np.arange(6):
-        sizes = finest * np.array([4.0, 2.0, 1.0])
-        found = convergence(sizes, series(sizes, higher=2.0), declared=2.0)
+    for coarsest in (4, 8, 16, 32):
+        elements = (coarsest, 2 * coarsest, 4 * coarsest)
+        values = series(elements, higher=higher)
+        found = converged(elements, None, values, declared=(declared, None))
         assert abs(found.limit - LIMIT) <= found.bar
+        assert np.all(np.abs(found.errors - (found.values - LIMIT)) <= (found.bar + found.noise))
         bars.append(found.bar)
-    assert np.all(np.diff(bars) < 0.0)
+    assert np.all(np.diff(bars[1:]) < 0.0)
+
+
+def test_two_meshes_do_not_lean_on_the_declared_order():
+    """The bar has room for the second order where the fourth was declared, and for the first."""
+    elements = (16, 32)
+    for true in (1.0, 2.0, 4.0):
+        found = converged(elements, None, series(elements, order=true), declared=(4.0, None))
+        assert abs(found.limit - LIMIT) <= found.bar
+    assert found.orders["mesh"].why == "2 meshes, three are needed"
+
+
+def test_one_mesh_has_no_limit():
+    found = converged([8, 8], [1.0, 2.0], [1.0, 2.0])
+    assert math.isnan(found.limit)
+    assert (found.bar, found.orders["mesh"].why) == (math.inf, "one mesh, three are needed")
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_noise_is_never_taken_for_an_order_or_a_limit(seed):
-    """From far above the floor to far below it the limit stays within its bar."""
+def test_noise_is_never_taken_for_an_order(seed):
+    """From far above the floor to far below it; there the bar is some of the floor."""
     noise, rng = 1e-6, np.random.default_rng(seed)
-    for finest in 0.2 * 0.5 ** np.arange(14):
-        sizes = finest * np.array([4.0, 2.0, 1.0])
-        values = series(sizes, order=4.0) + noise * rng.uniform(-1.0, 1.0, 3)
-        found = convergence(sizes, values, noise=noise, declared=4.0)
+    for coarsest in 4 * 2 ** np.arange(12):
+        elements = coarsest * np.array([1, 2, 4])
+        values = series(elements, order=4.0) + noise * rng.uniform(-1.0, 1.0, 3)
+        found = converged(elements, None, values, noise=noise, declared=(4.0, None))
         assert abs(found.limit - LIMIT) <= found.bar
-        assert found.settles
-    assert math.isnan(found.order)
-    assert found.why == "the changes are below the floor"
-    assert found.bar <= 4.0 * noise
+    assert found.orders["mesh"].why == "the changes are below the floor"
+    assert found.bar < 20.0 * noise
 
 
-def test_the_order_is_taken_where_it_stands_out_of_the_noise():
-    sizes = 0.4 * 0.5 ** np.arange(6)
-    found = convergence(sizes, series(sizes, order=4.0), noise=1e-5)
-    assert found.order == pytest.approx(4.0, abs=1e-6)
-    assert found.limit == found.values[-1]
+def test_growths_are_counted_along_meshes_and_steps():
+    meshes = (8, 16, 32, 64)
+    assert converged(meshes, None, (1.0, 2.0, 4.0, 9.0)).growths == 2
+    assert converged(meshes, None, (1.0, 2.0, 4.0, 5.0)).growths == 1
+    assert converged(meshes, None, series(meshes)).growths == 0
+    steps = (8, 16, 16, 16, 16), (8.0, 8.0, 4.0, 2.0, 1.0)
+    assert converged(*steps, (0.9, 1.0, 1.1, 1.3, 1.8)).growths == 2
+    # What the floor hides does not grow.
+    assert converged(meshes, None, (1.0, 1.01, 1.03, 1.08), noise=0.1).growths == 0
 
 
-def test_two_runs_need_a_declared_order():
-    sizes = (0.2, 0.1)
-    found = convergence(sizes, series(sizes), declared=2.0)
-    assert found.limit == pytest.approx(LIMIT)
-    assert math.isnan(found.order)
-    assert found.why == "2 runs, three are needed"
-    # The first order, when in truth it is the second, is off by less than its bar.
-    assumed = convergence(sizes, series(sizes))
-    assert 0.0 < abs(assumed.limit - LIMIT) <= assumed.bar
-
-
-def test_one_run_has_no_limit():
-    found = convergence([0.1], [1.0])
-    assert math.isnan(found.limit)
-    assert found.why == "1 run, three are needed"
-
-
-def test_what_oscillates_has_a_limit_but_no_order():
-    found = convergence((0.4, 0.2, 0.1), (3.0, 2.0, 2.5))
-    assert found.why == "the values are not monotone"
-    assert found.settles
-    assert abs(found.limit - 2.4) <= found.bar
-
-
-def test_what_grows_does_not_settle():
-    found = convergence((0.4, 0.2, 0.1), (1.0, 2.0, 4.0))
-    assert not found.settles
-    assert found.why == "the changes do not shrink"
-
-
-def test_orders_of_functions_are_those_of_the_norms_of_their_changes():
-    assert observed_order((4, 2, 1), (1.6e-3, 4e-4), (0.0, 0.0))[0] == pytest.approx(2.0)
-    assert observed_order((4, 2, 1), (1.6e-3, 4e-4), (0.0, 1e-3))[1] == (
-        "the changes are below the floor"
-    )
-
-
-NOISE = (3e-3, 2e-3, 1e-3)
-"""Of each run another, the finest's last."""
-
-
-def test_a_measured_order_keeps_a_quarter_of_its_correction():
-    """Roache's factor of 1.25 on C h² = 0.01; a coarser fourth mesh says nothing more."""
-    for sizes in ((0.4, 0.2, 0.1), (0.8, 0.4, 0.2, 0.1)):
-        found = convergence(sizes, series(sizes), declared=2.0)
-        assert found.bar == pytest.approx(0.25 * 0.01)
-    off = convergence((0.8, 0.4, 0.2, 0.1), [7.0, *series((0.4, 0.2, 0.1))])
-    assert (off.order, off.limit) == pytest.approx((2.0, LIMIT))
-    # Declared as one, the correction would be 0.03: the bar is twice the difference.
-    assert convergence(sizes, series(sizes), declared=1.0).bar == pytest.approx(2.0 * 0.02)
-
-
-def test_the_noise_of_each_run_has_its_place_in_the_bar():
-    """With halved sizes the correction is b²/(a - b) for changes a and b; noise at its worst."""
-    a, b = 0.12, 0.03
-    found = convergence((0.4, 0.2, 0.1), series((0.4, 0.2, 0.1)), noise=NOISE)
-    largest = (b + 0.003) ** 2 / (a - 0.005 - (b + 0.003))
-    assert found.bar == pytest.approx(2.0 * 0.01 + largest - 0.01 + 0.001)
-    assert found.error_bars == pytest.approx(found.bar + np.array(NOISE))
-    # Runs may come in any order, their noise with them.
-    again = convergence((0.1, 0.4, 0.2), series((0.1, 0.4, 0.2)), noise=(1e-3, 3e-3, 2e-3))
-    assert again.bar == pytest.approx(found.bar)
-    # That of a fourth and coarsest has no part in it.
-    four = (0.8, 0.4, 0.2, 0.1)
-    longer = convergence(four, series(four), noise=(0.5, *NOISE))
-    assert (longer.limit, longer.bar) == pytest.approx((found.limit, found.bar))
-
-
-def test_a_declared_order_keeps_twice_its_correction():
-    found = convergence((0.2, 0.1), series((0.2, 0.1)), noise=NOISE[1:], declared=2.0)
-    assert found.bar == pytest.approx(2.0 * 0.01 + 0.003 / 3.0 + 0.001)
-    assumed = convergence((0.3, 0.1), series((0.3, 0.1)), noise=NOISE[1:])
-    # Of the first order a third of the size leaves half of the change.
-    assert assumed.limit == pytest.approx(LIMIT + 0.01 - 0.08 / 2.0)
-    assert assumed.bar == pytest.approx(2.0 * 0.04 + 0.003 / 2.0 + 0.001)
-
-
-def test_what_cannot_be_extrapolated_keeps_three_changes():
-    for values, settles in (((3.0, 2.0, 2.5), True), ((2.0, 2.2, 2.7), False)):
-        found = convergence((0.9, 0.3, 0.1), values, noise=NOISE)
-        assert found.limit == values[-1]
-        # Of the first order a third of the size leaves half of the change, of 0.5 here.
-        assert found.bar == pytest.approx(3.0 * 0.25 + 0.001)
-        assert found.settles == settles
-
-
-def test_below_the_floor_the_finest_run_is_the_limit_within_twice_the_noise():
-    for coarse, wider in ((0.2, 1.0), (0.15, 2.0), (0.4, 1.0)):
-        found = convergence((coarse, 0.1), (2.502, 2.5), noise=NOISE[1:])
-        assert (found.limit, found.bar) == pytest.approx((2.5, 2.0 * 0.003 * wider))
+def test_an_order_is_low_below_seven_tenths_of_the_declared_one():
+    assert [Order(value=v, declared=4.0).low for v in (2.79, 2.81)] == [True, False]
+    assert not Order(value=0.1, declared=None).low
+    assert str(Order(value=math.nan, declared=2.0, why="2 runs")) == "not measured: 2 runs"
 
 
 @pytest.mark.parametrize(
-    ("sizes", "changes", "noise", "order"),
+    ("elements", "steps", "values", "sentence"),
     [
-        ((4, 2, 1), (1.3, 1.0), (0.1, 0.1), math.log2(1.3)),
-        ((4, 2, 1), (1.3, 1.0), (0.21, 0.1), "the changes shrink by no more than the noise"),
-        ((4, 2, 1), (1.3, 1.0), (0.1, 0.21), "the changes shrink by no more than the noise"),
-        ((4, 2, 1), (1.3, 1.0), (0.1, 1.0), "the changes are below the floor"),
-        # With any order above zero changes shrink by more than ln 2 over ln 4/3, 2.41.
-        ((4, 2, 1.5), (1.0, 0.42), (0.0, 0.0), "the changes do not shrink"),
-        ((4, 2, 1.5), (12.0, 1.75), (0.0, 0.0), 2.0),
-        ((8, 4, 2, 1), (4.8, 1.2, 0.4), (0.0, 0.0, 0.5), 2.0),
-        ((8, 4, 2, 1), (9.0, 1.2, 0.3), (0.0, 0.0, 0.0), 2.0),
-        ((8, 4, 2, 1), (9.0, 1.2, -0.3), (0.0, 0.0, 0.0), "the values are not monotone"),
-        ((2, 1), (0.3,), (0.0,), "2 runs, three are needed"),
+        ((), None, (), "each run has a mesh"),
+        ((8, 16), None, (1.0,), "each run has a mesh"),
+        ((8, 8), None, (1.0, 2.0), "no two runs the same"),
+        ((8, -16), None, (1.0, 2.0), "must be positive"),
+        ((8, 16), None, (1.0, math.nan), "values must be finite"),
     ],
 )
-def test_an_order_is_of_the_three_finest_runs_that_show_one(sizes, changes, noise, order):
-    found, why = observed_order(sizes, changes, noise)
-    if isinstance(order, str):
-        assert (math.isnan(found), why) == (True, order)
-    else:
-        assert (found, why) == (pytest.approx(order, abs=1e-9), "")
-
-
-def test_functions_tend_to_a_function():
-    x = np.linspace(0.0, 1.0, 5)
-    for sizes in ((0.1, 0.4, 0.2), (0.2, 0.1, 0.8, 0.4)):
-        functions = np.cos(x) + np.array(sizes)[:, None] ** 2 * (1.0 + x)
-        runs, limit = convergence_of_functions(sizes, functions, noise=1e-6, declared=2.0)
-        assert limit == pytest.approx(np.cos(x), abs=1e-12)
-        assert runs.order == pytest.approx(2.0)
-        # By the largest change, at x = 1, where C is 2.
-        assert np.abs(runs.errors) == pytest.approx(2.0 * np.sort(sizes)[::-1] ** 2)
-        assert runs.bar == pytest.approx(0.25 * 0.02, rel=1e-3)
-    for alone in ([0.1], [0.2, 0.1]):
-        assert np.array_equal(
-            convergence_of_functions(alone, np.ones((len(alone), 3)))[1], [1.0] * 3
-        )
-
-
-@pytest.mark.parametrize(
-    ("sizes", "values", "sentence"),
-    [
-        ((), (), "each run has a size"),
-        ((0.1, 0.2), (1.0,), "each run has a size"),
-        ((0.1, 0.1), (1.0, 2.0), "sizes must be positive and distinct"),
-        ((0.1, -0.1), (1.0, 2.0), "sizes must be positive and distinct"),
-        ((0.1, 0.2), (1.0, np.nan), "values"),
-    ],
-)
-def test_bad_input(sizes, values, sentence):
+def test_bad_input(elements, steps, values, sentence):
     with pytest.raises(ValueError, match=sentence):
-        convergence(sizes, values)
+        converged(elements, steps, values)

@@ -7,7 +7,6 @@ import pytest
 
 from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
 from rotbeam_exu.verification.submission_files import (
-    content,
     digests,
     read_submission,
     write_submission,
@@ -110,27 +109,6 @@ def test_a_link_within_the_folder_is_a_file_of_it(mine, tmp_path):
     found = read_submission(tmp_path / "link")
     assert found.frequencies == before.frequencies
     assert set(digests(mine, found)) == {"entry.toml", "L.csv"}
-
-
-@pytest.mark.parametrize("file", ["L.csv", "S1"])
-def test_a_link_that_is_put_in_the_way_while_it_is_read_is_not_followed(
-    mine, tmp_path, monkeypatch, file
-):
-    """Between the look at where a name leads and its opening there is time for another link."""
-    (mine / "S1").mkdir()
-    (mine / "S1" / "m008_h1e-3.csv").write_text("time,q\n", "utf-8")
-    (mine / "runs.csv").write_text("file,elements,step\n" + ROW, "utf-8")
-    looked = content.below
-
-    def slow(folder, name):
-        found = looked(folder, name)
-        if name.startswith(file):
-            (mine / file).rename(tmp_path / "aside")
-            (mine / file).symlink_to(tmp_path / ("outside" if file == "S1" else "secret"))
-        return found
-
-    monkeypatch.setattr(content, "below", slow)
-    assert any(f"{file}" in fault and ": cannot be read: " in fault for fault in faults_of(mine))
 
 
 def test_too_much_is_not_read(mine):

@@ -17,11 +17,7 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
-from rotbeam_exu.verification.submission_files import (
-    digests,
-    read_submission,
-    write_submission,
-)
+from rotbeam_exu.verification.submission_files import digests, read_submission, write_submission
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
 
 DECLARATION = Declaration(
@@ -182,11 +178,7 @@ FAULTS = [
     (S1, lines((7, lambda row: row.split(",")[0])), ":7: has 1 cell, the header 2"),
     (S1, lines((7, lambda row: row + ","), (9, lambda row: row + ",")), "(and so in 1 more)"),
     (S1, lines((7, lambda row: "0.1,nan")), ":7: q: 'nan' is not finite"),
-    (
-        S1,
-        lines((7, lambda row: "0.1,1.5D-01")),
-        ":7: q: '1.5D-01' has Fortran's exponent D",
-    ),
+    (S1, lines((7, lambda row: "0.1,1.5D-01")), ":7: q: '1.5D-01' has Fortran's exponent D"),
     (S1, lines((7, lambda row: "0.1,0x1p3")), ":7: q: '0x1p3' is no number"),
     (S1, lines((7, lambda row: "0.1,1e999")), ":7: q: '1e999' is too large"),
     (S1, lines((7, lambda row: "0.1,1e300")), ":7: q is 1e+300 m, of a beam of"),

@@ -12,7 +12,6 @@ from ...shape_functions import shape_functions
 from ...unit_blade import UnitBlade
 
 _MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
-_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
 
 
 class Kinematics:
@@ -58,7 +57,7 @@ class Kinematics:
                 f"{bending} and {axial} functions do not go on {blade.panel_count} panels"
             )
         more = 0 if blade.cells.size == 2 else _MORE
-        self.grid = blade.grid(2 * self._across.a_panel, more, _MOST_CELLS)
+        self.grid = blade.grid(2 * self._across.a_panel, more, of_fields=True)
         self.points, self.weights = self.grid.points, self.grid.weights
         self._phi, self._psi = self._bases(self.points)
 

@@ -82,6 +82,8 @@ class Space:
         With a known section out of the plane.
     functions : int
         Least number of functions for each.
+    theory : Theory
+        Whether there are the second line of L2, and inertia of the twist, as in space.
 
     Attributes
     ----------
@@ -91,9 +93,10 @@ class Space:
         Number of coordinates, and of those of w, which come first.
     """
 
-    def __init__(self, blade: AnyBlade, functions: int) -> None:
+    def __init__(self, blade: AnyBlade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
         section = require_out_of_plane(blade)
-        self.blade, self.unit, self.section = blade, blade.unit, section
+        self.blade, self.unit, self.section, self.theory = blade, blade.unit, section, theory
+        inert = theory.trapeze or theory.rotary_inertia
         self.shapes = shape_functions(self.unit, functions)
         self.functions = self.shapes.count
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
@@ -101,7 +104,7 @@ class Space:
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
         self.twist: Twist = (
             "rigid" if np.isinf(self.g) or section.bending_ratio == 1.0
-            else "quasi-static" if section.polar_inertia == 0.0
+            else "quasi-static" if section.polar_inertia == 0.0 or not inert
             else "inertial"
         )  # fmt: skip
         self.size = (1 + (self.twist == "inertial")) * self.functions
@@ -112,37 +115,23 @@ class Space:
         at, dm = self.unit.inertia(self.shapes.a_panel + 3)
         w = self.shapes.twice(at)
         across = w.T @ (dm[:, None] * w)
-        return linalg.block_diag(across, self.twist_mass) if self.twist == "inertial" else across
-
-    @cached_property
-    def twist_mass(self) -> FloatArray:
-        """∫ j φφ of the twist, (functions, functions)."""
+        if self.twist != "inertial":
+            return across
         x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
         phi = self.shapes.once(x)
-        return np.asarray(phi.T @ ((dx * self._polar(x))[:, None] * phi))
-
-    def twist_stiffness(self, steady: SteadyBeam) -> FloatArray:
-        """Return the stiffness of the twist of the straight blade in steady rotation.
-
-        ∫ (gEI + Nk²) φ'φ' + ιw̄² φφ, (functions, functions).
-        """
-        model, still = steady.model, np.zeros((1, steady.size))
-        tension = model.tension(steady.equilibrium[None], still, still, steady.rate)
-        torsion, turning = self._held(model.points, tension, steady.rate)
-        strain, once, _ = _bases(self.shapes, model)
-        stiffness = _form(strain, model.weights * torsion, strain)
-        return np.asarray(stiffness[0] + _form(once, model.weights * turning, once))
+        return linalg.block_diag(across, phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
     def _held(
-        self, x: FloatArray, tension: FloatArray, spin: FloatArray | float
+        self, x: FloatArray, tension: FloatArray, spin: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
         r, unit = self.section.bending_ratio, self.unit
         torsion = self.g * evaluated(unit.bending, x)
         gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
-        trapeze = tension * self.blade.slenderness * (1.0 + r) * gyration
-        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
-        return torsion + trapeze, difference * np.square(spin)
+        if self.theory.trapeze:
+            torsion = torsion + tension * self.blade.slenderness * (1.0 + r) * gyration
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x) * (self.twist == "inertial")
+        return np.broadcast_to(torsion, tension.shape), difference * np.square(spin)
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""

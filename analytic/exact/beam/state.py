@@ -20,7 +20,7 @@ from .steady import steady_rotation
 
 @dataclass(frozen=True, kw_only=True)
 class BeamState:
-    """State of the beam at material points, in the rotating frame: r = (x + u, v); SI units.
+    """State of the beam at material points, in the rotating frame: r = (x + u, v, w); SI units.
 
     Attributes
     ----------
@@ -32,6 +32,9 @@ class BeamState:
         The rates of all four as seen in the rotating frame [m/s, 1/s].
     shear_angle, shear_angle_dot : ndarray (points,) or float
         How far the sections lag behind the tangent [rad], and its rate [rad/s]; 0 without shear.
+    w, w_slope, w_dot, w_slope_dot : ndarray (points,) or float
+        Displacement out of the plane [m], its derivative to x, and the rates of both; 0 in the
+        plane. Sections are turned about their tangent by nothing.
 
     Examples
     --------
@@ -52,6 +55,10 @@ class BeamState:
     v_slope_dot: FloatArray
     shear_angle: FloatArray | float = 0.0
     shear_angle_dot: FloatArray | float = 0.0
+    w: FloatArray | float = 0.0
+    w_slope: FloatArray | float = 0.0
+    w_dot: FloatArray | float = 0.0
+    w_slope_dot: FloatArray | float = 0.0
 
 
 def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:

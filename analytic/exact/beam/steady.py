@@ -124,13 +124,8 @@ BeamOrbit = Orbit[SteadyBeam]
 """A periodic orbit of the beam."""
 
 
-def steady_rate(beam: AnyBlade, omega: float, model: Continuum) -> float:
-    """Return w̄ = ω/√(EI/mL³), refusing a speed at which no stretched state exists."""
-    if model.slenderness > 0.0:
-        require_steady_state(beam, omega)
-    return omega / beam.frequency_scale
-
-
 def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:
     """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
-    return SteadyBeam(model, steady_rate(beam, omega, model))
+    if model.slenderness > 0.0:
+        require_steady_state(beam, omega)
+    return SteadyBeam(model, omega / beam.frequency_scale)

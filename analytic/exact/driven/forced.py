@@ -16,7 +16,7 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.steady import steady_rate
+from ..beam.steady import steady_rotation
 from ..linear.modes import linear_modes, resolved_model
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .loading import DrivenBeam, unit_load
@@ -105,7 +105,7 @@ def forced_response(
         highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(beam, highest)
     model = resolved_model(beam, 1, theory, functions)
-    rate = steady_rate(beam, highest, model)
+    rate = steady_rotation(beam, highest, model).rate
     if not any(beam.unit.damping):
         _require_no_resonance(beam, None if by_speed else highest, theory, asked)
     system = DrivenBeam(model, None if by_speed else rate, unit)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,12 +19,10 @@ from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
-from ..beam.steady import steady_rate
+from ..beam.steady import steady_rotation
 from ..plane.planarity import planar_note
-from ..space.continuum import SpaceContinuum
-from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
+from ..space.steady import lives_in_space, space_continuum, space_rotation
 from .transient import Motion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -97,6 +95,19 @@ class SpinUpResponse:
         size = 0.5 * float(np.ptp(late)) / self.beam.length if late.size else 0.0
         return planar_note(self.beam, self.spin_up.omega, size)
 
+    @staticmethod
+    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+        """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
+        z, unit = beam.length * motion.tip, beam.unit
+        # Out of the plane of rotation the deflection has a share that is not seen here.
+        tip = (beam.length * unit.hub + z.real + 1j * unit.setting * z.imag) * turned
+        return {
+            "q": z.imag,
+            "q_dot": beam.length * beam.frequency_scale * motion.tip_rate.imag,
+            "tip": np.stack((tip.real, tip.imag), axis=-1),
+            "axis": beam.length * np.stack((motion.axis.real, motion.axis.imag), axis=-1),
+        }
+
 
 class SpaceResponse(SpinUpResponse):
     """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
@@ -123,6 +134,12 @@ class SpaceResponse(SpinUpResponse):
     def flap(self) -> FloatArray:
         """Place of the tip normal to it and to the clamp [m], (times,)."""
         return self.tip[:, 2]
+
+    @staticmethod
+    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+        """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
+        tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
+        return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}
 
 
 @one_thread
@@ -182,16 +199,23 @@ def spin_up_response(
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     _require_feasible(beam, spin_up, float(time[-1]), digits)
+    space = lives_in_space(beam)
+    turning: Any = space_rotation if space else steady_rotation
+    kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
     for level in range(_REFINEMENTS):
         functions = math.ceil(_A_DIGIT * digits)
         functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
-        model = _model(beam, theory, functions, highest)
+        model: Any = (
+            space_continuum(beam, theory, functions) if space
+            else blade_continuum(beam, theory, functions, functions // 2)
+        )  # fmt: skip
+        turning(beam, highest, model)  # refuses a speed that tears the blade
         corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        at_first = _steady(beam, model, spin_up.start)
+        at_first = turning(beam, spin_up.start, model).equilibrium
         finer = integrated(beam, rotation, loads, model, grid, time, along, at_first)
         if finer is None:
             coarser = None
@@ -200,15 +224,13 @@ def spin_up_response(
             size = float(np.abs(model.deflection(finer.tip)).max())
             error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
             if error <= tolerance:
-                turned = np.exp(1j * rotation.angle(time))
-                space = lives_in_space(beam)
-                return (SpaceResponse if space else SpinUpResponse)(
+                return kind(
                     beam=beam,
                     spin_up=spin_up,
                     loads=loads,
                     theory=theory,
                     time=time,
-                    **(_in_space(beam, finer) if space else _in_units(beam, finer, turned)),
+                    **kind.in_units(beam, finer, np.exp(1j * rotation.angle(time))),
                     error=error,
                     steps=grid.size - 1,
                     functions=functions,
@@ -217,51 +239,6 @@ def spin_up_response(
     raise RuntimeError(
         f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
     )
-
-
-def _model(
-    beam: AnyBlade, theory: Theory, functions: int, highest: float
-) -> Continuum | SpaceContinuum:
-    """Return the discretization, refusing a speed [rad/s] that tears the blade."""
-    if lives_in_space(beam):
-        in_space = space_continuum(beam, theory, functions)
-        space_rotation(beam, highest, in_space)
-        return in_space
-    model = blade_continuum(beam, theory, functions, functions // 2)
-    steady_rate(beam, highest, model)
-    return model
-
-
-def _steady(beam: AnyBlade, model: Continuum | SpaceContinuum, omega: float) -> FloatArray:
-    """Return the coordinates (n,) of the steady state at ω [rad/s]."""
-    rate = omega / beam.frequency_scale
-    if lives_in_space(beam):
-        return SpaceBlade(cast(SpaceContinuum, model), rate).equilibrium
-    return cast(Continuum, model).steady_state(rate) if rate else np.zeros(model.size)
-
-
-def _in_space(beam: AnyBlade, motion: Motion) -> dict[str, FloatArray]:
-    """Return q, q_dot, tip and axis [m] of a nondimensional motion in space."""
-    length = beam.length
-    return {
-        "q": length * motion.tip[:, 1],
-        "q_dot": length * beam.frequency_scale * motion.tip_rate[:, 1],
-        "tip": length * motion.tip,
-        "axis": length * motion.axis,
-    }
-
-
-def _in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
-    """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
-    z, unit = beam.length * motion.tip, beam.unit
-    # Out of the plane of rotation the deflection has a share that is not seen here.
-    tip = (beam.length * unit.hub + z.real + 1j * unit.setting * z.imag) * turned
-    return {
-        "q": z.imag,
-        "q_dot": beam.length * beam.frequency_scale * motion.tip_rate.imag,
-        "tip": np.stack((tip.real, tip.imag), axis=-1),
-        "axis": beam.length * np.stack((motion.axis.real, motion.axis.imag), axis=-1),
-    }
 
 
 def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:

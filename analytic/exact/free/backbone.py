@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 from ...arrays import FloatArray
@@ -13,8 +13,7 @@ from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..linear.modes import resolved_model
-from ..space.continuum import SpaceContinuum
-from ..space.modes import orbit_modes, space_modes_on
+from ..space.modes import DIRECTIONS, orbit_modes
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
@@ -22,7 +21,6 @@ from .orbits import Orbits, SpaceOrbits, orbits_of
 from .path import ModePath
 
 _MOST_COEFFICIENTS = 1000  # an orbit for each
-_DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 
 
@@ -136,20 +134,11 @@ class SpaceBackbone(Backbone):
         value = 1.5 * first - 0.6 * second + 0.1 * last
         return value, abs(value - (4.0 * first - second) / 3.0)
 
-    def finer(self, model: SpaceContinuum) -> SpaceContinuum:
-        """Return a model on half as many functions again."""
-        return model.refined()
-
     def _rotation(self) -> SpaceBlade:
-        steady = space_rotation(self.beam, self.omega, self.model)
-        gauge = self.gauge
-        if gauge is None:
-            shares = space_modes_on(self.model, self.beam, self.omega, self.mode).shares
-            gauge = "flap" if shares[-1, 0] > shares[-1, 1] else "lag"
-        return replace(steady, direction=_DIRECTIONS[gauge])
+        return space_rotation(self.beam, self.omega, self.model)
 
-    def _solved(self, steady: SpaceBlade) -> tuple[FloatArray, Any]:
-        return orbit_modes(steady)
+    def _solved(self, steady: SpaceBlade) -> tuple[SpaceBlade, FloatArray, Any]:
+        return orbit_modes(steady, self.mode, self.gauge)
 
 
 def backbone(
@@ -193,7 +182,7 @@ def backbone(
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     warn_if_rpm(beam, omega)
-    if gauge not in (None, *_DIRECTIONS):
+    if gauge not in (None, *DIRECTIONS):
         raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
     if lives_in_space(beam) or gauge == "flap":
         require_undamped(beam, _NO_FREE_ORBITS, planar=False)

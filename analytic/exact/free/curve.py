@@ -175,7 +175,7 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
         of = replace(of, model=model, care=care_for(tolerance)._replace(tail=of.care.tail))
         curve = fitted_curve(of, up_to, count, tolerance)
         largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
-        model = of.finer(largest.system.model)
+        model = largest.system.refined().model
         change = frequency_change(largest, of.path.tangent)
         if change <= tolerance or model.bending > MOST_FUNCTIONS:
             break

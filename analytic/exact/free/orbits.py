@@ -210,7 +210,7 @@ def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamO
         suspects = [a for a, o in found.items() if outstanding(o, of.modes, of.mode)]
         if not suspects:
             break
-        of = replace(of, model=of.finer(of.path.seed.system.model))
+        of = replace(of, model=of.path.seed.system.refined().model)
         finer, _ = _found(of, np.sort(suspects))
         changes = []
         for a in suspects:

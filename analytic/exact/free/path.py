@@ -20,7 +20,6 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.discretization import finer_model
 from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import solve_modes
 from .branch import AmplitudeNotReachedError
@@ -37,7 +36,7 @@ class ModePath:
     mode: int = 1
     theory: Theory = BERNOULLI_EULER
     model: Any = field(repr=False)
-    care: Care = field(default=THOROUGH, repr=False)
+    care: Care = field(default_factory=lambda: THOROUGH, repr=False)
 
     @property
     def name(self) -> str:
@@ -63,14 +62,10 @@ class ModePath:
         """Return the system of the model."""
         return steady_rotation(self.beam, self.omega, self.model)
 
-    def _solved(self, steady: Any) -> tuple[FloatArray, FloatArray]:
-        """Return frequencies and shapes (modes, n) about the steady state, odd ones in the sine."""
+    def _solved(self, steady: Any) -> tuple[Any, FloatArray, FloatArray]:
+        """Return the system, and frequencies and shapes (modes, n), odd ones in the sine."""
         modes = solve_modes(steady)
-        return modes.frequencies, modes.coordinates
-
-    def finer(self, model: Any) -> Any:
-        """Return a model on half as many functions again."""
-        return finer_model(model)
+        return steady, modes.frequencies, modes.coordinates
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the two smallest orbits, and what that changed."""
@@ -87,7 +82,7 @@ class ModePath:
         steady = self._rotation()
         small = 0.02 / self.mode**2
         while True:
-            (frequencies, shapes), tangent = self._solved(steady), LastTangent()
+            (steady, frequencies, shapes), tangent = self._solved(steady), LastTangent()
             shape, linear = shapes[self.mode - 1], frequencies[self.mode - 1]
             try:
                 seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, cast, overload
+from typing import Literal, NamedTuple, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, warn_if_rpm
+from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...methods.gyroscopic import reciprocal_modes
+from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
 from ..beam.discretization import blade_continuum
+from ..beam.space import require_out_of_plane
 from ..beam.steady import SteadyBeam, steady_rotation
-from ..space.modes import SpaceModes, space_modes
+from ..space.modes import space_modes, torsion_modes
 from ..space.steady import lives_in_space
-from .out_of_plane_modes import TorsionModes, flap_blade, torsion_modes
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""
@@ -81,24 +84,6 @@ Plane = Literal["lag", "flap", "torsion"]
 """A family of modes: in the blade's plane of bending, out of it, or of its twist."""
 
 
-@overload
-def linear_modes(
-    beam: AnyBlade,
-    omega: float,
-    count: int = 3,
-    *,
-    plane: Literal["lag", "flap"] = "lag",
-    theory: Theory = BERNOULLI_EULER,
-    functions: int = 20,
-) -> LinearModes: ...
-
-
-@overload
-def linear_modes(
-    beam: AnyBlade, omega: float, count: int = 3, *, plane: Literal["torsion"], functions: int = 20
-) -> TorsionModes: ...
-
-
 @one_thread
 def linear_modes(
     beam: AnyBlade,
@@ -108,7 +93,7 @@ def linear_modes(
     plane: Plane = "lag",
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
-) -> LinearModes | TorsionModes:
+) -> LinearModes:
     """Return the modes of the beam in steady rotation at `omega`, by default in its plane.
 
     Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
@@ -125,11 +110,11 @@ def linear_modes(
     plane : str
         "lag" is the blade's own plane of bending, "flap" the plane normal to the plane of rotation.
         "flap" and "torsion" need a blade that bends in the plane of rotation and has a known
-        section out of it. To this order they are independent of each other. Of a blade with a
-        twist, precone, prebend, sweep, offset, or a setting angle and a known section out of the
-        plane, they are not: then the modes are all of them, as `SpaceModes`.
+        section out of it; torsion comes as `SpaceModes`. To this order they are independent of each
+        other. Of a blade with a twist, precone, prebend, sweep, offset, or a setting angle and a
+        known section out of the plane, they are not: then `SpaceModes` are all of them.
     theory : Theory
-        Extension, shear and rotary inertia; the latter two in the plane of bending only.
+        Extension, shear, rotary inertia, trapeze effect; shear and rotary inertia not for "flap".
     functions : int
         Least number of functions for the tangent's angle, at most 256; half as many modes are
         resolved. They grow by half until half as many again change no frequency by 1e-9.
@@ -152,30 +137,42 @@ def linear_modes(
     count = whole_number("count", count)
     require_theory(theory)
     warn_if_rpm(beam, omega)
-    if lives_in_space(beam):
-        return cast(LinearModes, _in_space(beam, omega, count, plane, theory))
-    if plane not in ("lag", "flap", "torsion"):
+    if plane not in get_args(Plane):
         raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
-    if plane != "lag" and (theory.rotary_inertia or theory.shear is not None):
-        raise ValueError(
-            f"rotary_inertia and shear of a theory are those of slices in the plane, and plane is "
-            f"{plane!r}: leave them out"
-        )
+    if lives_in_space(beam):
+        if plane != "lag":
+            raise ValueError(
+                f"flap, lag and torsion of this blade go together, and plane is {plane!r}: leave "
+                "it out, and take the shares of each mode"
+            )
+        return cast(LinearModes, space_modes(beam, omega, count, theory))
     if plane == "torsion":
-        return torsion_modes(beam, omega, count, functions)
+        return cast(LinearModes, torsion_modes(beam, omega, count, theory))
+    if plane == "flap" and (theory.rotary_inertia or theory.shear is not None):
+        raise ValueError(
+            "rotary_inertia and shear of a theory are those of slices in the plane, and plane is "
+            "'flap': leave them out"
+        )
     bent = flap_blade(beam) if plane == "flap" else beam
     model = resolved_model(bent, count, theory, functions)
-    model, modes = _settled_modes(bent, omega, count, model)
+    model, modes = settled_modes(bent, omega, count, model)
     return replace(_in_units(bent, omega, count, model, modes), beam=beam)
 
 
-def _in_space(beam: AnyBlade, omega: float, count: int, plane: Plane, theory: Theory) -> SpaceModes:
-    if plane != "lag":
-        raise ValueError(
-            f"flap, lag and torsion of this blade go together, and plane is {plane!r}: leave it "
-            "out, and take the shares of each mode"
-        )
-    return space_modes(beam, omega, count, theory)
+def flap_blade(beam: AnyBlade) -> Blade:
+    """Return the blade whose plane of bending is the one normal to the plane of rotation.
+
+    With the bending stiffness that the section has there. The inertia of slices and of point masses
+    against rotation is known in the plane only, and left out.
+    """
+    ratio, section = require_out_of_plane(beam, torsion=False).bending_ratio, beam.section
+    bending = in_units(section.bending_stiffness, 1.0, 1.0 / ratio)
+    return replace(
+        beam.blade,
+        setting_angle=0.5 * math.pi,
+        section=replace(section, bending_stiffness=bending, rotary_inertia=0.0, out_of_plane=None),
+        point_masses=tuple(replace(one, inertia=0.0) for one in beam.point_masses),
+    )
 
 
 def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:
@@ -197,16 +194,17 @@ def _in_units(
     )
 
 
-def _settled_modes(
-    beam: AnyBlade, omega: float, count: int, model: Continuum
+def settled_modes(
+    beam: AnyBlade, omega: float, count: int, model: Continuum, *, stretched: bool = True
 ) -> tuple[Continuum, Modes]:
     """Return the discretization that a finer one confirms, and its modes.
 
-    Rotation bends the beam in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
+    About the stretched or the unstretched blade. Rotation bends it in a layer at the clamp, √2/w̄
+    thin, which takes ~√w̄ functions.
     """
     first = steady_rotation(beam, omega, model)
     (steady, modes), _, change = settled(
-        lambda steady: (steady, solve_modes(steady)),
+        lambda steady: (steady, solve_modes(steady, stretched=stretched)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
         lambda found: np.log(found[1].frequencies[:count]),
@@ -244,21 +242,21 @@ class Modes(NamedTuple):
     slopes: ComplexArray
 
 
-def solve_modes(steady: SteadyBeam) -> Modes:
+def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
     With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
-    model = steady.model
-    at_rest = np.zeros((1, model.size))
-    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    model, at_rest = steady.model, np.zeros((1, steady.size))
+    at = steady.equilibrium if stretched else at_rest[0]
+    tangent = steady.tangent(at[None], at_rest, at_rest)
     gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
     gyroscopic += gyroscopic.T
     inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
     # The inextensible beam has no axial modes: they come out with ν = 0.
     kept = inverse > 1e-12
     coordinates = shapes.T[kept]
-    slopes = model.slope_rate(steady.equilibrium, coordinates)
+    slopes = model.slope_rate(at, coordinates)
     tips = slopes @ model.weights
     scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
     return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])

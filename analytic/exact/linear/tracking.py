@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +16,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ..space.modes import space_modes_on
 from ..space.steady import lives_in_space
-from .modes import LinearModes, Plane, linear_modes, modes_on
-from .out_of_plane_modes import flap_blade
+from .modes import LinearModes, Plane, flap_blade, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
@@ -56,23 +56,37 @@ class Family(NamedTuple):
 
 def family_of(beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Plane) -> Family:
     """Return the first modes of a family over the speeds, and where they meet the lines kω."""
-    if plane == "torsion":
-        return _twisting(beam, speeds, count, orders)
-    return _bending(beam, speeds, count, orders, plane)
+    wanted = count + _SPARE_MODES * (plane != "torsion")  # whose modes keep their order
 
+    def modes_at(omega: float) -> LinearModes:
+        return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
 
-def _twisting(beam: AnyBlade, speeds: FloatArray, count: int, orders: int) -> Family:
-    """Return the torsional modes, whose order never changes."""
+    bent, solved = flap_blade(beam) if plane == "flap" else beam, cast(Any, modes_on)
+    if plane == "torsion" or lives_in_space(beam):
+        solved = partial(space_modes_on, torsion=plane == "torsion")
+    found = [modes_at(omega) for omega in speeds.tolist()]
+    columns = [np.arange(count)]
+    assurances = []
+    for here, there in pairwise(found):
+        assurance = _assurance(here, there)[columns[-1]]
+        columns.append(_followed(assurance))
+        assurances.append(assurance[np.arange(count), columns[-1]])
 
-    def frequencies_at(omega: float) -> FloatArray:
-        return linear_modes(beam, omega, count, plane="torsion").frequencies
+    def detuning_from(row: int) -> Callable[[float, int, int], float]:
+        here, there = found[row : row + 2]
+        # What resolves the modes at both ends does so between them.
+        finer = max(here.model, there.model, key=lambda model: model.bending)
 
-    def detuning(omega: float, mode: int, order: int) -> float:
-        return float(frequencies_at(omega)[mode] - order * omega)
+        def detuning(omega: float, mode: int, order: int) -> float:
+            modes = solved(finer, bent, omega, wanted)
+            same = _followed(_assurance(here, modes)[columns[row]])[mode]
+            return float(modes.frequencies[same] - order * omega)
 
-    frequencies = np.array([frequencies_at(omega) for omega in speeds.tolist()])
-    crossings = _met(speeds, frequencies, orders, lambda _: detuning)
-    return Family(frequencies, np.ones((speeds.size - 1, count)), crossings)
+        return detuning
+
+    frequencies = np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)])
+    crossings = _met(speeds, frequencies, orders, detuning_from)
+    return Family(frequencies, np.array(assurances).reshape(-1, count), crossings)
 
 
 def _met(
@@ -97,41 +111,6 @@ def _met(
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
                     )
     return crossings
-
-
-def _bending(
-    beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Literal["lag", "flap"]
-) -> Family:
-    wanted = count + _SPARE_MODES
-
-    def modes_at(omega: float) -> LinearModes:
-        return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
-
-    bent = flap_blade(beam) if plane == "flap" else beam
-    solved: Any = space_modes_on if lives_in_space(beam) else modes_on
-    found = [modes_at(omega) for omega in speeds.tolist()]
-    columns = [np.arange(count)]
-    assurances = []
-    for here, there in pairwise(found):
-        assurance = _assurance(here, there)[columns[-1]]
-        columns.append(_followed(assurance))
-        assurances.append(assurance[np.arange(count), columns[-1]])
-
-    def detuning_from(row: int) -> Callable[[float, int, int], float]:
-        here, there = found[row : row + 2]
-        # What resolves the modes at both ends does so between them.
-        finer = max(here.model, there.model, key=lambda model: model.bending)
-
-        def detuning(omega: float, mode: int, order: int) -> float:
-            modes = solved(finer, bent, omega, wanted)
-            same = _followed(_assurance(here, modes)[columns[row]])[mode]
-            return float(modes.frequencies[same] - order * omega)
-
-        return detuning
-
-    frequencies = np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)])
-    crossings = _met(speeds, frequencies, orders, detuning_from)
-    return Family(frequencies, np.array(assurances).reshape(-1, count), crossings)
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:

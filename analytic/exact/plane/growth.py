@@ -10,8 +10,9 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
 from ...lazily import linalg
-from ...methods.floquet import reversible_monodromy
+from ...methods.floquet import normal_modes, reversible_monodromy
 from ...settled import settled
+from ...theory import BERNOULLI_EULER, Theory
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import BeamOrbit, SteadyBeam
 
@@ -60,15 +61,15 @@ class Growth(NamedTuple):
         return self.per_radian * frequency
 
 
-def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit) -> tuple[Growth, bool]:
+def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, theory: Theory) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
     Or two thirds as many, where half as many do not.
     """
-    functions = settled_functions(blade, orbit.system)
-    rough = grown(blade, orbit, functions, STEPS)
+    functions = settled_functions(blade, orbit.system, theory)
+    rough = grown(blade, orbit, functions, STEPS, theory)
     for finer in (2, 3):
-        fine = grown(blade, orbit, finer * functions, finer * STEPS)
+        fine = grown(blade, orbit, finer * functions, finer * STEPS, theory)
         if not (rough.unstable or fine.unstable):
             return fine, True
         close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
@@ -78,9 +79,15 @@ def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit) -> tuple[Growth, bool]:
     return fine, close
 
 
-def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Growth:
+def grown(
+    blade: AnyBlade,
+    orbit: BeamOrbit,
+    functions: int,
+    steps: int,
+    theory: Theory = BERNOULLI_EULER,
+) -> Growth:
     """Return what grows out of the plane over one period of an orbit."""
-    space = _space(blade, functions)
+    space = _space(blade, functions, theory)
     orbit = orbit.on(with_points_for(orbit.system, space.functions))
     motion = OutOfPlaneMotion(orbit, space)
     try:
@@ -107,11 +114,11 @@ def grown(blade: AnyBlade, orbit: BeamOrbit, functions: int, steps: int) -> Grow
 
 
 @lru_cache(maxsize=32)
-def _space(blade: AnyBlade, functions: int) -> Space:
-    return Space(blade, functions)
+def _space(blade: AnyBlade, functions: int, theory: Theory) -> Space:
+    return Space(blade, functions, theory)
 
 
-def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
+def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
     """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
 
     Raises
@@ -121,9 +128,11 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
     """
 
     def flap(space: Space) -> FloatArray:
-        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[0][:4])
+        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
 
-    space, _, change = settled(lambda count: _space(blade, count), iter(_SIZES), _SETTLED, flap)
+    space, _, change = settled(
+        lambda count: _space(blade, count, theory), iter(_SIZES), _SETTLED, flap
+    )
     if change > _SETTLED:
         raise ValueError(
             f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_SIZES[-1]} "
@@ -133,21 +142,17 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam) -> int:
 
 
 def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:
-    """Return frequencies, normal coordinates (modes, n) and names, flap first, then torsion."""
+    """Return normal coordinates (modes, n), frequencies and names, the slowest first."""
     at_rest = np.zeros((1, planar.size))
-    (K,) = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
-    n, M = space.functions, space.mass
-    frequencies, rows, names = [], [], []
-    for name, part in (("flap", slice(0, n)), ("torsion", slice(n, 2 * n))):
-        if part.start >= space.size:
-            break
-        squares, shapes = linalg.eigh(K[part, part], M[part, part])
-        frequencies.append(np.sqrt(np.maximum(squares, 0.0)))
-        row = np.zeros((n, space.size))
-        row[:, part] = shapes.T @ M[part, part]
-        rows.append(row)
-        names += [f"{name} {k}" for k in range(1, n + 1)]
-    return np.concatenate(frequencies), np.concatenate(rows), names
+    K = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
+    rows, frequencies = normal_modes(K[0], space.mass)
+    flap = np.abs(rows[:, : space.functions]).max(axis=1)
+    twists = np.abs(rows[:, space.functions :]).max(axis=1, initial=0.0) > flap
+    names = [
+        f"torsion {before}" if torsion else f"flap {k - before}"
+        for k, (torsion, before) in enumerate(zip(twists, np.cumsum(twists), strict=True), start=1)
+    ]
+    return rows, frequencies, names
 
 
 def _shares(
@@ -157,9 +162,8 @@ def _shares(
 
     The shares are (modes, states).
     """
-    frequencies, rows, names = _steady_modes(space, planar)
+    rows, frequencies, names = _steady_modes(space, planar)
     n = space.size
     energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
     energy += np.abs(rows @ states[n:]) ** 2
-    order = np.argsort(frequencies)
-    return frequencies[order], [names[k] for k in order], (energy / energy.sum(axis=0))[order]
+    return frequencies, names, energy / energy.sum(axis=0)

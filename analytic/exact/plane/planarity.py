@@ -37,12 +37,12 @@ class PlanarOrbits(ModePath):
     @cached_property
     def functions(self) -> int:
         """Number of functions that settles the flap modes."""
-        return settled_functions(self.beam, self.path.at(SMALLEST).system)
+        return settled_functions(self.beam, self.path.at(SMALLEST).system, self.theory)
 
     def growth(self, amplitude: float, finer: int = 1) -> Growth:
         """Return what grows about an orbit, at a multiple of the resolution."""
         orbit = self.path.at(amplitude)
-        return grown(self.beam, orbit, finer * self.functions, finer * STEPS)
+        return grown(self.beam, orbit, finer * self.functions, finer * STEPS, self.theory)
 
 
 def planar_orbits(
@@ -207,7 +207,8 @@ def planar_stability(
     mode : int
         In-plane mode from which they grow, from 1.
     theory : Theory
-        Of the orbits, without shear: slices do not shear out of the plane.
+        Of the orbits, without shear: slices do not shear out of the plane. Without `trapeze` and
+        rotary inertia the twist has none.
 
     Raises
     ------
@@ -230,7 +231,7 @@ def planar_stability(
         blade, omega, amplitudes, mode, theory=theory,
         functions=max(16, 2 * whole_number("mode", mode)),
     )  # fmt: skip
-    found = [grown_and_checked(blade, orbit) for orbit in orbits.nondimensional]
+    found = [grown_and_checked(blade, orbit, theory) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(
         blade=blade,

@@ -23,7 +23,6 @@ from .vectors import about_axis
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
 _FEW = 6  # on each of many short cells, which turn less
 _MANY_CELLS = 8
-_MOST_CELLS = 400  # closer kinks are so small that fields may smooth them
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +139,7 @@ class StrainFunctions:
     def grid(self) -> Grid:
         """Points at which fields are evaluated."""
         more = _MORE if self.blade.cells.size <= _MANY_CELLS else _FEW
-        return self.blade.grid(2 * self.bending, more, _MOST_CELLS)
+        return self.blade.grid(2 * self.bending, more, of_fields=True)
 
     @cached_property
     def viscosity(self) -> FloatArray:

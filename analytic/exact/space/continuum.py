@@ -64,16 +64,16 @@ class SpaceContinuum:
     def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
         own = self.strains
-        K = own.initial[:, None] + np.einsum("ipk,sk->isp", own.K, q)
-        gamma = np.einsum("ipk,sk->isp", own.gamma, q)
+        K = own.initial[:, None] + q @ own.K.swapaxes(1, 2)
+        gamma = q @ own.gamma.swapaxes(1, 2)
         gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
         return gamma, K
 
     def _rates(self, K: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
         own = self.strains
-        change = np.einsum("ipk,sk->isp", own.K, q_dot)
-        gamma = np.einsum("ipk,sk->isp", own.gamma, q_dot)
+        change = q_dot @ own.K.swapaxes(1, 2)
+        gamma = q_dot @ own.gamma.swapaxes(1, 2)
         gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
         return gamma, change
 
@@ -186,8 +186,7 @@ class SpaceContinuum:
         own = self.strains
         inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
         inner_moment[0] -= own.trapeze * (at.K[0] + own.twist) * inner_force[0]
-        work = np.einsum("isp,ipk->sk", inner_moment, own.K)
-        work += np.einsum("isp,ipk->sk", inner_force, own.gamma)
+        work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
 

@@ -86,8 +86,8 @@ class SpaceBlade(AtConstantRate):
         w̄ = ω/√(EI3/mL³).
     direction : tuple
         Direction of the gauge, the tip's place from the steady state, in the root frame.
-    coarser : SpaceBlade, optional
-        The same on fewer functions, from whose steady state this one's is found.
+    near : ndarray (n,), optional
+        Coordinates from which the steady state is found; from rest by default.
     load : tuple
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
     """
@@ -95,7 +95,7 @@ class SpaceBlade(AtConstantRate):
     model: SpaceContinuum
     rate: float
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    coarser: SpaceBlade | None = None
+    near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
 
     @cached_property
@@ -131,12 +131,14 @@ class SpaceBlade(AtConstantRate):
         ValueError
             If it ends, or becomes unstable, at a lower speed.
         """
-        if self.coarser is not None:
-            near = self.coarser.model.padded(self.coarser.equilibrium, self.model)
-            if (found := self._newton(near, 1.0)) is not None:
-                return found
+        found = None if self.near is None else self._newton(self.near, 1.0)
+        if found is not None:
+            return found
+        unit = self.model.functions.blade
+        # A straight blade stays straight, and nothing is to be followed.
+        straight = unit.half_turn and unit.mirrored and not self.load
         whole = max(self.rate / _LONGEST, self._loaded)
-        q, reached, share = np.zeros(self.size), 0.0, float(whole == 0.0)
+        q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
         while True:
             found = self._newton(q, share)
@@ -194,7 +196,9 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def _finer(self) -> SpaceBlade:
-        return replace(self, model=self.model.refined(), coarser=self)
+        finer = self.model.refined()
+        near = self.model.padded(self.equilibrium, finer)
+        return replace(self, model=finer, near=near)
 
     @cached_property
     def tip(self) -> FloatArray:

@@ -17,6 +17,9 @@ from ...shape_functions import shape_functions
 from ...station_section import StationSection
 from ...theory import Theory
 from ...unit_blade import UnitBlade
+from .vectors import Frames, about_axis, turned
+
+_POINTS = 40  # on each panel, for the unloaded line
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,6 +125,19 @@ class SpaceUnit(UnitBlade):
         cone = self.line.precone
         return self.hub * np.array([math.cos(cone), 0.0, -math.sin(cone)])
 
+    def unloaded(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the unloaded line at `x`, (places, 3), and its sections' axes (places, 3, 3).
+
+        From the clamp and over L, in the root frame; axes in columns.
+        """
+        line, grid = self.line, self.grid(_POINTS, 0)
+        angle, angle_x = (self.angle + evaluated(line.twist, at) for at in (grid.points, x))
+        bows = np.stack([evaluated(one, grid.points) for one in (0.0, line.prebend, line.sweep)])
+        frame, frame_x = Frames(grid, x).of(turned(about_axis(angle), bows)[:, None])
+        place = grid.integral(x) @ frame[:, 0, 0].T
+        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], about_axis(angle_x))
+        return place, sections
+
     @property
     def bodies(self) -> list[tuple[float, float, float, Offset]]:
         """Position, mass, inertia and offset of each point mass."""
@@ -174,7 +190,7 @@ class StationUnit(SpaceUnit):
 
     @property
     def tail(self) -> float:
-        """Of kinks: forces in the frame of a section that bends by them have some of their own."""
+        """More where forces in the frame of a section, which bends by kinks, have kinks too."""
         return 20.0 if len(self.section.x) > 2 else 1.0
 
     def torques(self, count: int, x: FloatArray) -> FloatArray:

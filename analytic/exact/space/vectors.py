@@ -7,8 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...quadrature import Grid
+
+_PICARD, _SETTLED = 40, 2e-15  # iterations at most, and the change after which the next is less
+_WOUND = 4.0  # ∫|K|dx of a cell
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -65,8 +68,8 @@ def frames(quaternion: FloatArray) -> FloatArray:
 class Frames:
     """Solution of R' = R K̂, R(0) = 1, on the cells of a grid, and at places on it.
 
-    Unit quaternions obey Q' = ½ Q ∘ (0, K), which is linear: one linear system on each cell, by
-    collocation at its Gauss points, and the product of the cells before.
+    Unit quaternions obey Q' = ½ Q ∘ (0, K): collocation at the Gauss points of each cell, and the
+    product of the cells before.
 
     Parameters
     ----------
@@ -134,27 +137,33 @@ def _quaternion(vector: FloatArray) -> FloatArray:
 
 
 def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
-    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell."""
-    _, samples, count = curvature.shape
+    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell.
+
+    As u + vj with complex u and v. Picard's iteration finds the collocated solution itself: on one
+    cell its errors fall as the terms of exp(|K|/2). Beyond a turn or so round-off grows as that.
+    """
     k1, k2, k3 = 0.5 * curvature
-    none = np.zeros_like(k1)
-    # ½ Q ∘ (0, K) as a matrix on Q.
-    matrix = np.stack(
-        [
-            np.stack(row, axis=-1)
-            for row in ((none, -k1, -k2, -k3), (k1, none, k3, -k2), (k2, -k3, none, k1),
-                        (k3, k2, -k1, none))
-        ],
-        axis=-2,
-    )  # fmt: skip
-    system = -np.einsum("ij,sjab->siajb", integral[:count], matrix).reshape(
-        samples, 4 * count, 4 * count
-    )
-    system[:, range(4 * count), range(4 * count)] += 1.0
-    start = np.zeros((4 * count, 1))
-    start[::4] = 1.0
-    inside = np.linalg.solve(system, np.broadcast_to(start, (samples, 4 * count, 1)))
-    rates = np.einsum("sjab,sjb->sja", matrix, inside.reshape(samples, count, 4))
-    result: FloatArray = np.einsum("ij,sja->asi", integral, rates)
-    result[0] += 1.0
-    return result
+    turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.T.astype(np.complex128)
+    count = len(onto)
+    found = np.zeros((2, *k1.shape), dtype=np.complex128)
+    found[0] = 1.0
+
+    def rates(of: ComplexArray) -> ComplexArray:
+        u, v = of
+        return np.stack((u * turn - v * bend.conj(), u * bend - v * turn))
+
+    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=0).max() > _WOUND:
+        parts = [[turn, -bend.conj()], [bend, -turn]]
+        system = np.block([[-one[:, None] * integral[:count] for one in row] for row in parts])
+        system += np.eye(2 * count)
+        begin = np.repeat([1.0, 0.0], count)[:, None]
+        solved = np.linalg.solve(system, np.broadcast_to(begin, (len(k1), 2 * count, 1)))
+        found = np.moveaxis(solved.reshape(len(k1), 2, count), 1, 0)
+    else:
+        for _ in range(_PICARD):
+            last, found = found, rates(found) @ onto[:, :count]
+            found[0] += 1.0
+            if np.abs(found - last).max(initial=0.0) < _SETTLED:
+                break
+    u, v = rates(found) @ onto
+    return np.stack((1.0 + u.real, u.imag, v.real, v.imag))

@@ -11,7 +11,7 @@ from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ..frame import Frame, require_frame
+from ..frame import Frame
 from .ancf3 import Ancf3
 from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation
@@ -23,20 +23,15 @@ _ELEMENTS: tuple[type[Formulation], ...] = (
     Cable, Exact, Ancf3, Linear, Substructures, SpaceCable, SpaceExact,
 )  # fmt: skip
 
-FORMULATIONS, SPACE_FORMULATIONS = (
-    {cls.name: cls for cls in _ELEMENTS if cls.leaves_plane is leaves} for leaves in (False, True)
-)
-"""The class of each formulation in the plane, and in space; its fields are its options."""
+FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
+"""The class of each formulation, in the plane or in space; its fields are its options."""
 
 ALIASES = {"reissner": "exact"}
 """Other names of formulations: "exact" is Reissner's beam, not the exact continuum."""
 
 
 def formulation(
-    element: str | Formulation,
-    options: Mapping[str, object] | None = None,
-    *,
-    in_space: bool = False,
+    element: str | Formulation, options: Mapping[str, object] | None = None
 ) -> Formulation:
     """Return the formulation called `element`, with `options`; a Formulation is passed through.
 
@@ -54,14 +49,13 @@ def formulation(
             )
         return element
     element = ALIASES.get(element, element)
-    known = SPACE_FORMULATIONS if in_space else FORMULATIONS
-    if element not in known:
-        names = ", ".join(map(repr, known))
+    if element not in FORMULATIONS:
+        names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(
-            f"unknown element {'in space ' if in_space else ''}{element!r}; known are {names}; "
-            "other codes are in rotbeam_exu.verification.peers"
+            f"unknown element {element!r}; known are {names}; other codes are in "
+            "rotbeam_exu.verification.peers"
         )
-    cls: Any = known[element]
+    cls: Any = FORMULATIONS[element]
     fields = [field.name for field in dataclasses.fields(cls)]
     for name in options or {}:
         if name not in fields:
@@ -88,26 +82,17 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
     ValueError
         It names the property of the blade, and the formulations that take it.
     """
-    require_frame(beam, frame)
-    if frame not in model.frames:
-        raise ValueError(
-            f"element {model.name!r} is solved in the {' or '.join(model.frames)} frame, its "
-            f"inertia being no constant matrix: take frame={model.frames[0]!r}"
-        )
     model.require_section(beam)
+    if frame not in ("inertial", "rotating"):
+        raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
+    if frame == "inertial" and (setting := model.setting(beam)) != 1.0:
+        raise ValueError(
+            "in the inertial frame the models turn in their plane of bending, and this blade has a "
+            f"setting angle with the cosine {setting:.4g}: take frame='rotating'"
+        )
     unit = beam.unit
     if unit == UNIFORM:
         return
-    if model.leaves_plane and any(unit.damping):
-        raise ValueError(
-            "simulate_3d is for undamped blades, as Exudyn's geometrically exact beam ignores its "
-            f"damping: this one has {unit.differences}; take "
-            "blade.with_damping(Damping())"
-        )
-    if model.leaves_plane and unit.masses:
-        raise ValueError(
-            f"simulate_3d is for blades without point masses, and this one has {unit.differences}"
-        )
     if not model.takes_blades:
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
@@ -122,17 +107,12 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
 
 
 def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
-    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls)]
+    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls) and not cls.leaves_plane]
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def options_of(element: Formulation) -> dict[str, Any]:
-    """Return the options of a formulation by name, such that `formulation` makes it again."""
-    return dataclasses.asdict(element)  # type: ignore[call-overload, no-any-return]
-
-
 __all__ = [
-    "ALIASES", "FORMULATIONS", "SPACE_FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
+    "ALIASES", "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
     "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
-    "options_of", "require_modeled",
+    "require_modeled",
 ]  # fmt: skip

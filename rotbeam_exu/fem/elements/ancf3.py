@@ -15,11 +15,10 @@ from analytic.quadrature import gauss_points
 from ..lazily import exudyn
 from ..mesh import Mesh
 from .energy_body import Assembly, add_energy_body
-from .formulation import Chain
+from .formulation import POISSON_RATIO, Chain, Sheared
 from .node_kinds import SectionSlopeNodes
 from .point_masses import add_point_masses
 from .polynomials import lagrange
-from .section import POISSON_RATIO, Sheared
 
 Law = Literal["uncoupled", "coupled"]
 

@@ -17,7 +17,7 @@ from analytic.quadrature import gauss_points
 from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .formulation import Chain, Formulation
-from .node_kinds import SlopeNodes, SpaceSlopeNodes
+from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
 from .point_masses import add_point_masses
 from .polynomials import shapes
 
@@ -111,20 +111,30 @@ class Cable(_Cables, SlopeNodes):
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceCable(_Cables, SpaceSlopeNodes):
-    """ObjectANCFCable: nodes carry r and r'; no torsion, and one EI for all directions."""
+    """ObjectANCFCable: nodes carry r and r'; no torsion, and one EI for all directions.
 
-    name: ClassVar[str] = "cable"
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> blade = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+    >>> print(natural_frequencies(blade, 6.0, element="space_cable", elements=8).round(4))
+    [ 3.7311  7.0656 23.0152]
+    """
+
+    name: ClassVar[str] = "space_cable"
     summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
     new_jacobians: ClassVar[bool] = True  # half the time
     body: ClassVar[str] = "ObjectANCFCable"
 
     def require_section(self, blade: AnyBlade) -> None:
         """Refuse a section that bends otherwise out of the plane than in it."""
+        require_bare(self, blade)
         ratio = require_out_of_plane(blade, torsion=False).bending_ratio
         if abs(ratio - 1.0) > 1e-9:
             raise ValueError(
-                f"element 'cable' bends alike in all directions, and this blade {ratio:.4g} times "
-                "as stiffly out of the plane as in it: take element='exact', or "
+                f"element 'space_cable' bends alike in all directions, and this blade {ratio:.4g} "
+                "times as stiffly out of the plane as in it: take element='space_exact', or "
                 "blade.with_section_out_of_plane(bending_ratio=1.0)"
             )
 

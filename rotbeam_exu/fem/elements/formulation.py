@@ -11,13 +11,21 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.beam import require_blade
 from analytic.description import Described
+from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
+from analytic.motion import Rotation
 from analytic.theory import Theory
 
-from ..frame import Frame
 from ..lazily import exudyn, items
 from .point_masses import TurningNode, spins
+
+POISSON_RATIO = 0.3
+"""Default ν of beams that shear; the paper gives neither ν nor a shear modulus."""
+
+SHEAR_CORRECTION = 5.0 / 6.0
+"""Default k_s of a rectangle whose section stays plane; an element may have reason for another."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,15 +63,16 @@ class Chain:
 class Formulation(Described, abstract=True):
     """A beam element: its chain, its clamp, what its coordinates mean, and its abilities.
 
-    A formulation is a frozen dataclass whose fields are its options; its class and its options
-    say how to make it again. It inherits from a kind of node (`node_kinds`), and defines `lay` and
-    `axial_strain`. The coordinates of a node are Exudyn's, reference values included, as arrays of
-    shape (..., nodes, n). A rotation by θ about the axis takes them, and mass matrix and elastic
-    forces with them, to exp(θJ) e + θ a: J turns positions and slopes, a adds to angles.
+    A formulation is a frozen dataclass whose fields are its options; its class and its options say
+    how to make it again. It inherits from a kind of node (`node_kinds`), by which it lives in the
+    plane or in space, and defines `lay` and `axial_strain`. The coordinates of a node are Exudyn's,
+    reference values included, as arrays of shape (..., nodes, n). A rotation by θ about the axis
+    takes them, and mass matrix and elastic forces with them, to exp(θJ) e + θ a: J turns positions
+    and slopes, a adds to angles.
     """
 
     name: ClassVar[str]
-    """Name that the user gives; an element in space may have that of one in the plane."""
+    """Name that the user gives."""
     summary: ClassVar[str]
     """One line that names the formulation."""
 
@@ -73,8 +82,8 @@ class Formulation(Described, abstract=True):
     """Whether it has bending and axial damping."""
     leaves_plane: ClassVar[bool] = False
     """Whether it lives in space: z is across the plane of rotation."""
-    frames: ClassVar[tuple[Frame, ...]] = ("inertial", "rotating")
-    """Frames in which it can be solved."""
+    constant_mass: ClassVar[bool] = True
+    """Whether the mass matrix of all coordinates is constant, as the rotating frame asks for."""
     new_jacobians: ClassVar[bool] = False
     """Whether the solver is to make a new Jacobian in each step."""
     spectral_radius: ClassVar[float] = 0.9
@@ -86,10 +95,12 @@ class Formulation(Described, abstract=True):
     """Reference coordinates of a node of the straight beam, but for its x, the first."""
     quarter_turn: ClassVar[FloatArray]
     """Generator J of a rotation of one node's coordinates, (n, n); zero for angles."""
+    pace: ClassVar[FloatArray | float] = 1.0
+    """Angle by which J turns coordinates over that of the rotation, (n,): half for Euler's."""
     angles: ClassVar[FloatArray]
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
-    fixed_at_root: ClassVar[tuple[int, ...]]
-    """Root coordinates held at their reference values, whatever the angle: the position's."""
+    clamped: ClassVar[tuple[int, ...]]
+    """Root coordinates, besides its place, that the clamp holds at the angle zero."""
 
     @property
     def order(self) -> float | None:
@@ -114,7 +125,8 @@ class Formulation(Described, abstract=True):
     @property
     def theory(self) -> Theory:
         """Theory of its beam."""
-        return Theory(shear=self.shear_share, rotary_inertia=self.shear_share is not None)
+        sheared = self.shear_share is not None
+        return Theory(shear=self.shear_share, rotary_inertia=sheared, trapeze=not self.leaves_plane)
 
     def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
         """Add nodes and elements for `beam` to `mbs`."""
@@ -127,9 +139,23 @@ class Formulation(Described, abstract=True):
         node = getattr(items, self.node)
         return tuple(mbs.AddNode(node(referenceCoordinates=[x, *self.straight])) for x in positions)
 
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root's e to θ."""
-        raise NotImplementedError
+    @property
+    def dimensions(self) -> int:
+        """Dimensions of the space in which it lives; as many coordinates come first, of r."""
+        return 3 if self.leaves_plane else 2
+
+    def held(self, root: FloatArray) -> FloatArray:
+        """Return the directions (m, n) of the root's coordinates that the clamp holds at rest."""
+        return np.eye(root.size)[list(self.clamped)]
+
+    def clamp(self, root: FloatArray, angle: float) -> tuple[FloatArray, FloatArray]:
+        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root by θ.
+
+        From its reference coordinates `root` (n,).
+        """
+        held = self.held(root)
+        turned = self.turned(held[:, None], np.full(len(held), angle))[:, 0]
+        return turned, held @ (root + angle * self.angles)
 
     def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.
@@ -147,14 +173,29 @@ class Formulation(Described, abstract=True):
         return math.inf
 
     def require_section(self, blade: AnyBlade) -> None:
-        """Refuse a blade whose section the element does not model."""
+        """Refuse a blade whose line or section the element does not model."""
+        require_blade(blade)
+        if not blade.is_planar:
+            raise ValueError(
+                f"element {self.name!r} is for a straight blade in its plane, and this one has a "
+                "twist, precone, prebend, sweep or offset: take element='space_exact'"
+            )
 
-    def twist(self, coordinates: FloatArray) -> FloatArray | None:
-        """Return the twist [rad] of the tip's section about its normal, (samples,), if any."""
-        return None
+    def setting(self, blade: AnyBlade) -> float:
+        """Cosine of the angle between the plane in which J turns and that of rotation."""
+        return blade.unit.setting
 
-    def upright(self, coordinates: FloatArray) -> FloatArray | None:
-        """Return the axis of the sections that is along z at rest, (samples, nodes, 3), if any."""
+    def line_frame(self, blade: AnyBlade) -> FloatArray:
+        """Return the axes of the clamp in columns, (dimensions, dimensions), at the angle zero."""
+        return np.eye(self.dimensions)
+
+    def add_spin_forces(
+        self, mbs: exudyn.MainSystem, chain: Chain, beam: Any, rotation: Rotation
+    ) -> None:
+        """Add the inertial forces of the rotating frame on coordinates without constant mass."""
+
+    def sections(self, coordinates: FloatArray) -> FloatArray | None:
+        """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""
         return None
 
     @property
@@ -164,7 +205,7 @@ class Formulation(Described, abstract=True):
 
     def spun(self, coordinates: FloatArray) -> FloatArray:
         """Return J e + a, the rates of a rotation at 1 rad/s, of coordinates (..., nodes, n)."""
-        return coordinates @ self.quarter_turn.T + self.angles
+        return self.pace * (coordinates @ self.quarter_turn.T) + self.angles
 
     def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
         """Return exp(θJ) v = v + sin θ J v + (1 - cos θ) J² v of vectors (samples, nodes, n).
@@ -173,8 +214,8 @@ class Formulation(Described, abstract=True):
         """
         once = vectors @ self.quarter_turn.T
         twice = once @ self.quarter_turn.T
-        sine, versine = np.sin(angle)[:, None, None], (1.0 - np.cos(angle))[:, None, None]
-        return vectors + sine * once + versine * twice
+        angle = self.pace * angle[:, None, None]
+        return vectors + np.sin(angle) * once + (1.0 - np.cos(angle)) * twice
 
     def energy_and_momentum(
         self,
@@ -204,7 +245,7 @@ class Formulation(Described, abstract=True):
         rate : ndarray (samples,)
             w.
         """
-        samples, setting = rate.size, beam.unit.setting
+        samples, setting = rate.size, self.setting(beam)
         v = velocities.reshape(samples, -1)
         along = (coordinates * self.radial).reshape(samples, -1)
         momentum = v @ mass
@@ -215,3 +256,22 @@ class Formulation(Described, abstract=True):
             twice += inertia * spin**2
         normal = (1.0 - setting**2) * rate * np.sum(along * (along @ mass), axis=1)
         return 0.5 * (twice + rate * normal), setting * about_normal + normal
+
+
+class Sheared:
+    """An element with the options ν and k_s, G = E/(2 (1 + ν))."""
+
+    poisson_ratio: float
+    shear_correction: float
+
+    def __post_init__(self) -> None:
+        if not -1.0 < finite_number("poisson_ratio", self.poisson_ratio) < 0.5:
+            raise ValueError(
+                f"poisson_ratio must lie between -1 and 0.5, got {self.poisson_ratio!r}"
+            )
+        positive("shear_correction", self.shear_correction)
+
+    @property
+    def shear_share(self) -> float:
+        """k_s G A over EA."""
+        return self.shear_correction / (2.0 * (1.0 + self.poisson_ratio))

@@ -1,17 +1,21 @@
 """Kinds of nodes: how coordinates turn, which of them the clamp holds, and their values in a state.
 
-The clamp turns about z, the normal of the plane, and in space holds what would leave the plane.
+The clamp turns about z, the normal of the plane of rotation.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.beam import require_blade
 from analytic.exact.beam.state import BeamState
+from analytic.lazily import Lazily
 
 from .formulation import Formulation
 
@@ -22,39 +26,51 @@ ABOUT_Z = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 """The generator of rotations about z; of (x, y, φ) too, to whose angle they add."""
 
 
-class _PlaneNodes(Formulation, abstract=True):
-    """Nodes carry r and a vector of two; the clamp holds r."""
+_turns = Lazily("scipy.spatial.transform")
+
+_HALF_TURN = np.array(
+    [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
+)
+"""Product of the unit vector along z with Euler parameters, as a quaternion from the left."""
+
+
+class SlopeNodes(Formulation, abstract=True):
+    """Nodes carry r and the slope r' of the axis; the clamp holds its direction, not its length."""
 
     node: ClassVar[str] = "NodePoint2DSlope1"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 1.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
     angles: ClassVar[FloatArray] = np.zeros(4)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
-
-
-class SlopeNodes(_PlaneNodes, abstract=True):
-    """Nodes carry r and the slope r' of the axis; the clamp holds its direction."""
-
-    straight: ClassVar[tuple[float, ...]] = (0.0, 1.0, 0.0)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """-sin θ x' + cos θ y' = 0; no more, for the root may stretch."""
-        return np.array([[0.0, 0.0, -math.sin(angle), math.cos(angle)]]), np.zeros(1)
+    clamped: ClassVar[tuple[int, ...]] = (3,)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and slopes, (x + u, v, 1 + u', v'), and their rates."""
-        values = (x + state.u, state.v, 1.0 + state.u_slope, state.v_slope)
-        rates = (state.u_dot, state.v_dot, state.u_slope_dot, state.v_slope_dot)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
+        """Positions and slopes, (x + u, v, 1 + u', v') in the plane, and their rates."""
+        axes = "uvw"[: self.dimensions]
+        values = _columns(x, state, [*axes, *(f"{one}_slope" for one in axes)])
+        values[:, 0] += x
+        values[:, self.dimensions] += 1.0
+        return values, _columns(x, state, [f"{a}{of}_dot" for of in ("", "_slope") for a in axes])
 
 
-class SectionSlopeNodes(_PlaneNodes, abstract=True):
-    """Nodes carry r and the slope r_y of the section; the clamp holds its direction."""
+class SpaceSlopeNodes(SlopeNodes, abstract=True):
+    """The same in space."""
 
+    leaves_plane: ClassVar[bool] = True
+    node: ClassVar[str] = "NodePointSlope1"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0)
+    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), ABOUT_Z)
+    angles: ClassVar[FloatArray] = np.zeros(6)
+    clamped: ClassVar[tuple[int, ...]] = (4, 5)
+
+
+class SectionSlopeNodes(Formulation, abstract=True):
+    """Nodes carry r and the slope r_y of the section; the clamp holds it, Eq. 14."""
+
+    node: ClassVar[str] = "NodePoint2DSlope1"
     straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """r_y = (-sin θ, cos θ), Eq. 14: the section at the root neither turns nor stretches."""
-        return np.eye(4)[2:], np.array([-math.sin(angle), math.cos(angle)])
+    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
+    angles: ClassVar[FloatArray] = np.zeros(4)
+    clamped: ClassVar[tuple[int, ...]] = (2, 3)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and r_y = (-sin φ, cos φ), and their rates."""
@@ -72,11 +88,7 @@ class AngleNodes(Formulation, abstract=True):
     straight: ClassVar[tuple[float, ...]] = (0.0, 0.0)
     quarter_turn: ClassVar[FloatArray] = ABOUT_Z
     angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """φ = θ: the root's angle is a coordinate."""
-        return np.array([[0.0, 0.0, 1.0]]), np.array([angle])
+    clamped: ClassVar[tuple[int, ...]] = (2,)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and the angle of the section, and their rates."""
@@ -85,30 +97,80 @@ class AngleNodes(Formulation, abstract=True):
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
 
-class SpaceSlopeNodes(Formulation, abstract=True):
-    """Nodes in space carry r and the slope r' of the axis; the clamp holds its direction."""
+class FrameNodes(Formulation, abstract=True):
+    """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
 
     leaves_plane: ClassVar[bool] = True
-    node: ClassVar[str] = "NodePointSlope1"
-    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0)
-    quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), ABOUT_Z)
-    angles: ClassVar[FloatArray] = np.zeros(6)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1, 2)
+    constant_mass: ClassVar[bool] = False
+    node: ClassVar[str] = "NodeRigidBodyEP"
+    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+    quarter_turn: ClassVar[FloatArray] = np.block(
+        [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), _HALF_TURN]]
+    )
+    pace: ClassVar[FloatArray] = np.array(3 * [1.0] + 4 * [0.5])
+    angles: ClassVar[FloatArray] = np.zeros(7)
 
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """-sin θ x' + cos θ y' = 0 and z' = 0; the root may stretch."""
-        gradient = np.zeros((2, 6))
-        gradient[0, 3:5], gradient[1, 5] = (-math.sin(angle), math.cos(angle)), 1.0
-        return gradient, np.zeros(2)
+    def setting(self, blade: AnyBlade) -> float:
+        """All turns about z."""
+        return 1.0
 
-    def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
-        """Positions and slopes, and their rates."""
-        values = (x + state.u, state.v, state.w, 1.0 + state.u_slope, state.v_slope, state.w_slope)
-        rates = (
-            state.u_dot, state.v_dot, state.w_dot,
-            state.u_slope_dot, state.v_slope_dot, state.w_slope_dot,
-        )  # fmt: skip
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
+    def line_frame(self, blade: AnyBlade) -> FloatArray:
+        """Tilt the clamp out of the plane of rotation by the precone."""
+        cone = blade.blade.line.precone
+        c, s = math.cos(cone), math.sin(cone)
+        return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
+
+    def held(self, root: FloatArray) -> FloatArray:
+        """Return the three directions across p, p ∘ i and so on; |p| = 1 holds the fourth."""
+        a, b, c, d = root[3:]
+        across = np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
+        return np.hstack((np.zeros((3, 3)), across))
+
+    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
+        """Positions and p of a section turned by φ in the plane and tilted out of it by β.
+
+        tan β = w'/|r'| of the planar r'.
+        """
+        slope = (1.0 + state.u_slope) + 1j * state.v_slope
+        rate = state.u_slope_dot + 1j * state.v_slope_dot
+        phi = np.angle(slope) - state.shear_angle
+        phi_dot = (rate / slope).imag - state.shear_angle_dot
+        tan = state.w_slope / np.abs(slope)
+        tan_dot = state.w_slope_dot / np.abs(slope) - tan * (rate / slope).real
+        beta, beta_dot = np.arctan(tan), tan_dot / (1.0 + tan**2)
+        c, s, C, S = (f(0.5 * a) for a in (phi, beta) for f in (np.cos, np.sin))
+        p = np.stack((c * C, s * S, -c * S, s * C), axis=1)
+        tilted = p[:, [2, 3, 0, 1]] * [1.0, 1.0, -1.0, -1.0]
+        p_dot = 0.5 * (phi_dot[:, None] * (p @ _HALF_TURN.T) + beta_dot[:, None] * tilted)
+        zero = np.zeros_like(x)
+        r = np.stack((x + state.u, state.v, state.w + zero), axis=1)
+        r_dot = np.stack((state.u_dot, state.v_dot, state.w_dot + zero), axis=1)
+        return np.concatenate((r, p), axis=1), np.concatenate((r_dot, p_dot), axis=1)
+
+    def sections(self, coordinates: FloatArray) -> FloatArray:
+        """Return the axes of the sections."""
+        return directors(coordinates[..., 3:])
+
+
+def require_bare(element: Formulation, blade: AnyBlade) -> None:
+    """Refuse damping and point masses, which Exudyn's elements in space do not have."""
+    require_blade(blade)
+    if any(blade.unit.damping):
+        raise ValueError(
+            f"element {element.name!r} is undamped, as Exudyn's geometrically exact beam ignores "
+            f"its damping, and this blade has {blade.unit.differences}: take "
+            "blade.with_damping(Damping())"
+        )
+    if blade.unit.masses:
+        raise ValueError(
+            f"element {element.name!r} carries no point masses, and this blade has "
+            f"{blade.unit.differences}: take an element of the plane"
+        )
+
+
+def _columns(x: FloatArray, state: BeamState, names: Sequence[str]) -> FloatArray:
+    """Return parts of a state at the nodes `x`, (nodes, names)."""
+    return np.stack([getattr(state, name) + np.zeros_like(x) for name in names], axis=1)
 
 
 def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
@@ -116,3 +178,16 @@ def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
     along, across = 1.0 + state.u_slope, state.v_slope
     rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
     return np.arctan2(across, along) - state.shear_angle, rate - state.shear_angle_dot
+
+
+def directors(p: FloatArray) -> FloatArray:
+    """Return the rotations (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
+    flat = _turns.Rotation.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
+    return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
+
+
+def turning_rate(p: FloatArray, p_dot: FloatArray) -> FloatArray:
+    """Return the angular velocity (..., 3) by the axes of the section, 2 p* ∘ ṗ."""
+    scalar, vector = p[..., :1], p[..., 1:]
+    rate, turning = p_dot[..., :1], p_dot[..., 1:]
+    return np.asarray(2.0 * (scalar * turning - rate * vector - np.cross(vector, turning)))

@@ -13,10 +13,9 @@ from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
-from .formulation import Chain
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import AngleNodes
 from .polynomials import lagrange
-from .section import POISSON_RATIO, SHEAR_CORRECTION, Sheared
 
 
 @dataclass(frozen=True, kw_only=True)

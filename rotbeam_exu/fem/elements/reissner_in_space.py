@@ -11,226 +11,273 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.exact.beam.space import require_out_of_plane
+from analytic.exact.space.unit import space_unit
 from analytic.lazily import Lazily
+from analytic.motion import Rotation
+from analytic.quadrature import gauss_points
 
-from ..frame import Frame
 from ..lazily import exudyn, items
 from ..mesh import Mesh
-from .formulation import Chain, Formulation
-from .node_kinds import ABOUT_Z
-from .section import POISSON_RATIO, SHEAR_CORRECTION, Sheared
+from .energy_body import Assembly, add_force
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
+from .node_kinds import FrameNodes, directors, require_bare, turning_rate
 
 _turns = Lazily("scipy.spatial.transform")
 
-_HALF_TURN = np.array(
-    [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
-)
-"""Product of the unit vector along z with Euler parameters, as a quaternion from the left."""
-
-
-class FrameNodes(Formulation, abstract=True):
-    """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
-
-    leaves_plane: ClassVar[bool] = True
-    node: ClassVar[str] = "NodeRigidBodyEP"
-    straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
-    quarter_turn: ClassVar[FloatArray] = np.block(
-        [[ABOUT_Z, np.zeros((3, 4))], [np.zeros((4, 3)), 0.5 * _HALF_TURN]]
-    )
-    angles: ClassVar[FloatArray] = np.zeros(7)
-    fixed_at_root: ClassVar[tuple[int, ...]] = (0, 1, 2)
-
-    def clamp(self, angle: float) -> tuple[FloatArray, FloatArray]:
-        """Give p = (cos θ/2, 0, 0, sin θ/2); |p| = 1 holds one of them."""
-        gradient = np.zeros((3, 7))
-        gradient[0, 4] = gradient[1, 5] = 1.0
-        gradient[2, 3], gradient[2, 6] = -math.sin(0.5 * angle), math.cos(0.5 * angle)
-        return gradient, np.zeros(3)
-
-    def turned(self, vectors: FloatArray, angle: FloatArray) -> FloatArray:
-        """Return r and p (samples, nodes, 7), rates too, turned about z by angles (samples,)."""
-        half, p = 0.5 * angle[:, None, None], vectors[..., 3:]
-        return np.concatenate(
-            (
-                _about_z(vectors[..., :3], angle[:, None]),
-                np.cos(half) * p + np.sin(half) * (p @ _HALF_TURN.T),
-            ),
-            axis=-1,
-        )
-
-    def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
-        """Positions and p of a section turned by φ in the plane and tilted out of it by β.
-
-        tan β = w'/|r'| of the planar r'.
-        """
-        slope = (1.0 + state.u_slope) + 1j * state.v_slope
-        rate = state.u_slope_dot + 1j * state.v_slope_dot
-        phi = np.angle(slope) - state.shear_angle
-        phi_dot = (rate / slope).imag - state.shear_angle_dot
-        tan = state.w_slope / np.abs(slope)
-        tan_dot = state.w_slope_dot / np.abs(slope) - tan * (rate / slope).real
-        beta, beta_dot = np.arctan(tan), tan_dot / (1.0 + tan**2)
-        c, s, C, S = (f(0.5 * a) for a in (phi, beta) for f in (np.cos, np.sin))
-        p = np.stack((c * C, s * S, -c * S, s * C), axis=1)
-        by_phi = np.stack((-s * C, c * S, s * S, c * C), axis=1)
-        by_beta = np.stack((-c * S, s * C, -c * C, -s * S), axis=1)
-        p_dot = 0.5 * (phi_dot[:, None] * by_phi + beta_dot[:, None] * by_beta)
-        r = np.stack((x + state.u, state.v, state.w), axis=1)
-        r_dot = np.stack((state.u_dot, state.v_dot, state.w_dot), axis=1)
-        return np.concatenate((r, p), axis=1), np.concatenate((r_dot, p_dot), axis=1)
+_INNER, _ = gauss_points(2)
+"""Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceExact(Sheared, FrameNodes):
     """ObjectBeamGeometricallyExact: two nodes that carry r and the section, shear-deformable.
 
-    The screw from one node to the other is the strain, constant in the element; velocities and
-    turning rates are linear. Exudyn ignores its damping.
+    The screw from one node to the other, less that of the unloaded blade, is the strain, constant
+    in the element; velocities and turning rates are linear. The nodes stand on the unloaded line
+    and along its sections: a blade may have twist, precone, prebend, sweep and a setting angle.
+    Sections have their inertia and the propeller moment, but not the trapeze effect. Exudyn
+    ignores its damping and knows no center of mass or tension off the line.
 
     Parameters
     ----------
     poisson_ratio, shear_correction : float
         ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)).
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from rotbeam_exu import natural_frequencies
+    >>> blade = Beam.reference().with_section_out_of_plane(0.0625, 0.08)
+    >>> blade = blade.with_twist(0.5).with_precone(0.04)
+    >>> print(natural_frequencies(blade, 6.0, element="space_exact", elements=16).round(3))
+    [ 3.728  6.243 15.91 ]
     """
 
     poisson_ratio: float = POISSON_RATIO
     shear_correction: float = SHEAR_CORRECTION
 
-    name: ClassVar[str] = "exact"
+    name: ClassVar[str] = "space_exact"
     summary: ClassVar[str] = "geometrically exact beam in space, two nodes, shear and torsion"
     order = 2.0
     takes_blades: ClassVar[bool] = True
-    frames: ClassVar[tuple[Frame, ...]] = ("inertial",)
     new_jacobians: ClassVar[bool] = True  # half the time
     # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.
     spectral_radius: ClassVar[float] = 0.6
 
     def require_section(self, blade: AnyBlade) -> None:
-        """Refuse a section whose torsion is not a finite number."""
-        torsion = require_out_of_plane(blade).torsion_ratio
+        """Refuse a table of stations, kinks, centers off the line, and an unknown torsion."""
+        require_bare(self, blade)
+        section, line = blade.blade.section, blade.blade.line
+        if section.at_stations or line.kinks:
+            raise ValueError(
+                "element 'space_exact' takes sections by their ratios on a smooth line, and this "
+                f"blade has {'kinks' if line.kinks else 'a table of stations'}: take "
+                "analytic.spin_up_response"
+            )
+        out = section.out_of_plane
+        torsion = None if out is None else out.torsion_ratio
         if torsion is None or math.isinf(torsion):
             raise ValueError(
-                "element 'exact' twists, and the torsion_ratio of this blade is "
-                f"{'unknown' if torsion is None else 'infinite'}: take a number for it, as "
-                "blade.with_shape(Tube()) has, or element='cable' where bending_ratio is 1"
+                "element 'space_exact' twists, and the torsion_ratio of this blade is "
+                f"{'unknown' if torsion is None else 'infinite'}: give a number by "
+                "blade.with_section_out_of_plane(bending_ratio, torsion_ratio) or "
+                "blade.with_shape(Tube()), or take element='space_cable' where bending_ratio is 1"
+            )
+        if any(line.mass_offset) or any(line.tension_offset):
+            raise ValueError(
+                "element 'space_exact' has its centers of mass and of tension on its line, and "
+                "this blade has offsets: take blade.with_offsets(), which has none, or "
+                "analytic.spin_up_response"
             )
 
     def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
-        """Add `elements` beams of equal length along the x axis."""
-        mesh = Mesh(blade=beam, elements=elements)
-        nodes = self.add_nodes(mbs, mesh.positions)
-        stiffness, inertia = self._stiffness(mesh), _inertia(mesh)
+        """Add `elements` beams of equal length on the unloaded line."""
+        row = _Row(self, beam, elements)
+        nodes = tuple(
+            mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=one)) for one in row.reference
+        )
         for i, pair in enumerate(pairwise(nodes)):
             data: Any = exudyn.BeamSection()
-            data.stiffnessMatrix = np.diag(stiffness[i])
-            data.inertia = np.diag(inertia[i])
-            data.massPerLength = mesh.sections.mass_per_length[i]
+            data.stiffnessMatrix = np.diag(row.stiffness[i])
+            data.inertia = np.diag(row.inertia[i])
+            data.massPerLength = row.mass[i]
             mbs.AddObject(
                 items.ObjectBeamGeometricallyExact(
-                    nodeNumbers=list(pair), length=mesh.length, sectionData=data
+                    nodeNumbers=list(pair), length=row.length, sectionData=data
                 )
             )
+        return Chain(nodes=nodes, elastic_energy=row.energy)
 
-        def energy(coordinates: FloatArray) -> FloatArray:
-            squares = _strains(mesh.length, coordinates) ** 2
-            return np.asarray(0.5 * mesh.length * np.sum(stiffness * squares, axis=(1, 2)))
+    def add_spin_forces(
+        self, mbs: exudyn.MainSystem, chain: Chain, beam: AnyBlade, rotation: Rotation
+    ) -> None:
+        """Add the inertial forces of the rotating frame on the Euler parameters."""
+        row = _Row(self, beam, len(chain.nodes) - 1)
+        add = Assembly(len(row.mass), inner=1, per_node=7)
 
-        return Chain(nodes=nodes, elastic_energy=energy)
+        def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
+            w, w_dot = rotation.rate(t), rotation.acceleration(t)
+            return add.vector(row.spin_forces(add.gather(e), add.gather(rates), w, w_dot))
+
+        def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
+            w, w_dot, at = rotation.rate(t), rotation.acceleration(t), add.gather(e)
+
+            def slope(by_place: float, by_rate: float) -> FloatArray:
+                # About rest: in motion Newton's method does without the rest.
+                steps = _STEPS[..., None, :]
+                ahead, behind = row.spin_forces(at + by_place * steps, by_rate * steps, w, w_dot)
+                result = np.zeros((*at.shape, 14))
+                result[:, :, _TURNS] = np.moveaxis(ahead - behind, 0, -1) / (2.0 * _STEP)
+                return add.triplets(result)
+
+            return [(slope(1.0, 0.0), 1.0, 0.0), (slope(0.0, 1.0), 0.0, 1.0)]
+
+        size = row.reference.size
+        add_force(mbs, chain.nodes, size, force=force, derivatives=derivatives)
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Strain along the normal of the sections, of each element."""
-        elements = coordinates.shape[-2] - 1
-        return _strains(beam.length / elements, coordinates)[..., 0]
+        return _Row(self, beam, coordinates.shape[-2] - 1).strains(coordinates)[..., 0]
 
     def energy_and_momentum(
         self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
         velocities: FloatArray, rate: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
         """Return both for velocities and turning rates linear over the elements."""
-        mesh = Mesh(blade=beam, elements=coordinates.shape[-2] - 1)
-        m, inertia = mesh.sections.mass_per_length[:, None], _inertia(mesh)
-        r, v = coordinates[..., :3], velocities[..., :3]
-        spin = turning_rate(coordinates[..., 3:], velocities[..., 3:])
-        axis = directors(coordinates[..., 3:])[..., 2, :]  # z by the axes of the section
-        around = np.stack((-r[..., 1], r[..., 0]), axis=-1)
-        kinetic = 0.5 * (_linear(v, m, v) + _linear(spin, inertia, spin))
-        momentum = _linear(around, m, v[..., :2]) + _linear(axis, inertia, spin)
-        return mesh.length * kinetic, mesh.length * momentum
-
-    def twist(self, coordinates: FloatArray) -> FloatArray:
-        """Return how far the section has turned from upright."""
-        upright = directors(coordinates[:, -1, 3:])[:, 2]
-        return np.unwrap(np.arctan2(upright[:, 1], upright[:, 2]))
-
-    def upright(self, coordinates: FloatArray) -> FloatArray:
-        """Return the third axis of the sections."""
-        return directors(coordinates[..., 3:])[..., 2]
-
-    def _stiffness(self, mesh: Mesh) -> FloatArray:
-        """Return EA, GA, GA, GJ, EI out of the plane and EI in it, (elements, 6)."""
-        out = require_out_of_plane(mesh.blade)
-        EA, EI = mesh.sections.axial_stiffness, mesh.sections.bending_stiffness
-        GA = self.shear_share * EA
-        assert out.torsion_ratio is not None  # see `require_section`
-        return np.stack((EA, GA, GA, out.torsion_ratio * EI, out.bending_ratio * EI, EI), axis=1)
+        row = _Row(self, beam, coordinates.shape[-2] - 1)
+        r, v = (np.stack((e[:, :-1, :3], e[:, 1:, :3])) for e in (coordinates, velocities))
+        m = row.mass[:, None]
+        _, spin, inertia = row.turning(*(_by_element(e) for e in (coordinates, velocities)))
+        moment = (inertia @ spin[..., None])[..., 0]
+        kinetic = 0.5 * _linear(v, m * v) + 0.25 * np.sum(spin * moment, axis=(1, 2, 3))
+        around = np.cross([0.0, 0.0, 1.0], r)
+        momentum = _linear(around, m * v) + 0.5 * np.sum(moment[..., 2], axis=(1, 2))
+        return row.length * kinetic, row.length * momentum
 
 
-def _linear(left: FloatArray, density: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the sums (samples,) over elements of unit length of ∫ left·density right.
+_TURNS = [3, 4, 5, 6, 10, 11, 12, 13]
+"""Coordinates of an element that are Euler parameters."""
 
-    Of vectors (samples, nodes, 3) linear in between, with a density (elements, 3 or 1).
+_STEP = 1e-5
+"""Step of central differences of Euler parameters, which are of the size of one."""
+
+_STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
+
+
+class _Row:
+    """A row of elements: its unloaded line, sections, strains and inertia against rotation.
+
+    Attributes
+    ----------
+    length : float
+        Of an element.
+    reference : ndarray (nodes, 7)
+        Coordinates of the unloaded blade.
+    mass : ndarray (elements,)
+    stiffness : ndarray (elements, 6)
+        EA, GA, GA, GJ, EI out of the plane and EI in it.
+    inertia : ndarray (elements, 3)
+        ρI_p, ρI out of the plane and ρI in it [kg m].
     """
-    a, b, c, d = left[:, :-1], left[:, 1:], right[:, :-1], right[:, 1:]
-    return np.asarray(np.sum(density * ((a + b) * (c + d) + a * c + b * d), axis=(1, 2)) / 6.0)
+
+    def __init__(self, element: SpaceExact, blade: AnyBlade, elements: int) -> None:
+        mesh, unit = Mesh(blade=blade, elements=elements), space_unit(blade)
+        self.length, frame = mesh.length, element.line_frame(blade)
+        place, sections = unit.unloaded(np.linspace(0.0, 1.0, elements + 1))
+        r = blade.length * (unit.clamp + place) @ frame.T
+        p = _turns.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
+        self.reference = np.hstack((r, p))
+        at = mesh.sections
+        EA, EI, self.mass = at.axial_stiffness, at.bending_stiffness, at.mass_per_length
+        GA, bent = element.shear_share * EA, unit.flap * EI
+        self.stiffness = np.stack((EA, GA, GA, unit.torsion * EI, bent, EI), axis=1)
+        # As in `analytic.exact.space`: a polar inertia that is told is parted as 1 to r.
+        solid, polar, own = self.mass * EI / EA, unit.polar, at.rotary_inertia
+        if polar is not None:
+            polar = polar / blade.slenderness
+            own = own if unit.told_rotary else polar / (1.0 + unit.flap) * solid
+        about = (1.0 + unit.flap) * own if polar is None else polar * solid
+        self.inertia = np.stack((about, unit.flap * own, own), axis=1)
+        self._unloaded = self._screws(self.reference)
+
+    def strains(self, coordinates: FloatArray) -> FloatArray:
+        """Return the strains (..., elements, 6): stretch, shears, torsion, curvatures."""
+        return np.asarray((self._screws(coordinates) - self._unloaded) / self.length)
+
+    def energy(self, coordinates: FloatArray) -> FloatArray:
+        """Return the elastic energy (samples,) of coordinates (samples, nodes, 7)."""
+        squares = self.strains(coordinates) ** 2
+        return np.asarray(0.5 * self.length * np.sum(self.stiffness * squares, axis=(1, 2)))
+
+    def _screws(self, coordinates: FloatArray) -> FloatArray:
+        """Return the logarithms in SE(3) of the motions from node to node, (..., elements, 6)."""
+        r, turn = coordinates[..., :3], directors(coordinates[..., 3:])
+        to_local = np.swapaxes(turn[..., :-1, :, :], -1, -2)
+        d = (to_local @ np.diff(r, axis=-2)[..., None])[..., 0]
+        psi = _rotation_vector(to_local @ turn[..., 1:, :, :])
+        angle = np.maximum(np.linalg.norm(psi, axis=-1, keepdims=True), 1e-4)
+        # u = d - ψ×d/2 + [1 - (ψ/2) cot(ψ/2)]/ψ² ψ×(ψ×d)
+        across = np.cross(psi, d)
+        bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
+        return np.concatenate((d - 0.5 * across + bent * np.cross(psi, across), psi), axis=-1)
+
+    def turning(
+        self, e: FloatArray, rates: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return frames of the ends, and spins and inertias at both Gauss points, in space's axes.
+
+        From coordinates and rates of the elements (..., elements, 14).
+        """
+        p, p_dot = (v.reshape(*v.shape[:-1], 2, 7)[..., 3:] for v in (e, rates))
+        turn = directors(p)
+        ends = (turn @ turning_rate(p, p_dot)[..., None])[..., 0]
+        psi = _rotation_vector(np.swapaxes(turn[..., 0, :, :], -1, -2) @ turn[..., 1, :, :])
+        part = _turns.Rotation.from_rotvec((_INNER[:, None] * psi[..., None, :]).reshape(-1, 3))
+        at = turn[..., :1, :, :] @ part.as_matrix().reshape(*psi.shape[:-1], 2, 3, 3)
+        inertia = (at * self.inertia[:, None, None, :]) @ np.swapaxes(at, -1, -2)
+        return turn, _VALUES @ ends, inertia
+
+    def spin_forces(self, e: FloatArray, rates: FloatArray, w: float, w_dot: float) -> FloatArray:
+        """Return the forces (..., elements, 14) of a frame that turns about z at w on its sections.
+
+        J (ω + W)' + (ω + W) × J (ω + W) is their balance; Exudyn has J ω' + ω × J ω of it.
+        """
+        turn, spin, inertia = self.turning(e, rates)
+        W, W_dot = np.array([[0.0, 0.0, w], [0.0, 0.0, w_dot]])
+
+        def times(vector: FloatArray) -> FloatArray:
+            return np.asarray((inertia @ vector[..., None])[..., 0])
+
+        torque = np.cross(spin, times(spin)) - np.cross(spin + W, times(spin + W))
+        torque -= times(W_dot + np.cross(W, spin))
+        ends = 0.5 * self.length * _VALUES.T @ torque
+        p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
+        local = (np.swapaxes(turn, -1, -2) @ ends[..., None])[..., 0]
+        forces = np.zeros((*p.shape[:-1], 7))
+        forces[..., 3] = -2.0 * np.sum(p[..., 1:] * local, axis=-1)
+        forces[..., 4:] = 2.0 * (p[..., :1] * local + np.cross(p[..., 1:], local))
+        return forces.reshape(*e.shape[:-1], 14)
 
 
-def _inertia(mesh: Mesh) -> FloatArray:
-    """Return ρI_p, ρI out of the plane and ρI in it [kg m], (elements, 3)."""
-    blade, out, at = mesh.blade, require_out_of_plane(mesh.blade), mesh.sections
-    own = at.mass_per_length * at.bending_stiffness / at.axial_stiffness
-    if out.polar_inertia is None:
-        polar = (1.0 + out.bending_ratio) * own
-    else:
-        at_root = blade.slenderness * blade.mass_per_length * blade.length**2
-        polar = out.polar_inertia * own / at_root
-    return np.stack((polar, out.bending_ratio * at.rotary_inertia, at.rotary_inertia), axis=1)
+_VALUES = np.stack((1.0 - _INNER, _INNER), axis=1)
+"""Linear functions of both nodes at the Gauss points, (points, nodes)."""
 
 
-def _strains(length: float, coordinates: FloatArray) -> FloatArray:
-    """Return the six strains (..., elements, 6): stretch, shears, torsion, curvatures.
+def _by_element(coordinates: FloatArray) -> FloatArray:
+    """Return coordinates (..., nodes, 7) of the elements, (..., elements, 14)."""
+    return np.concatenate((coordinates[..., :-1, :], coordinates[..., 1:, :]), axis=-1)
 
-    The logarithm in SE(3) of the motion from one node to the other, relative to the straight
-    element, over its length.
+
+def _linear(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the sums (samples,) over elements of unit length of ∫ left·right.
+
+    Of vectors at both ends (2, samples, elements, 3), linear in between.
     """
-    r, turn = coordinates[..., :3], directors(coordinates[..., 3:])
-    to_local = np.swapaxes(turn[..., :-1, :, :], -1, -2)
-    d = (to_local @ np.diff(r, axis=-2)[..., None])[..., 0]
-    relative = to_local @ turn[..., 1:, :, :]
-    psi = _turns.Rotation.from_matrix(relative.reshape(-1, 3, 3)).as_rotvec().reshape(d.shape)
-    angle = np.maximum(np.linalg.norm(psi, axis=-1, keepdims=True), 1e-4)
-    # u = d - ψ×d/2 + [1 - (ψ/2) cot(ψ/2)]/ψ² ψ×(ψ×d)
-    across = np.cross(psi, d)
-    bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
-    u = d - 0.5 * across + bent * np.cross(psi, across)
-    u[..., 0] -= length
-    return np.concatenate((u, psi), axis=-1) / length
+    (a, b), (c, d) = left, right
+    return np.asarray(np.sum((a + b) * (c + d) + a * c + b * d, axis=(1, 2)) / 6.0)
 
 
-def directors(p: FloatArray) -> FloatArray:
-    """Return the rotations (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
-    flat = _turns.Rotation.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
-    return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
-
-
-def turning_rate(p: FloatArray, p_dot: FloatArray) -> FloatArray:
-    """Return the angular velocity (..., 3) by the axes of the section, 2 p* ∘ ṗ."""
-    scalar, vector = p[..., :1], p[..., 1:]
-    rate, turning = p_dot[..., :1], p_dot[..., 1:]
-    return np.asarray(2.0 * (scalar * turning - rate * vector - np.cross(vector, turning)))
-
-
-def _about_z(vectors: FloatArray, angle: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned about z by `angle` (...)."""
-    seen = (vectors[..., 0] + 1j * vectors[..., 1]) * np.exp(1j * angle)
-    return np.stack((seen.real, seen.imag, vectors[..., 2]), axis=-1)
+def _rotation_vector(turn: FloatArray) -> FloatArray:
+    """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
+    flat = _turns.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
+    return np.asarray(flat.reshape(turn.shape[:-1]))

@@ -35,7 +35,7 @@ def mistakes_in(submission: Submission, judgement: Judgement) -> list[Mistake]:
                 if seen is None:
                     one = _in_table(name, submission)
                 else:
-                    run, true = seen.rows.finest, seen.reference.history
+                    run, true = seen.finest, seen.reference.history
                     one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
@@ -44,7 +44,7 @@ def mistakes_in(submission: Submission, judgement: Judgement) -> list[Mistake]:
             if one is not None and one.name in RAMPS:
                 ramps = (one.name,)  # a code has one ramp in all cases
             elif one is None and seen is not None and seen.case.is_spun_up:
-                off = largest(seen.differences[seen.rows.finest]) > SMALL
+                off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found
 

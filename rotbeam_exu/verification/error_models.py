@@ -1,0 +1,200 @@
+"""Models of how errors depend on mesh and step, and the limit of runs by all of them.
+
+A run on n elements with the step h is taken for
+
+    q = q₀ + C (n₀/n)ᵖ + D (h/h₀)ʳ + noise,
+
+with the finest mesh n₀ and the smallest step h₀; C and D vary by κ from one mesh or step to the
+next, for no run is wholly in the asymptotic range. Given p, r, κ, D/C and the noise the best q₀ is
+a weighted sum of all runs. What is not given is taken from a grid, each point as likely as it makes
+the runs. The idea is that of Gauss and Richardson's extrapolation by C. Oates and others (2024).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from analytic.arrays import FloatArray
+
+Declared = tuple[float | None, float | None]
+"""Orders in mesh and step that an author declares."""
+
+_ORDERS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
+_VARIATIONS = {0.02: 0.4, 0.1: 0.2, 0.3: 0.2, 1.0: 0.2}  # κ: 1 where there is no rule at all
+_NOISES = {0.0: 0.6, 0.3: 0.1, 3.0: 0.15, 30.0: 0.15}  # of a run, over the finest's error
+_RATIOS = (0.03, 0.3, 1.0, 3.0, 30.0)  # D/C
+_OWN = 0.02  # of each run's error: no pair of runs is all there is to know
+
+_BELIEVED = 0.6
+"""Weight of the declared order; the rest is any order's around two, by a factor of two."""
+
+_DECLARED_SPREAD, _ANY_SPREAD = 0.12, 0.7  # of ln p
+
+_COVERED = 0.96
+"""Probability that the limit lies within its bar; of synthetic submissions 95 % then do."""
+
+_MOST_FREEDOM = 2
+"""Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
+and with more of them bars of oscillating ones cover less than nine tenths."""
+
+_LIKELY = 1e-3  # of the likeliest: what is less has no part in a bar
+_PROBABILITIES = (np.arange(60) + 0.5) / 60.0
+_STUDENT = {
+    1: np.tan(np.pi * (_PROBABILITIES - 0.5)),
+    2: (2.0 * _PROBABILITIES - 1.0) / np.sqrt(2.0 * _PROBABILITIES * (1.0 - _PROBABILITIES)),
+}
+"""Quantiles of Student's distribution by degrees of freedom."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Models:
+    """Models of errors on given meshes and steps; the first axis counts models.
+
+    Attributes
+    ----------
+    x, y : ndarray (runs,)
+        Mesh sizes and steps over the finest; y is one where steps have no part of their own.
+    declared : tuple of float
+    given : tuple of ndarray (models,)
+        p, r, D/C, κ and the noise of each.
+    prior : ndarray (models,)
+        Logarithm of its weight before there are runs.
+    weights, projections : ndarray (models, runs), (models, runs, runs)
+        The limit is `weights` times the runs, and `projections` a quadratic form of what it leaves.
+    precision, volume : ndarray (models,)
+        Of the limit, and the logarithm by which models that explain anything are less likely.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    declared: Declared
+    given: tuple[FloatArray, ...]
+    prior: FloatArray
+    weights: FloatArray
+    projections: FloatArray
+    precision: FloatArray
+    volume: FloatArray
+
+    def evidence(self, runs: FloatArray) -> FloatArray:
+        """Logarithm of how likely models are, (models,); runs (runs, samples) of any scale."""
+        gram = runs @ runs.T / runs.shape[1]
+        left = self.projections.reshape(len(self.prior), -1) @ gram.ravel()
+        likely = self.volume - 0.5 * (len(runs) - 1) * np.log(np.maximum(left, 1e-300))
+        return np.asarray(self.prior + likely)
+
+    def parts(self) -> tuple[FloatArray, FloatArray]:
+        """Covariances (models, runs, runs) of the errors of mesh and step."""
+        return _parts(self.x, self.y, *self.given[:4])
+
+
+def _parts(
+    x: FloatArray, y: FloatArray, p: FloatArray, r: FloatArray, ratio: FloatArray, kappa: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    mesh, step = x ** p[:, None], ratio[:, None] * y ** r[:, None]
+    k = kappa[:, None, None] ** 2
+    return (
+        mesh[:, :, None] * mesh[:, None, :] * (1.0 + k * (x[:, None] == x)),
+        step[:, :, None] * step[:, None, :] * (1.0 + k * (y[:, None] == y)),
+    )
+
+
+def _modeled(
+    x: FloatArray, y: FloatArray, declared: Declared, prior: FloatArray, *given: FloatArray
+) -> Models:
+    """Return the algebra of models."""
+    covariance = np.add(*_parts(x, y, *given[:4]))
+    each = np.arange(x.size)
+    size = covariance[:, each, each]
+    covariance[:, each, each] += _OWN**2 * size + (given[4] ** 2 * size.min(axis=1))[:, None]
+    scale = np.sqrt(covariance[:, each, each])
+    both = scale[:, :, None] * scale[:, None, :]
+    covariance /= both
+    inverse = np.linalg.inv(covariance) / both
+    sums = inverse.sum(axis=2)
+    precision = sums.sum(axis=1)
+    weights = sums / precision[:, None]
+    volume = np.linalg.slogdet(covariance)[1] + 2.0 * np.log(scale).sum(axis=1) + np.log(precision)
+    return Models(
+        x=x, y=y, declared=declared, given=given, prior=prior, weights=weights,
+        projections=inverse - sums[:, :, None] * weights[:, None, :], precision=precision,
+        volume=-0.5 * volume,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=64)  # all quantities of a submission have the same meshes and steps
+def models_of(x: tuple[float, ...], y: tuple[float, ...], declared: Declared) -> Models:
+    """Return the grid of models on sizes x and y over the finest."""
+    stepped = len(set(y)) > 1
+    p = sorted({*_ORDERS, *filter(None, declared[:1])})
+    r = sorted({*_ORDERS, *filter(None, declared[1:])}) if stepped else [1.0]
+    ratios = _RATIOS if stepped else (0.0,)
+    axes = p, r, ratios, tuple(_VARIATIONS), tuple(_NOISES)
+    likely = (
+        shares(p, declared[0]), shares(r, declared[1]) if stepped else np.ones(1),
+        np.ones(len(ratios)), list(_VARIATIONS.values()), list(_NOISES.values()),
+    )  # fmt: skip
+    prior = np.log(math.prod(np.meshgrid(*likely, indexing="ij"))).ravel()
+    given = (one.ravel() for one in np.meshgrid(*axes, indexing="ij"))
+    return _modeled(np.array(x), np.array(y), declared, prior, *given)
+
+
+def shares(orders: Sequence[float] | FloatArray, declared: float | None) -> FloatArray:
+    """Return the share that each order of a grid has before there are runs."""
+    share = _density(np.asarray(orders), declared) * np.gradient(np.log(orders))
+    return np.asarray(share / share.sum())
+
+
+def _density(orders: FloatArray, declared: float | None) -> FloatArray:
+    """Return how dense orders are over ln p before there are runs."""
+    log = np.log(orders)
+    anything = np.exp(-0.5 * ((log - math.log(2.0)) / _ANY_SPREAD) ** 2) / _ANY_SPREAD
+    if declared is None:
+        return anything
+    near = np.exp(-0.5 * ((log - math.log(declared)) / _DECLARED_SPREAD) ** 2) / _DECLARED_SPREAD
+    return _BELIEVED * near + (1.0 - _BELIEVED) * anything
+
+
+def likeliest(models: Models, evidence: FloatArray, runs: FloatArray) -> Models:
+    """Return the likeliest model alone, sought between those of the grid by zooming in."""
+    best = int(np.argmax(evidence))
+    p, r, ratio, *others = (float(one[best]) for one in models.given)
+    stepped, width = bool(ratio), 0.3
+    for _ in range(18):
+        near = width * np.array([-1.0, 0.0, 1.0])
+        # Ratios of the grid are farther apart than its orders.
+        around = p * np.exp(near), r * np.exp(near * stepped), ratio * np.exp(4.0 * near * stepped)
+        given = [one.ravel() for one in np.meshgrid(*around)]
+        given += [np.full(given[0].size, one) for one in others]
+        prior = np.log(_density(given[0], models.declared[0]))
+        prior = prior + np.log(_density(given[1], models.declared[1])) * stepped
+        found = _modeled(models.x, models.y, models.declared, prior, *given)
+        k = int(np.argmax(found.evidence(runs)))
+        p, r, ratio, width = *(float(one[k]) for one in given[:3]), 0.6 * width
+    given = [np.array([one]) for one in (p, r, ratio, *others)]
+    return _modeled(models.x, models.y, models.declared, np.zeros(1), *given)
+
+
+def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: FloatArray) -> float:
+    """Return how far the limit, `weights` times the runs, may be off by all models.
+
+    Of functions at the sample that is known worst.
+    """
+    kept = evidence > evidence.max() + math.log(_LIKELY)
+    share = np.exp(evidence[kept] - evidence.max())
+    share /= share.sum()
+    freedom = min(len(runs) - 1, _MOST_FREEDOM)
+    w, of_each = models.weights[kept], models.projections[kept]
+    of_each = of_each / (freedom * models.precision[kept])[:, None, None]
+    apart = w - weights
+    spread = np.einsum("g,gi,gj", share, apart, apart) + np.einsum("g,gij", share, of_each)
+    worst = runs[:, np.argmax(np.einsum("it,ij,jt->t", runs, spread, runs))]
+    own = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
+    off = np.abs((apart @ worst)[:, None] + own[:, None] * _STUDENT[freedom]).ravel()
+    order = np.argsort(off)
+    covered = np.cumsum(np.repeat(share / _PROBABILITIES.size, _PROBABILITIES.size)[order])
+    return float(off[order][np.searchsorted(covered, _COVERED)])

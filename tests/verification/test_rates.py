@@ -1,0 +1,118 @@
+"""Rates of the judge on synthetic submissions: what is told of right and of wrong codes.
+
+Errors of the finest run are log-uniform from a ten-thousandth of the tolerance to the tolerance,
+in mesh and in step; the tolerance is one. Bounds follow from the binomial distribution.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+from rotbeam_exu.verification.convergence import converged
+from rotbeam_exu.verification.outcomes import Outcome, found_of
+
+DEFAULT, MANY = 150, 2000
+WHOLE = (8, 16, 32, 16, 16), (2e-3, 2e-3, 2e-3, 1e-3, 4e-3)
+FAR = 3.4
+"""Of FrE at 6 rad/s: 17 % of the shift, of which 5 % pass."""
+
+
+def errors(rng, kind, sizes, order, tolerance=1.0):
+    """Return errors at sizes over the finest: C xᵖ with a second term, or with a cosine."""
+    size = tolerance * 10.0 ** rng.uniform(-4.0, 0.0) * rng.choice([-1.0, 1.0])
+    x, level = sizes / sizes.max(), np.log2(sizes)
+    if kind == "oscillating":
+        turn = np.cos(rng.uniform(0.0, np.pi) * level + rng.uniform(0.0, 2.0 * np.pi))
+        return size * sizes**order * turn
+    second = rng.uniform(-1.0, 1.0) * (1.5 if kind == "pre-asymptotic" else 0.3)
+    power = rng.choice([1.0, 2.0])
+    shape = x**order * (1.0 + second * x**power)
+    return size * shape / shape[np.argmin(x)]
+
+
+def drawn(rng, kind, runs, order, off=0.0, tolerance=1.0):
+    """Return what a code hands in that tends to `off`; noise is 3e-5 L of q(t), whose 1e-2 pass."""
+    n, h = runs
+    values = off + errors(rng, kind, max(n) / np.array(n), order, tolerance)
+    if h is not None:
+        values = values + errors(rng, kind, np.array(h) / min(h), 2.0, tolerance)
+    return values + (6e-3 * tolerance * rng.standard_normal(len(n)) if kind == "noisy" else 0.0)
+
+
+def fitted(values, runs, declared, tolerance=1.0):
+    fit = converged(*runs, values, declared=(declared, 2.0))
+    return fit, found_of(fit, tolerance=tolerance, bound=0.0, where="here").outcome
+
+
+def at_most(count, rate):
+    """Most hits that a rate leaves, but once in a thousand suites."""
+    return int(binom.isf(1e-3, count, rate))
+
+
+counts = pytest.mark.parametrize("count", [DEFAULT, pytest.param(MANY, marks=pytest.mark.slow)])
+
+RIGHT = [
+    (WHOLE, 2.0, 2.0), (WHOLE, 4.0, 4.0),
+    (((8, 16, 32), None), 2.0, 2.0), (((8, 16, 32), None), 4.0, 4.0),
+    (((10, 15, 20), None), 2.0, 2.0), (((8, 16, 32, 64), None), 2.0, 2.0),
+]  # fmt: skip
+
+
+@counts
+@pytest.mark.parametrize("kind", ["asymptotic", "pre-asymptotic", "oscillating", "noisy"])
+@pytest.mark.parametrize(("runs", "order", "declared"), RIGHT)
+def test_a_right_code_is_never_told_that_it_differs_and_bars_cover(
+    runs, order, declared, kind, count
+):
+    rng = np.random.default_rng(8)
+    missed, differs = 0, 0
+    for _ in range(count):
+        fit, outcome = fitted(drawn(rng, kind, runs, order), runs, declared)
+        missed += abs(fit.limit) > fit.bar
+        differs += outcome is Outcome.DIFFERS
+    assert missed <= at_most(count, 0.10 if kind == "oscillating" else 0.05)
+    assert differs <= at_most(count, 1e-3)
+
+
+@counts
+@pytest.mark.parametrize("kind", ["asymptotic", "pre-asymptotic"])
+def test_bars_of_two_meshes_cover_a_wrong_declaration(kind, count):
+    """The fourth order is declared, the second is true."""
+    runs, rng = ((16, 32), None), np.random.default_rng(8)
+    fits = [fitted(drawn(rng, kind, runs, 2.0), runs, 4.0) for _ in range(count)]
+    assert sum(abs(fit.limit) > fit.bar for fit, _ in fits) <= at_most(count, 0.05)
+    assert Outcome.DIFFERS not in {outcome for _, outcome in fits}
+
+
+@counts
+@pytest.mark.parametrize("kind", ["asymptotic", "pre-asymptotic", "oscillating", "noisy"])
+@pytest.mark.parametrize("runs", [WHOLE, ((16, 32), None)])
+def test_a_code_with_the_error_of_fre_never_passes(runs, kind, count):
+    """It is told that it differs, or that nothing is decided; with ten times the errors too."""
+    rng = np.random.default_rng(8)
+    for k in range(min(count, 500)):
+        values = drawn(rng, kind, runs, 2.0, FAR)
+        if k % 2:
+            values = FAR + 10.0 * (values - FAR)
+        assert not fitted(values, runs, 2.0)[1].passed
+
+
+@counts
+def test_a_correct_run_more_never_makes_a_verdict_worse(count):
+    """Of asymptotic codes: a finer mesh, a coarser one, steps, a diagonal."""
+    rng = np.random.default_rng(8)
+    n = np.array([16, 32, 64, 128, 8, 16, 32])
+    h = np.array([1e-3, 1e-3, 1e-3, 1e-3, 2e-3, 2e-3, 4e-3])
+    worse = 0
+    for _ in range(count):
+        values = errors(rng, "asymptotic", 128 / n, 2.0) + errors(rng, "asymptotic", h / 1e-3, 2.0)
+        passed = [
+            fitted(values[:k], (n[:k].tolist(), h[:k].tolist()), 2.0)[1].passed
+            for k in range(3, n.size + 1)
+        ]
+        assert False not in passed
+        worse += any(before and not after for before, after in pairwise(passed))
+    # Bars are estimates: those of the runs before may have been too small by chance.
+    assert worse <= at_most(count, 0.05)
