@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic import campbell, linear_modes
+from analytic import Theory, campbell, linear_modes
 from tests.beams import unit_beam
 
 
@@ -24,6 +24,20 @@ def test_crossings_lie_on_the_line_and_on_the_mode(diagram, beam):
         assert crossing.frequency == crossing.order * crossing.omega
         there = linear_modes(beam, crossing.omega, 3).frequencies[crossing.mode - 1]
         assert there == pytest.approx(crossing.frequency, rel=1e-9)
+
+
+def test_the_theory_is_that_of_the_modes():
+    """Of a thick beam shear and rotary inertia lower the second frequency by 2 % and more."""
+    thick, theory = unit_beam(5e-4), Theory(shear=0.3, rotary_inertia=True)
+    diagram = campbell(thick, [0.0, 6.0], 2, theory=theory)
+    for omega, row in zip(diagram.omegas, diagram.frequencies, strict=True):
+        assert row == pytest.approx(
+            linear_modes(thick, omega, 2, theory=theory).frequencies, rel=1e-10
+        )
+        assert row[1] < 0.98 * linear_modes(thick, omega, 2).frequencies[1]
+    crossing = diagram.crossings[0]
+    there = linear_modes(thick, crossing.omega, 2, theory=theory).frequencies[crossing.mode - 1]
+    assert there == pytest.approx(crossing.frequency, rel=1e-9)
 
 
 def test_every_order_that_must_cross_does(diagram):

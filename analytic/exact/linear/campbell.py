@@ -15,6 +15,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...plotting import apart, axes_or_new, cycled, free_place
+from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..space.steady import lives_in_space
 from .modes import Plane
@@ -47,6 +48,7 @@ class Campbell:
         Where frequencies cross the lines kω, k from 1, within the speeds.
     planes : tuple of str
         The family of each column.
+    theory : Theory
 
     Examples
     --------
@@ -63,6 +65,7 @@ class Campbell:
     mac: FloatArray
     crossings: tuple[Crossing, ...]
     planes: tuple[Plane, ...]
+    theory: Theory
 
     @property
     def names(self) -> list[str]:
@@ -88,7 +91,10 @@ class Campbell:
         apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.1 * (even[1] - even[0])
         speeds = np.sort(np.concatenate((self.omegas, even[apart_])))
         counts = {plane: self.planes.count(plane) for plane in self.planes}
-        families = [family_of(self.beam, speeds, count, 0, p) for p, count in counts.items()]
+        families = [
+            family_of(self.beam, speeds, count, 0, plane, self.theory)
+            for plane, count in counts.items()
+        ]
         return speeds, np.hstack([family.frequencies for family in families])
 
     def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
@@ -153,6 +159,7 @@ def campbell(
     orders: int = 10,
     *,
     planes: Sequence[Plane] = ("lag",),
+    theory: Theory = BERNOULLI_EULER,
 ) -> Campbell:
     """Return the Campbell diagram of the first `count` modes, by default of modes in the plane.
 
@@ -167,6 +174,8 @@ def campbell(
         Lines kω up to this k.
     planes : sequence of str
         Families: "lag", "flap" and "torsion", as in `linear_modes`.
+    theory : Theory
+        Extension, shear, rotary inertia and trapeze effect.
 
     Raises
     ------
@@ -191,7 +200,7 @@ def campbell(
     count, orders = whole_number("count", count), whole_number("orders", orders, most=_MOST_ORDERS)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
-    families = [family_of(beam, speeds, count, orders, plane) for plane in planes]
+    families = [family_of(beam, speeds, count, orders, plane, theory) for plane in planes]
     crossings = [
         replace(crossing, plane=plane)
         for plane, family in zip(planes, families, strict=True)
@@ -204,4 +213,5 @@ def campbell(
         mac=np.hstack([family.mac for family in families]),
         crossings=tuple(crossings),
         planes=tuple(plane for plane in planes for _ in range(count)),
+        theory=theory,
     )

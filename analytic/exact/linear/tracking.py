@@ -14,6 +14,7 @@ from scipy import optimize
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
+from ...theory import Theory
 from ..space.modes import space_modes_on
 from ..space.steady import lives_in_space
 from .modes import LinearModes, Plane, flap_blade, linear_modes, modes_on
@@ -54,12 +55,15 @@ class Family(NamedTuple):
     crossings: list[Crossing]
 
 
-def family_of(beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Plane) -> Family:
+def family_of(
+    beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Plane, theory: Theory
+) -> Family:
     """Return the first modes of a family over the speeds, and where they meet the lines kω."""
     wanted = count + _SPARE_MODES * (plane != "torsion")  # whose modes keep their order
 
     def modes_at(omega: float) -> LinearModes:
-        return linear_modes(beam, omega, wanted, plane=plane, functions=max(20, 2 * wanted))
+        functions = max(20, 2 * wanted)
+        return linear_modes(beam, omega, wanted, plane=plane, theory=theory, functions=functions)
 
     bent, solved = flap_blade(beam) if plane == "flap" else beam, cast(Any, modes_on)
     if plane == "torsion" or lives_in_space(beam):
