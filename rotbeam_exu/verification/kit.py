@@ -16,8 +16,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from analytic import Beam
 from analytic.arrays import FloatArray
+from analytic.input_checks import finite_array
 
 from .cases import CASES, VERSION, Asked, Case, stated
 from .judgement import THRESHOLDS
@@ -123,7 +126,9 @@ def kit_files() -> dict[str, bytes]:
     texts = {"VERSION": f"{VERSION}\n", "cases.csv": _cases_csv(), "cases.json": _cases_json()}
     texts |= {f"drive_{case.name}.csv": _drive(case) for case in histories}
     texts |= {
-        f"start_{case.name}_{elements}.csv": _start(case, elements)
+        f"start_{case.name}_{elements}.csv": start_table(
+            case, np.linspace(0.0, case.blade.length, elements + 1)
+        )
         for case in histories
         if case.amplitudes
         for elements in MESHES
@@ -218,9 +223,35 @@ def _drive(case: Case) -> str:
     return _table(said, columns)
 
 
-def _start(case: Case, elements: int) -> str:
-    """Return an exact orbit at the nodes of a mesh, at phase 0."""
-    orbit, x = case.orbit, np.linspace(0.0, case.blade.length, elements + 1)
+def start_table(case: Case, places: ArrayLike) -> str:
+    """Return the exact orbit that a case starts on at phase 0, as the kit's start_O_<elements>.csv.
+
+    Parameters
+    ----------
+    case : Case
+        One that starts on an orbit, as `CASES["O"]`.
+    places : array_like (places,)
+        Distances from the clamp along the undeformed beam, in any order [m].
+
+    Returns
+    -------
+    str
+        Positions [m], angle [rad], slopes and the rates of all, in the frame that turns with the
+        clamp.
+
+    Raises
+    ------
+    ValueError
+        If the case starts at rest, or a place is beyond the beam.
+
+    Examples
+    --------
+    >>> from rotbeam_exu.verification.cases import CASES
+    >>> from rotbeam_exu.verification.kit import start_table
+    >>> print(start_table(CASES["O"], [0.0, 3.0, 8.0]).splitlines()[2][:10])
+    0,0,0,0,1,
+    """
+    orbit, x = case.orbit, finite_array("places", places)
     state = orbit.state(0, x)
     slope = 1.0 + state.u_slope + 1j * state.v_slope
     slope_dot = state.u_slope_dot + 1j * state.v_slope_dot
@@ -229,8 +260,8 @@ def _start(case: Case, elements: int) -> str:
     slopes = {"X_slope": slope.real, "Y_slope": slope.imag}
     slope_rates = {"X_slope_dot": slope_dot.real, "Y_slope_dot": slope_dot.imag}
     said = (
-        f"case {case.name}: the nodes of {elements} elements at t = 0, in the frame that turns "
-        f"with the clamp; m, rad, m/s, rad/s; slopes are derivatives to x"
+        f"case {case.name}: {x.size} places at t = 0, in the frame that turns with the clamp, as "
+        f"are all rates; m, rad, m/s, rad/s; slopes are derivatives to x"
     )
     return _table(said, positions | slopes | rates | slope_rates)
 
@@ -254,11 +285,17 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
 
 def problem_numbers() -> str:
     """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
-    case = CASES["S1"]
+    case, beam = CASES["S1"], Beam.reference()
     times = np.linspace(0.0, case.duration, 601)
     document = {
         "version": VERSION,
         "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
+        "material": {
+            "E": beam.youngs_modulus,
+            "rho": beam.density,
+            "A": beam.area,
+            "I": beam.second_moment,
+        },
         "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
         "farthest": FARTHEST,
         "digits": DIGITS,

@@ -156,6 +156,32 @@ def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
     assert fine["X_slope"] == pytest.approx(slopes, abs=1e-6)
 
 
+def test_starts_at_any_places_are_rows_of_the_files(folder):
+    """Quadratic elements, uneven meshes, and every second row of twice the elements."""
+    coarse, fine = (columns(folder / f"start_O_{mesh}.csv") for mesh in (8, 16))
+    assert all(coarse[name] == pytest.approx(fine[name][::2], abs=1e-12) for name in coarse)
+    rows = room.start_table(CASES["O"], [7.5, 0.5]).splitlines()[2:]
+    for row, k in zip(rows, (15, 1), strict=True):
+        found = [float(cell) for cell in row.split(",")]
+        assert found == pytest.approx([fine[name][k] for name in fine], abs=1e-12)
+    with pytest.raises(ValueError, match="x must lie on the beam"):
+        room.start_table(CASES["O"], [8.5])
+
+
+def test_the_tube_has_the_beam():
+    """The problem's formulas give A and I; EI and ρA of the table are E I and ρ A."""
+    beam, row = S1.blade, row_of(S1)
+    squared = beam.second_moment / beam.area
+    r = math.sqrt(squared + math.sqrt(squared**2 - (beam.area / math.pi) ** 2 / 16.0))
+    t = beam.area / (2.0 * math.pi * r)
+    outer, inner = r + 0.5 * t, r - 0.5 * t
+    assert math.pi * (outer**2 - inner**2) == pytest.approx(beam.area, rel=1e-12)
+    assert 0.25 * math.pi * (outer**4 - inner**4) == pytest.approx(beam.second_moment, rel=1e-12)
+    told = json.loads(room.problem_numbers())["material"]
+    assert told["E"] * told["I"] == pytest.approx(row["EI"], rel=1e-14)
+    assert told["rho"] * told["A"] == pytest.approx(row["rhoA"], rel=1e-14)
+
+
 def test_the_history_for_self_check_is_the_reference(folder):
     found = columns(folder / "reference_S1.csv")
     truth = reference(CASES["S1"])
