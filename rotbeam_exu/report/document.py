@@ -132,6 +132,7 @@ def _run(run: Run, found: Judgement) -> dict[str, Any]:
         "file": run.file,
         "elements": run.elements,
         "step": run.step,
+        "tolerance": run.tolerance,
         "dof": run.dof,
         "wall_s": run.wall,
         "cpu_s": run.cpu,

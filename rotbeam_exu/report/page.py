@@ -173,7 +173,16 @@ def _runs(record: Record) -> str:
     runs = [run for run in record.submission.runs if run.case in chosen]
     if not runs:
         return ""
-    header = ["file", "elements", "step [s]", "unknowns", "wall [s]", "CPU [s]", "what happened"]
+    header = [
+        "file",
+        "elements",
+        "step [s]",
+        "tolerance",
+        "unknowns",
+        "wall [s]",
+        "CPU [s]",
+        "what happened",
+    ]
     rows = [_run_row(run) for run in runs]
     # What the author told of no run is no column.
     told = [k for k in range(len(header)) if any(row[k] not in {"", "–"} for row in rows)]
@@ -188,8 +197,8 @@ def _run_row(run: Run) -> list[str]:
     happened = f"failed: {run.failure}" if run.failure else run.remark
     dof = str(run.dof) if run.dof else "–"
     return [
-        f"<code>{escape(run.file)}</code>", str(run.elements), f"{run.step:g}", dof,
-        told(run.wall), told(run.cpu), escape(happened),
+        f"<code>{escape(run.file)}</code>", str(run.elements), told(run.step), told(run.tolerance),
+        dof, told(run.wall), told(run.cpu), escape(happened),
     ]  # fmt: skip
 
 

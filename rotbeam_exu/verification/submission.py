@@ -73,8 +73,9 @@ class Run:
     case : str
         Name of the case.
     elements : int
-    step : float
-        Of the integration [s].
+    step, tolerance : float
+        Step of the integration [s], or the tolerance of one that chooses its steps; the other is
+        NaN.
     time, q : ndarray (samples,)
         [s], and q [m] of Eq. 16; empty of a run that failed.
     q_dot : ndarray (samples,), optional
@@ -92,7 +93,8 @@ class Run:
 
     case: str
     elements: int
-    step: float
+    step: float = math.nan
+    tolerance: float = math.nan
     time: FloatArray = field(repr=False)
     q: FloatArray = field(repr=False)
     q_dot: FloatArray | None = field(default=None, repr=False)
@@ -102,6 +104,26 @@ class Run:
     wall: float = math.nan
     cpu: float = math.nan
     remark: str = ""
+
+    @property
+    def is_adaptive(self) -> bool:
+        """Whether a tolerance stands for the step."""
+        return math.isnan(self.step)
+
+    @property
+    def refinement(self) -> float:
+        """The step [s] or the tolerance: what is made smaller."""
+        return self.tolerance if self.is_adaptive else self.step
+
+    @property
+    def fineness(self) -> tuple[int, float]:
+        """Grows with mesh and step: the finest mesh is last, on it the smallest step."""
+        return self.elements, -self.refinement
+
+    @property
+    def step_in_words(self) -> str:
+        """The step in ms, or the tolerance."""
+        return f"tol {self.tolerance:g}" if self.is_adaptive else f"{1e3 * self.step:g} ms"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

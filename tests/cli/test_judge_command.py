@@ -99,7 +99,7 @@ def test_a_terminal_obeys_no_author(call, folder, tmp_path):
     (folder / "entry.toml").write_text(entry, "utf-8")
     listed = (folder / "runs.csv").read_text("utf-8").splitlines()
     rows = [f"{row}{HOSTILE}" if n else row for n, row in enumerate(listed)]
-    rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,{HOSTILE},")
+    rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,,{HOSTILE},")
     (folder / "runs.csv").write_text("\n".join(rows), "utf-8")
     code, out, err = call("judge", folder)
     assert code in (0, 1), err

@@ -1,5 +1,6 @@
 """What is judged from files is what is judged through Python, to the last digit."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -55,6 +56,22 @@ def test_kratos(tmp_path, monkeypatch):
     monkeypatch.setitem(CASES, "S1", case)
     found = the_same(submission, tmp_path)
     assert found.histories["S1"].finest.elements == 16
+
+
+def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):
+    """Those of a step control that are as long as the steps have the same limits and orders."""
+    fixed = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+    runs = [replace(run, step=math.nan, tolerance=run.step) for run in fixed.runs]
+    found = the_same(replace(fixed, runs=tuple(runs)), tmp_path)
+    assert {path.name[:6] for path in (tmp_path / "S1").iterdir()} == {"m008_t", "m016_t", "m032_t"}
+    for key, finding in judged(fixed).by_quantity.items():
+        mine = found.by_quantity[key]
+        assert mine.outcome is finding.outcome
+        assert (mine.runs.limit, mine.runs.bar) == (finding.runs.limit, finding.runs.bar)
+        assert mine.runs.orders["step"].value == finding.runs.orders["step"].value
+    coarse = [run for run in runs if run.tolerance == runs[0].tolerance]
+    note = judged(replace(fixed, runs=tuple(coarse))).findings["S1"]["history"].note
+    assert note.startswith("with one tolerance its error is in the difference")
 
 
 def test_steps_that_do_not_end_with_the_case(made_of_the_exact_answer, tmp_path):

@@ -200,6 +200,13 @@ FAULTS = [
     ("runs.csv", lambda text: text.replace("csv,8,", "csv,9,"), "the file's name says 8"),
     ("runs.csv", lambda text: text.replace("csv,8,0.001", "csv,8,1"), "the file's name says 0.001"),
     ("runs.csv", lambda text: text.replace("csv,8,", "csv,8.5,"), "must be a whole number"),
+    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,,1e-3,"), "there must be a step and no"),
+    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,1e-3,1e-6,"), "a step and no tolerance"),
+    (
+        "runs.csv",
+        lambda text: text.replace("S1/m008_h1e-3.csv,8,0.001,", "S1/m008_t1e-6.csv,8,,1e-6"),
+        "a step stands beside a tolerance of S1",
+    ),
     ("runs.csv", lambda text: text + text.split("\n")[1], "stand in line 2: keep one"),
     ("L.csv", lambda text: text.replace("8,0.0,", "8,5.0,"), ":2: speed 5 is not asked for: hand"),
     ("L.csv", lambda text: text.replace("2.90928123456", "2.909"), "written to 4 digits"),

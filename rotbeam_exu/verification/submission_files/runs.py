@@ -43,13 +43,16 @@ HISTORY = (
     Column("q_dot", unit="m/s", needed=False, measured=True),
 )
 _SLACK = 1e-6
-_NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
-"""Name of a history's file: elements, and step [s]."""
+_NAME = re.compile(
+    r"m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
+)
+"""Name of a history's file: elements, and step [s] or tolerance."""
 
 _ROUNDED = 1e-2
-"""Relative distance of a step from the step in the name of its file."""
+"""Relative distance of a step or tolerance from that in the name of its file."""
 
 _positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
+_tolerance = bounded(lambda value: 0.0 < value < 1.0, "must be between 0 and 1, got {}")
 _cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
 
 
@@ -61,13 +64,15 @@ def _history(_: str, cell: str) -> str:
         among = f"known are {', '.join(known)}"
         raise ValueError(f"{shown(case)} is no case with a history; {among}")
     if not _NAME.fullmatch(name):
-        raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
+        remedy = f"write {case}/m032_h1e-3.csv, or _t1e-6 of a tolerance"
+        raise ValueError(f"{shown(cell)} is no name of a history: {remedy}")
     return cell
 
 
 COLUMNS = (
     Column("file", _history), Column("elements", whole),
-    Column("step", _positive, "s"), Column("dof", whole, needed=False),
+    Column("step", _positive, "s", needed=False), Column("tolerance", _tolerance, needed=False),
+    Column("dof", whole, needed=False),
     Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
     FAILURE, Column("remark", text, needed=False),
 )  # fmt: skip
@@ -75,10 +80,10 @@ COLUMNS = (
 
 def file_of(run: Run) -> str:
     """Return the name of a history's file below the folder, as S1/m032_h1e-3.csv."""
-    _, digits, exponent = Decimal(repr(run.step)).normalize().as_tuple()
+    _, digits, exponent = Decimal(repr(run.refinement)).normalize().as_tuple()
     first, *rest = map(str, digits)
     mantissa, power = f"{first}{'.' if rest else ''}{''.join(rest)}", int(exponent) + len(rest)
-    return f"{run.case}/m{run.elements:03d}_h{mantissa}e{power}.csv"
+    return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{mantissa}e{power}.csv"
 
 
 def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
@@ -110,18 +115,24 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     """Yield the rows of runs.csv that are right by themselves, with their case."""
     sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
+    first: dict[str, str] = {}
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         case, _, name = row["file"].partition("/")
-        elements, step = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        elements, kind, size = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        of, other = ("step", "tolerance") if kind == "h" else ("tolerance", "step")
         wrong = []
         if row["elements"] != int(elements):
             wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
-        if abs(row["step"] - float(step)) > _ROUNDED * float(step):
-            wrong.append(f"step is {cells['step']} s, the file's name says {float(step):g} s")
+        if of not in row or other in row:
+            wrong.append(f"there must be a {of} and no {other}, as the file's name says")
+        elif abs(row[of] - float(size)) > _ROUNDED * float(size):
+            wrong.append(f"{of} is {cells[of]}, the file's name says {float(size):g}")
+        elif first.setdefault(case, of) != of:
+            wrong.append(f"a {of} stands beside a {other} of {case}, which no fit takes together")
         wrong = [f"{said}: correct one of them" for said in wrong]
-        place = case, row["elements"], row["step"]
+        place = case, row["elements"], row.get(of, 0.0)
         if not wrong and seen.setdefault(place, line) != line:
-            wrong = [f"the same case, mesh and step stand in line {seen[place]}: keep one"]
+            wrong = [f"the same case, mesh and {of} stand in line {seen[place]}: keep one"]
         if not faults.extend(FILE, [(said, line) for said in wrong]):
             yield row | {"case": case}
 
