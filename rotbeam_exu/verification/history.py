@@ -80,7 +80,9 @@ class Histories:
 
     def deflection(self, tolerance: float) -> Finding:
         """Return the finding of q(t) itself, over max|q|."""
-        runs = self._limit(self.aligned, HISTORY_FLOOR)
+        # Amplitude and frequency have few digits in the estimator's own errors already.
+        noise = [HISTORY_FLOOR + run.rounding / self.scale for run in self.aligned]
+        runs = self._limit(self.aligned, noise)
         return self._found(runs, tolerance, self.reference.bound)
 
     @cached_property
@@ -156,7 +158,7 @@ class Histories:
         )
         return self._found(runs, tolerance, bound / abs(scale), of_what)
 
-    def _limit(self, of: Mapping[Run, FloatArray], noise: float | Sequence[float]) -> Convergence:
+    def _limit(self, of: Mapping[Run, FloatArray], noise: Sequence[float]) -> Convergence:
         return converged(
             [run.elements for run in of], [run.refinement for run in of], list(of.values()),
             refined="tolerance" if self.finest.is_adaptive else "step", noise=noise,

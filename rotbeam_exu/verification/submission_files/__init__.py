@@ -17,12 +17,14 @@ from . import entry, runs
 from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError, near, printable
 from .tables import (
-    DIGITS,
     FAILURE,
+    LEAST_DIGITS,
+    TOO_FEW,
     Column,
     asked,
     bounded,
     digits,
+    rounding,
     rows_of,
     sheet_of,
     whole,
@@ -176,7 +178,7 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
     """Return the rows of a case's table by field; rows with a failure have no frequency."""
     sheet = sheet_of(folder, file, _columns(case), faults)
     found: dict[tuple[float, ...], dict[str, Any]] = {}
-    most = []
+    most = [0]
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         place = row["elements"], row["speed"], row.get("amplitude", 0.0)
         if place in found:
@@ -184,9 +186,11 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
             continue
         found[place] = row
         most += [digits(cells["frequency"])] if "frequency" in row else []
-    if most and max(most) < DIGITS:
-        said = f"frequencies are written to {max(most)} digits, {DIGITS} are needed: write %.10g"
-        faults.add(file, said)
+    measured = [row for row in found.values() if "frequency" in row]
+    if measured and max(most) < LEAST_DIGITS:
+        faults.add(file, f"frequencies are written to {max(most)} {TOO_FEW}")
+    for row in measured:
+        row["rounding"] = rounding(max(most), row["frequency"])
     return list(found.values())
 
 

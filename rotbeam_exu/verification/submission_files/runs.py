@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -20,10 +21,13 @@ from .faults import Faults, printable, several, shown
 from .tables import (
     DIGITS,
     FAILURE,
+    LEAST_DIGITS,
+    TOO_FEW,
     Column,
     Sheet,
     bounded,
     digits,
+    rounding,
     rows_of,
     sheet_of,
     text,
@@ -98,9 +102,11 @@ def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
         return ()
     found, listed = [], list(_listed(root, faults))
     for row in listed:
-        samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
+        samples: dict[str, Any] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
-            samples = history_of(root, row["file"], CASES[row["case"]], faults)
+            samples = history_of(
+                root, row["file"], CASES[row["case"]], row.get("step", math.nan), faults
+            )
         if samples is not None:
             found.append(Run(**(row | samples)))
     if not faults.of(FILE):
@@ -137,19 +143,31 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
             yield row | {"case": case}
 
 
-def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str, FloatArray] | None:
-    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong."""
+def history_of(
+    folder: Path, file: str, case: Case, step: float, faults: Faults
+) -> dict[str, Any] | None:
+    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong.
+
+    Also the error of their last digits. `step` is NaN where it is not known.
+    """
     sheet = sheet_of(folder, file, HISTORY, faults)
     numbers = None if sheet is None else _numbers(sheet, faults)
     if sheet is None or numbers is None:
         return None
     columns = {column.name: one for column, one in zip(sheet.columns, numbers.T, strict=True)}
     with np.errstate(over="ignore", invalid="ignore"):
-        unfit = _few_digits(sheet, columns) + _unfit(columns["time"], columns["q"], case)
+        most = _digits(sheet, columns)
+        unfit: list[tuple[str, int | None]] = [
+            (f"column {name!r} is written to {count} {TOO_FEW}", None)
+            for name, count in most.items()
+            if count < LEAST_DIGITS
+        ]
+        unfit += _unfit(columns["time"], columns["q"], case)
     if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
         return None
     within = columns["time"] <= case.duration
-    return {name: values[within] for name, values in columns.items()}
+    off = _rounding(columns, most, step)
+    return {name: values[within] for name, values in columns.items()} | {"rounding": off}
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
@@ -198,9 +216,23 @@ def _unfit(time: FloatArray, q: FloatArray, case: Case) -> list[tuple[str, int |
     return found
 
 
-def _few_digits(sheet: Sheet, columns: dict[str, FloatArray]) -> list[tuple[str, int | None]]:
-    """Return which columns are written to too few digits, and to how many."""
-    found: list[tuple[str, int | None]] = []
+def _rounding(columns: dict[str, FloatArray], most: dict[str, int], step: float) -> float:
+    """Return the error of q that the last digits of time and q leave [m].
+
+    A time is exact, however short, that is a whole number of steps with all their decimals.
+    """
+    time, q = columns["time"], columns["q"]
+    late = rounding(most["time"], float(time[-1]))
+    whole_steps = np.abs(time / step - np.rint(time / step)) < _SLACK
+    if late <= (0.5 + _SLACK) * step and whole_steps.all():
+        late = 0.0
+    fastest = float(np.abs(np.gradient(q, time)).max()) if late else 0.0
+    return rounding(most["q"], float(np.abs(q).max())) + late * fastest
+
+
+def _digits(sheet: Sheet, columns: dict[str, FloatArray]) -> dict[str, int]:
+    """Return to how many digits columns are written; DIGITS stands for more, and for exact ones."""
+    found = dict.fromkeys(columns, DIGITS)
     for number, (name, values) in enumerate(columns.items()):
         gaps = np.diff(values)
         if gaps.size and np.ptp(gaps) <= 1e-9 * np.abs(values).max():
@@ -210,7 +242,5 @@ def _few_digits(sheet: Sheet, columns: dict[str, FloatArray]) -> list[tuple[str,
             most = max(most, digits(row.split(",")[number]))
             if most >= DIGITS:
                 break
-        else:
-            said = f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g"
-            found.append((said, None))
+        found[name] = min(most, DIGITS)
     return found
