@@ -43,7 +43,7 @@ def report_page(record: Record) -> str:
         benchmark=VERSION,
         date=f"{record.date:%d %B %Y, %H:%M} UTC",
         outcome=escape(found.outcome),
-        mistakes=_mistakes(record),
+        mistakes=_mistakes(record) + _faults(record),
         about=_about(record),
         outcomes=_outcomes(record),
         cases="\n".join(_case(name, record) for name in found.findings),
@@ -75,6 +75,16 @@ def _mistakes(record: Record) -> str:
         f"<li><b>{escape(one.case)}</b>: {escape(str(one))}</li>" for one in record.mistakes
     )
     return f'<section class="mistakes"><h2>A usual mistake?</h2><ul>{items}</ul></section>'
+
+
+def _faults(record: Record) -> str:
+    if not record.faults:
+        return ""
+    rows = [
+        [f"<code>{escape(one.file)}</code>", str(one.line or "–"), escape(one.said)]
+        for one in record.faults
+    ]
+    return f"<h2>Not judged</h2>{_table(['file', 'line', 'fault'], rows)}"
 
 
 def _about(record: Record) -> str:

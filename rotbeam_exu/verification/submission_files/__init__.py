@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -50,7 +51,7 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     Raises
     ------
     MalformedSubmissionError
-        With all faults of all files.
+        With all faults of all files, and what is right besides.
     FileNotFoundError
         If there is no such folder.
 
@@ -77,17 +78,21 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     _strangers(root, faults)
     frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
     backbone = [row for row in backbone if "failure" not in row]
-    if not faults and not (frequencies or backbone or histories):
+    some = bool(frequencies or backbone or histories)
+    if not (faults or some):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
         faults.add(entry.FILE, said)
-    if faults or declaration is None:
+    if declaration is None:
         raise MalformedSubmissionError(faults.told())
-    return Submission(
+    made = Submission(
         declaration=declaration,
         frequencies=tuple(Frequency(**row) for row in frequencies),
         backbone=tuple(BackbonePoint(**row) for row in backbone),
         runs=histories,
     )
+    if faults:
+        raise MalformedSubmissionError(faults.told(), made if some else None)
+    return made
 
 
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
@@ -154,11 +159,11 @@ def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str,
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
     root = Path(folder)
     files = [entry.FILE, *_tables(), runs.FILE, *(run.file for run in submission.runs)]
-    return {
-        file: hashlib.sha256(content_of(root, file)).hexdigest()
-        for file in files
-        if (root / file).is_file()
-    }
+    found = {}
+    for file in files:
+        with suppress(OSError, ValueError):  # not there, or told as a fault
+            found[file] = hashlib.sha256(content_of(root, file)).hexdigest()
+    return found
 
 
 def _tables() -> dict[str, Case]:
@@ -189,6 +194,7 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
     measured = [row for row in found.values() if "frequency" in row]
     if measured and max(most) < LEAST_DIGITS:
         faults.add(file, f"frequencies are written to {max(most)} {TOO_FEW}")
+        return []
     for row in measured:
         row["rounding"] = rounding(max(most), row["frequency"])
     return list(found.values())
