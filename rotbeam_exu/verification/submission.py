@@ -55,7 +55,7 @@ class Frequency:
     speed: float
     frequency: float = math.nan
     failure: str = ""
-    rounding: float = 0.0
+    rounding: float = field(default=0.0, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +66,7 @@ class BackbonePoint:
     speed: float
     amplitude: float
     frequency: float
-    rounding: float = 0.0
+    rounding: float = field(default=0.0, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -111,7 +111,7 @@ class Run:
     wall: float = math.nan
     cpu: float = math.nan
     remark: str = ""
-    rounding: float = 0.0
+    rounding: float = field(default=0.0, repr=False)
 
     @property
     def is_adaptive(self) -> bool:
