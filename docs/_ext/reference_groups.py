@@ -106,7 +106,6 @@ GROUPS = (
         rotbeam_exu__verification__verify="verify",
         rotbeam_exu__verification__entries="formulation_entry",
         rotbeam_exu__verification__judgement="judged",
-        rotbeam_exu__verification__kit="start_table",
         rotbeam_exu__verification__submission_files="read_submission write_submission",
     ),
     _group("Warnings", "Valid input that is probably not intended.", analytic="RotbeamWarning"),

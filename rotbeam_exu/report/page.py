@@ -184,15 +184,9 @@ def _runs(record: Record) -> str:
     if not runs:
         return ""
     header = [
-        "file",
-        "elements",
-        "step [s]",
-        "tolerance",
-        "unknowns",
-        "wall [s]",
-        "CPU [s]",
+        "file", "elements", "step [s]", "tolerance", "unknowns", "wall [s]", "CPU [s]",
         "what happened",
-    ]
+    ]  # fmt: skip
     rows = [_run_row(run) for run in runs]
     # What the author told of no run is no column.
     told = [k for k in range(len(header)) if any(row[k] not in {"", "–"} for row in rows)]

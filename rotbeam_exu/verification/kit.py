@@ -132,32 +132,10 @@ def _drive(case: Case) -> str:
 
 
 def start_table(case: Case, places: ArrayLike) -> str:
-    """Return the exact orbit that a case starts on at phase 0, as the kit's start_O_<elements>.csv.
+    """Return the orbit that a case starts on, at phase 0, as a table in SI units and radians.
 
-    Parameters
-    ----------
-    case : Case
-        One that starts on an orbit, as `CASES["O"]`.
-    places : array_like (places,)
-        Distances from the clamp along the undeformed beam, in any order [m].
-
-    Returns
-    -------
-    str
-        Positions [m], angle [rad], slopes and the rates of all, in the frame that turns with the
-        clamp.
-
-    Raises
-    ------
-    ValueError
-        If the case starts at rest, or a place is beyond the beam.
-
-    Examples
-    --------
-    >>> from rotbeam_exu.verification.cases import CASES
-    >>> from rotbeam_exu.verification.kit import start_table
-    >>> print(start_table(CASES["O"], [0.0, 3.0]).splitlines()[1])
-    x,X,Y,angle,X_slope,Y_slope,X_dot,Y_dot,angle_dot,X_slope_dot,Y_slope_dot
+    Its rows are at places (rows,) along the undeformed beam [m], seen from the turning frame;
+    ValueError for places beyond the beam, and for cases that start at rest.
     """
     orbit, x = case.orbit, finite_array("places", places)
     state = orbit.state(0, x)
@@ -194,16 +172,12 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
 def problem_numbers() -> str:
     """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
     case, beam = CASES["S1"], Beam.reference()
+    material = beam.youngs_modulus, beam.density, beam.area, beam.second_moment
     times = np.linspace(0.0, case.duration, 601)
     document = {
         "version": VERSION,
         "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
-        "material": {
-            "E": beam.youngs_modulus,
-            "rho": beam.density,
-            "A": beam.area,
-            "I": beam.second_moment,
-        },
+        "material": dict(zip(("E", "rho", "A", "I"), material, strict=True)),
         "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
         "farthest": FARTHEST,
         "digits": DIGITS,

@@ -41,7 +41,6 @@ BEYOND = {
     "rotbeam_exu.fem.picture", "rotbeam_exu.files.beam_file",
     "rotbeam_exu.runs.growth", "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
-    "rotbeam_exu.verification.kit",
     "rotbeam_exu.verification.submission_files", "rotbeam_exu.verification.verify",
 }  # fmt: skip
 """Modules from which users import as well."""
