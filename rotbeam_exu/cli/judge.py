@@ -14,7 +14,7 @@ from ..verification.cases import VERSION
 from ..verification.judgement import judged
 from ..verification.mistakes import Mistake, mistakes_in
 from ..verification.submission_files import digests, read_submission
-from ..verification.submission_files.faults import MalformedSubmissionError
+from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable
 from .output import print_note, print_text, print_written
 from .verify import print_judgements
@@ -30,7 +30,7 @@ def judge(
     """Judge the result files of any code by their limits.
 
     Exit code 0: all that was handed in is decided and right; 1: something differs; 2: files are
-    malformed, and all their faults are printed; 3: something is undecided.
+    malformed, all their faults are printed, and the others are judged; 3: something is undecided.
 
     Parameters
     ----------
@@ -48,14 +48,19 @@ def judge(
     for target, ending, ours in ((report, ".html", TITLE), (json, ".json", SCHEMA)):
         if target is not None:
             require_writable(target, ours=ours, ending=ending)
+    faults: tuple[Fault, ...] = ()
     try:
         submission = read_submission(folder)
     except MalformedSubmissionError as error:
-        for fault in error.faults:
+        faults = error.faults
+        for fault in faults:
             print_text(str(fault), stderr=True)
-        many = f"{len(error.faults)} fault{'s' * (len(error.faults) > 1)}"
-        print_text(f"{many}: nothing was judged", stderr=True)
-        sys.exit(2)
+        judged_is = "nothing is" if error.rest is None else "only the rest is"
+        many = f"{len(faults)} fault{'s' * (len(faults) > 1)}"
+        print_text(f"{many}: {judged_is} judged", stderr=True)
+        if error.rest is None:
+            sys.exit(2)
+        submission = error.rest
     found = judged(submission)
     mistakes = mistakes_in(submission, found)
     _print_mistakes(mistakes)
@@ -64,13 +69,13 @@ def judge(
         print_note(f"reference: {source}")
     record = Record(
         submission=submission, judgement=found, mistakes=tuple(mistakes),
-        digests=digests(folder, submission),
+        digests=digests(folder, submission), faults=faults,
     )  # fmt: skip
     if report is not None:
         _write(report_page(record), report)
     if json is not None:
         _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
-    sys.exit({True: 0, False: 1, None: 3}[found.passed])
+    sys.exit(2 if faults else {True: 0, False: 1, None: 3}[found.passed])
 
 
 def _write(text: str, target: Path) -> None:

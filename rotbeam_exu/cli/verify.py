@@ -170,7 +170,7 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "code": [one.declaration.code for one in found],
             "theory": [one.declaration.theory.name for one in found],
             "mesh": [_finest(one, lambda run: str(run.elements)) for one in found],
-            "h [ms]": [_finest(one, lambda run: f"{1e3 * run.step:g}") for one in found],
+            "h": [_finest(one, lambda run: run.step_in_words) for one in found],
             "order l": [_order(one, "mesh") for one in found],
             "order h": [_order(one, "step") for one in found],
             "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],

@@ -49,8 +49,10 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
         _draw_errors(axes[0], drawn, declared.order)
         axes[0].set(xlabel="elements", ylabel="error of the mesh")
         if steps:
+            refined = next(iter(drawn.values())).refined
             _draw_errors(axes[1], drawn, declared.order_in_step, in_step=True)
-            axes[1].set(xlabel="step [ms]", ylabel="error of the step")
+            unit = " [ms]" * (refined == "step")
+            axes[1].set(xlabel=f"{refined}{unit}", ylabel=f"error of the {refined}")
         if histories and timed:
             _draw_cost(axes[-1], histories)
         machine = declared.machine or "the author's machine"
@@ -100,12 +102,12 @@ def _history(histories: Histories) -> Axes:
 
 
 def _name(run: Run) -> str:
-    return f"{run.elements} × {1e3 * run.step:g} ms"
+    return f"{run.elements} × {run.step_in_words}"
 
 
 def _colors(histories: Histories) -> dict[Run, Any]:
     """Return a color for each run, from light to dark, the finest last."""
-    runs = sorted(histories.runs, key=lambda run: (run.elements, -run.step))
+    runs = sorted(histories.runs, key=lambda run: run.fineness)
     shades = np.linspace(0.3, 1.0, len(runs))
     return dict(zip(runs, map(mpl.colormaps["viridis_r"], shades), strict=True))
 
@@ -115,9 +117,10 @@ def _draw_errors(
 ) -> None:
     """Draw the errors of meshes or steps with the limit's bar, and the declared order above."""
     top, places = 0.0, np.empty(0)
+    scale = 1e3 if next(iter(found.values())).refined == "step" else 1.0
     for (quantity, runs), color, marker in zip(found.items(), cycle(), _MARKERS, strict=False):
         sizes, parts = (
-            (1e3 * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
+            (scale * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
         )
         places, first = np.unique(sizes, return_index=True)
         errors = np.maximum(np.abs(parts[first]), 1e-16)

@@ -18,6 +18,7 @@ from ..verification.judgement import Judgement
 from ..verification.mistakes import Mistake
 from ..verification.outcomes import Finding
 from ..verification.submission import Run, Submission
+from ..verification.submission_files.faults import Fault
 
 SCHEMA = "rotbeam judgement 2"
 """Its number grows where a key goes, or means something else."""
@@ -41,6 +42,8 @@ class Record:
     mistakes : tuple of Mistake
     digests : mapping
         SHA-256 by file.
+    faults : tuple of Fault
+        Of files that are not judged.
     date : datetime
         Of the judgement.
     versions : mapping
@@ -51,6 +54,7 @@ class Record:
     judgement: Judgement
     mistakes: tuple[Mistake, ...] = ()
     digests: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    faults: tuple[Fault, ...] = ()
     date: datetime = dataclasses.field(default_factory=lambda: datetime.now(UTC))
     versions: Mapping[str, str] = dataclasses.field(default_factory=_versions)
 
@@ -74,6 +78,7 @@ def document(record: Record) -> dict[str, Any]:
             "outcome": found.outcome,
             "passed": found.passed,
             "mistakes": [dataclasses.asdict(one) for one in record.mistakes],
+            "faults": [dataclasses.asdict(one) for one in record.faults],
             "cases": {name: _case(name, record) for name in found.findings},
             "files": dict(record.digests),
         }
@@ -132,6 +137,7 @@ def _run(run: Run, found: Judgement) -> dict[str, Any]:
         "file": run.file,
         "elements": run.elements,
         "step": run.step,
+        "tolerance": run.tolerance,
         "dof": run.dof,
         "wall_s": run.wall,
         "cpu_s": run.cpu,

@@ -43,7 +43,7 @@ def report_page(record: Record) -> str:
         benchmark=VERSION,
         date=f"{record.date:%d %B %Y, %H:%M} UTC",
         outcome=escape(found.outcome),
-        mistakes=_mistakes(record),
+        mistakes=_mistakes(record) + _faults(record),
         about=_about(record),
         outcomes=_outcomes(record),
         cases="\n".join(_case(name, record) for name in found.findings),
@@ -75,6 +75,16 @@ def _mistakes(record: Record) -> str:
         f"<li><b>{escape(one.case)}</b>: {escape(str(one))}</li>" for one in record.mistakes
     )
     return f'<section class="mistakes"><h2>A usual mistake?</h2><ul>{items}</ul></section>'
+
+
+def _faults(record: Record) -> str:
+    if not record.faults:
+        return ""
+    rows = [
+        [f"<code>{escape(one.file)}</code>", str(one.line or "–"), escape(one.said)]
+        for one in record.faults
+    ]
+    return f"<h2>Not judged</h2>{_table(['file', 'line', 'fault'], rows)}"
 
 
 def _about(record: Record) -> str:
@@ -173,7 +183,10 @@ def _runs(record: Record) -> str:
     runs = [run for run in record.submission.runs if run.case in chosen]
     if not runs:
         return ""
-    header = ["file", "elements", "step [s]", "unknowns", "wall [s]", "CPU [s]", "what happened"]
+    header = [
+        "file", "elements", "step [s]", "tolerance", "unknowns", "wall [s]", "CPU [s]",
+        "what happened",
+    ]  # fmt: skip
     rows = [_run_row(run) for run in runs]
     # What the author told of no run is no column.
     told = [k for k in range(len(header)) if any(row[k] not in {"", "–"} for row in rows)]
@@ -188,8 +201,8 @@ def _run_row(run: Run) -> list[str]:
     happened = f"failed: {run.failure}" if run.failure else run.remark
     dof = str(run.dof) if run.dof else "–"
     return [
-        f"<code>{escape(run.file)}</code>", str(run.elements), f"{run.step:g}", dof,
-        told(run.wall), told(run.cpu), escape(happened),
+        f"<code>{escape(run.file)}</code>", str(run.elements), told(run.step), told(run.tolerance),
+        dof, told(run.wall), told(run.cpu), escape(happened),
     ]  # fmt: skip
 
 

@@ -76,6 +76,8 @@ class Convergence:
         By "mesh", and "step" if there are several, the `Order` as observed.
     growths : int
         How often in a row changes grow from one mesh or step to the next.
+    refined : str
+        "step" or "tolerance", as steps are called.
     """
 
     elements: FloatArray = field(repr=False)
@@ -90,6 +92,7 @@ class Convergence:
     powers: tuple[float, float]
     orders: dict[str, Order]
     growths: int = 0
+    refined: str = "step"
 
 
 def converged(
@@ -99,6 +102,7 @@ def converged(
     *,
     noise: float | Sequence[float] = 0.0,
     declared: Declared = (None, None),
+    refined: str = "step",
 ) -> Convergence:
     """Fit all runs of one quantity, and return its limit with a bar that covers.
 
@@ -106,13 +110,15 @@ def converged(
     ----------
     elements : sequence (runs,)
     steps : sequence (runs,), optional
-        In any unit; none of what is not integrated in time.
+        In any unit, or tolerances; none of what is not integrated in time.
     values : array_like (runs,) or (runs, samples)
         Numbers, or functions at the same samples.
     noise : float or sequence (runs,)
         Largest error of the measurement itself, in the unit of the values.
     declared : tuple of float, optional
         Orders in mesh and step that the author declares.
+    refined : str, optional
+        "step" or "tolerance", as `steps` are called.
 
     Raises
     ------
@@ -128,7 +134,13 @@ def converged(
     finest_last = np.lexsort((-h, n))
     n, h, f = n[finest_last], h[finest_last], f[finest_last].reshape(n.size, -1)
     bars = np.broadcast_to(finite_array("noise", noise), n.shape)[finest_last]
-    made: dict[str, Any] = {"elements": n, "steps": h, "noise": bars, "values": _of_rows(f)}
+    made: dict[str, Any] = {
+        "elements": n,
+        "steps": h,
+        "noise": bars,
+        "values": _of_rows(f),
+        "refined": refined,
+    }
     if np.unique(n).size == 1:
         none = np.full(n.size, math.nan)
         why = Order(declared=declared[0], why="one mesh, three are needed")
@@ -152,7 +164,8 @@ def converged(
         **made, errors=_of_rows(f - limit), in_mesh=_of_rows(mesh),
         in_step=_of_rows(step), limit=float(_of_rows(limit[None])[0]), bar=bar,
         powers=(float(best.given[0][0]), float(best.given[1][0])),
-        orders=_orders(models, evidence, best, n, h, moved, bars), growths=_growths(n, h, f, bars),
+        orders=_orders(models, evidence, best, n, h, moved, bars, refined),
+        growths=_growths(n, h, f, bars),
     )  # fmt: skip
 
 
@@ -163,7 +176,7 @@ def _of_rows(f: FloatArray) -> FloatArray:
 
 def _orders(
     models: Models, evidence: FloatArray, best: Models, n: FloatArray, h: FloatArray,
-    moved: FloatArray, noise: FloatArray,
+    moved: FloatArray, noise: FloatArray, refined: str,
 ) -> dict[str, Order]:  # fmt: skip
     """Return the orders as observed, whatever was declared."""
     seen = float(np.abs(moved).max()) > 4.0 * float(noise.max())
@@ -182,7 +195,7 @@ def _orders(
         if not seen:
             why = "the changes are below the floor"
         if count < 3:
-            why = f"{count} {'meshes' if name == 'mesh' else 'steps'}, three are needed"
+            why = f"{count} {'meshes' if name == 'mesh' else refined + 's'}, three are needed"
         told = {} if why else {"value": value, "bar": bar}
         found[name] = Order(declared=stated, why=why, **told)
     return found

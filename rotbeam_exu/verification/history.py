@@ -80,7 +80,9 @@ class Histories:
 
     def deflection(self, tolerance: float) -> Finding:
         """Return the finding of q(t) itself, over max|q|."""
-        runs = self._limit(self.aligned, HISTORY_FLOOR)
+        # Amplitude and frequency have few digits in the estimator's own errors already.
+        noise = [HISTORY_FLOOR + run.rounding / self.scale for run in self.aligned]
+        runs = self._limit(self.aligned, noise)
         return self._found(runs, tolerance, self.reference.bound)
 
     @cached_property
@@ -120,7 +122,7 @@ class Histories:
         # A limit that is known less well than it is off mends nothing.
         off, doubt = mending(linear)
         known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
-        runs = sorted(known, key=lambda run: (run.elements, -run.step))
+        runs = sorted(known, key=lambda run: run.fineness)
         try:
             true = self.reference.frequencies_at([known[run].amplitude for run in runs])
             first = self.reference.first_frequency(speed)
@@ -156,10 +158,11 @@ class Histories:
         )
         return self._found(runs, tolerance, bound / abs(scale), of_what)
 
-    def _limit(self, of: Mapping[Run, FloatArray], noise: float | Sequence[float]) -> Convergence:
+    def _limit(self, of: Mapping[Run, FloatArray], noise: Sequence[float]) -> Convergence:
         return converged(
-            [run.elements for run in of], [run.step for run in of], list(of.values()),
-            noise=noise, declared=(self.declaration.order, self.declaration.order_in_step),
+            [run.elements for run in of], [run.refinement for run in of], list(of.values()),
+            refined="tolerance" if self.finest.is_adaptive else "step", noise=noise,
+            declared=(self.declaration.order, self.declaration.order_in_step),
         )  # fmt: skip
 
     def _found(
@@ -180,7 +183,7 @@ class Histories:
 
 def finest_of(runs: Sequence[Run]) -> Run:
     """Return the run of the finest mesh, at its smallest step."""
-    return max(runs, key=lambda run: (run.elements, -run.step))
+    return max(runs, key=lambda run: run.fineness)
 
 
 def mending(linear: Convergence | None) -> tuple[float, float]:
@@ -198,7 +201,7 @@ def judged_apart(runs: Sequence[Run], truth: Reference) -> tuple[list[Run], list
     """
     kept: list[Run] = []
     others: dict[str, list[str]] = {}
-    for run in sorted(runs, key=lambda run: (run.elements, -run.step)):
+    for run in sorted(runs, key=lambda run: run.fineness):
         reason = _reason(run, kept, truth)
         if reason:
             others.setdefault(reason, []).append(_name(run))
@@ -211,7 +214,7 @@ def _reason(run: Run, kept: Sequence[Run], truth: Reference) -> str:
     """Return why a run is not judged beside those kept; nothing of one that is."""
     if run.failure:
         return f"failed, {run.failure}"
-    if any((one.elements, one.step) == (run.elements, run.step) for one in kept):
+    if any(one.fineness == run.fineness for one in kept):
         return "handed in twice"
     true = truth.history(run.time)
     off = float(np.abs(run.q - true).max() / np.abs(true).max())
@@ -224,4 +227,4 @@ def _reason(run: Run, kept: Sequence[Run], truth: Reference) -> str:
 
 
 def _name(run: Run) -> str:
-    return f"{run.elements} elements at {1e3 * run.step:g} ms"
+    return f"{run.elements} elements at {run.step_in_words}"

@@ -238,7 +238,8 @@ def _linear_frequency(
         values = [one.frequency / true - 1.0 for one in done]
         declared = submission.declaration.order, None
         elements = [one.elements for one in done]
-        runs = converged(elements, None, values, noise=FLOOR, declared=declared)
+        noise = [FLOOR + one.rounding / true for one in done]
+        runs = converged(elements, None, values, noise=noise, declared=declared)
         where = f"at {speed:g} rad/s"
         return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
 
@@ -273,7 +274,10 @@ def _backbone(
             continue
         off, doubt = mending(linear.get(speed))
         values = [(point.frequency / true - 1.0 - off) / shift for point in points]
-        runs = converged([one.elements for one in points], None, values, declared=declared)
+        runs = converged(
+            [one.elements for one in points], None, values, declared=declared,
+            noise=[point.rounding / abs(true * shift) for point in points],
+        )  # fmt: skip
         bound = (reference.bound + doubt) / abs(shift)
         found.append(found_of(runs, tolerance=tolerance, bound=bound, where=where))
     return worst_of(found)

@@ -10,16 +10,19 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, is_dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from analytic import Beam
 from analytic.arrays import FloatArray
+from analytic.input_checks import finite_array
 
-from .cases import CASES, VERSION, Asked, Case, stated
+from .case_rows import COLUMNS, cases_csv, row_of
+from .cases import CASES, VERSION, Asked, Case
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -32,39 +35,6 @@ SOURCE, PDF = STATIC / "problem.typ", STATIC / "PROBLEM.pdf"
 DIGEST = STATIC / "PROBLEM.sha256"
 """SHA-256 of the source and the numbers that the PDF was made from."""
 
-
-@dataclass(frozen=True)
-class Column:
-    """A column of cases.csv: its name, its unit, and the cell of a case that has none.
-
-    PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
-    """
-
-    name: str
-    unit: str
-    nothing: float | None = None
-    besides: str = ""
-
-
-_TIP_MASS = Column("tip_mass", "kg", 0.0, "mass at the tip {} kg")
-_ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
-_WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
-_OMEGA = Column("omega", "rad/s")
-COLUMNS = {
-    "length": Column("L", "m"),
-    "section.axial_stiffness": Column("EA", "N"),
-    "section.bending_stiffness": Column("EI", "N m^2"),
-    "section.mass_per_length": Column("rhoA", "kg/m"),
-    "hub_radius": Column("hub_radius", "m", 0.0),
-    "point_masses.PointMass.mass": _TIP_MASS,
-    "point_masses.PointMass.position": Column("L", "m"),
-    "damping.bending": Column("bending_damping", "s", 0.0, _ETA),
-    "loads.Gravity.gravity": Column("gravity", "m/s^2", 0.0, _WEIGHT),
-    "motion.SpinUp.omega": _OMEGA,
-    "motion.SteadyRotation.omega": _OMEGA,
-    "motion.SpinUp.ramp_time": Column("T", "s"),
-}
-"""Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
 
 MESHES = (8, 16, 32, 64, 128)
 """Numbers of elements at whose nodes an orbit is written; codes of order two need the last ones."""
@@ -120,10 +90,12 @@ def kit_files() -> dict[str, bytes]:
         if path.is_file() and path.suffix != ".pyc" and path.name not in _SOURCES
     }
     histories = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    texts = {"VERSION": f"{VERSION}\n", "cases.csv": _cases_csv(), "cases.json": _cases_json()}
+    texts = {"VERSION": f"{VERSION}\n", "cases.csv": cases_csv(), "cases.json": _cases_json()}
     texts |= {f"drive_{case.name}.csv": _drive(case) for case in histories}
     texts |= {
-        f"start_{case.name}_{elements}.csv": _start(case, elements)
+        f"start_{case.name}_{elements}.csv": start_table(
+            case, np.linspace(0.0, case.blade.length, elements + 1)
+        )
         for case in histories
         if case.amplitudes
         for elements in MESHES
@@ -134,65 +106,6 @@ def kit_files() -> dict[str, bytes]:
     return files | {"SHA256SUMS": "".join(sums).encode()}
 
 
-def row_of(case: Case) -> dict[str, Any]:
-    """Return the data of a case by the names in cases.csv; None stands for missing data.
-
-    Raises
-    ------
-    ValueError
-        If the case has what no column says.
-    """
-    told, lost = dict[str, float](), []
-    for part, value in sorted(_parts_of(case)):
-        name = COLUMNS[part].name if part in COLUMNS else ""
-        if not (name and isinstance(value, float)) or told.setdefault(name, value) != value:
-            lost.append(part)
-    if lost:
-        raise ValueError(
-            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
-            "COLUMNS, or leave it out of the case"
-        )
-    return {
-        "id": case.name,
-        "level": str(case.level),
-        "asked": case.asked.name.lower(),
-        **{one.name: told.get(one.name, one.nothing) for one in COLUMNS.values()},
-        "duration": case.duration or None,
-        "speeds": list(case.speeds),
-        "amplitudes": list(case.amplitudes),
-    }
-
-
-def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
-    """Yield what blade, motion and loads state, by the names of where it stands."""
-    yield from _parts("", case.blade.blade)
-    yield from _parts("motion.", (case.motion,) if case.motion else ())
-    yield from _parts("loads.", case.loads)
-
-
-def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:
-    if isinstance(value, tuple) and len(value) == 1:
-        (value,) = value
-        path += f"{type(value).__name__}."
-    if is_dataclass(value):
-        for name, part in stated(value).items():
-            yield from _parts(f"{path}{name}.", part)
-    elif value != ():
-        yield path.rstrip("."), value
-
-
-def _cases_csv() -> str:
-    rows = [row_of(case) for case in CASES.values()]
-    lines = [",".join(rows[0]), *(",".join(map(_cell, row.values())) for row in rows)]
-    return "\n".join([*lines, ""])
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return ""
-    return " ".join(map(repr, value)) if isinstance(value, list) else str(value)
-
-
 def _cases_json() -> str:
     units = {one.name: one.unit for one in COLUMNS.values()}
     document = {
@@ -200,7 +113,7 @@ def _cases_json() -> str:
         "units": units | {"duration": "s", "speeds": "rad/s", "amplitudes": "1"},
         "cases": [row_of(case) | {"title": case.title} for case in CASES.values()],
         "thresholds": THRESHOLDS,
-        "samples": {"largest distance [s]": FARTHEST, "least significant digits": DIGITS},
+        "samples": {"largest distance [s]": FARTHEST, "significant digits": DIGITS},
     }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
@@ -218,9 +131,13 @@ def _drive(case: Case) -> str:
     return _table(said, columns)
 
 
-def _start(case: Case, elements: int) -> str:
-    """Return an exact orbit at the nodes of a mesh, at phase 0."""
-    orbit, x = case.orbit, np.linspace(0.0, case.blade.length, elements + 1)
+def start_table(case: Case, places: ArrayLike) -> str:
+    """Return the orbit that a case starts on, at phase 0, as a table in SI units and radians.
+
+    Its rows are at places (rows,) along the undeformed beam [m], seen from the turning frame;
+    ValueError for places beyond the beam, and for cases that start at rest.
+    """
+    orbit, x = case.orbit, finite_array("places", places)
     state = orbit.state(0, x)
     slope = 1.0 + state.u_slope + 1j * state.v_slope
     slope_dot = state.u_slope_dot + 1j * state.v_slope_dot
@@ -229,8 +146,8 @@ def _start(case: Case, elements: int) -> str:
     slopes = {"X_slope": slope.real, "Y_slope": slope.imag}
     slope_rates = {"X_slope_dot": slope_dot.real, "Y_slope_dot": slope_dot.imag}
     said = (
-        f"case {case.name}: the nodes of {elements} elements at t = 0, in the frame that turns "
-        f"with the clamp; m, rad, m/s, rad/s; slopes are derivatives to x"
+        f"case {case.name}: {x.size} places at t = 0, in the frame that turns with the clamp, as "
+        f"are all rates; m, rad, m/s, rad/s; slopes are derivatives to x"
     )
     return _table(said, positions | slopes | rates | slope_rates)
 
@@ -254,11 +171,13 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
 
 def problem_numbers() -> str:
     """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
-    case = CASES["S1"]
+    case, beam = CASES["S1"], Beam.reference()
+    material = beam.youngs_modulus, beam.density, beam.area, beam.second_moment
     times = np.linspace(0.0, case.duration, 601)
     document = {
         "version": VERSION,
         "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
+        "material": dict(zip(("E", "rho", "A", "I"), material, strict=True)),
         "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
         "farthest": FARTHEST,
         "digits": DIGITS,

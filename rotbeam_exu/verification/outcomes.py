@@ -103,7 +103,8 @@ def found_of(
         outcome, note = Outcome.UNDECIDED, f"one mesh has no limit {where}: hand in three"
     elif runs.steps.any() and np.unique(runs.steps).size == 1:
         outcome = Outcome.UNDECIDED
-        note = f"with one step its error is in the difference of {runs.limit:+.1e}: refine it"
+        one = f"with one {runs.refined}"
+        note = f"{one} its error is in the difference of {runs.limit:+.1e}: refine it"
     elif difference + doubt <= tolerance:
         outcome = Outcome.REFERENCE if difference <= doubt else Outcome.AGREES
     elif runs.growths > 1 or (runs.growths and finest > FAR * tolerance):
@@ -135,7 +136,8 @@ def _remedy(runs: Convergence, tolerance: float, bound: float, of_what: str) -> 
         finer.append("a third mesh" if few else f"about {_rounded(elements)} elements")
     if step >= 0.3 * mesh and np.unique(runs.steps).size > 1:
         smallest = float(runs.steps.min()) * factor ** (-1.0 / runs.powers[1])
-        finer.append(f"a step of about {1e3 * smallest:.1g} ms")
+        of = f"{smallest:.1g}" if runs.refined == "tolerance" else f"{1e3 * smallest:.1g} ms"
+        finer.append(f"a {runs.refined} of about {of}")
     return f"{' and '.join(finer)} would decide"
 
 

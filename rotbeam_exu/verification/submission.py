@@ -46,22 +46,27 @@ class Declaration:
 
 @dataclass(frozen=True, kw_only=True)
 class Frequency:
-    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s]."""
+    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s].
+
+    `rounding` is the error of its last digit [rad/s], where it was written to few.
+    """
 
     elements: int
     speed: float
     frequency: float = math.nan
     failure: str = ""
+    rounding: float = field(default=0.0, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class BackbonePoint:
-    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L."""
+    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L; `rounding` as of `Frequency`."""
 
     elements: int
     speed: float
     amplitude: float
     frequency: float
+    rounding: float = field(default=0.0, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,8 +78,9 @@ class Run:
     case : str
         Name of the case.
     elements : int
-    step : float
-        Of the integration [s].
+    step, tolerance : float
+        Step of the integration [s], or the tolerance of one that chooses its steps; the other is
+        NaN.
     time, q : ndarray (samples,)
         [s], and q [m] of Eq. 16; empty of a run that failed.
     q_dot : ndarray (samples,), optional
@@ -88,11 +94,14 @@ class Run:
         Time spent [s]; NaN if not told.
     remark : str
         The code's own objection to the run.
+    rounding : float
+        Error of q that the last digits of time and q leave, where they were written to few [m].
     """
 
     case: str
     elements: int
-    step: float
+    step: float = math.nan
+    tolerance: float = math.nan
     time: FloatArray = field(repr=False)
     q: FloatArray = field(repr=False)
     q_dot: FloatArray | None = field(default=None, repr=False)
@@ -102,6 +111,27 @@ class Run:
     wall: float = math.nan
     cpu: float = math.nan
     remark: str = ""
+    rounding: float = field(default=0.0, repr=False)
+
+    @property
+    def is_adaptive(self) -> bool:
+        """Whether a tolerance stands for the step."""
+        return math.isnan(self.step)
+
+    @property
+    def refinement(self) -> float:
+        """The step [s] or the tolerance: what is made smaller."""
+        return self.tolerance if self.is_adaptive else self.step
+
+    @property
+    def fineness(self) -> tuple[int, float]:
+        """Grows with mesh and step: the finest mesh is last, on it the smallest step."""
+        return self.elements, -self.refinement
+
+    @property
+    def step_in_words(self) -> str:
+        """The step in ms, or the tolerance."""
+        return f"tol {self.tolerance:g}" if self.is_adaptive else f"{1e3 * self.step:g} ms"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,6 +1,7 @@
 """`rotbeam judge`: faults, mistakes, tables, files; without Exudyn."""
 
 import json
+import re
 import unicodedata
 from pathlib import Path
 
@@ -47,17 +48,37 @@ def test_a_mistake_is_named_ahead_of_the_verdict(call, submitted, tmp_path):
     assert "differs" in out
 
 
-def test_all_faults_and_nothing_else(call, folder):
+def test_one_bad_file_leaves_the_others_judged(call, folder, tmp_path):
     (folder / "S1" / "m016_h1e-3.csv").unlink()
     (folder / "L.csv").write_text("elements;speed;frequency\n8;0;2.9\n", "utf-8")
-    code, out, err = call("judge", folder)
-    assert (code, out) == (2, "")
+    page, data = tmp_path / "out.html", tmp_path / "out.json"
+    code, out, err = call("judge", folder, "--report", page, "--json", data)
+    assert code == 2
+    assert "S1 q(t)" in out
+    assert "L ω" not in out
+    found = json.loads(data.read_text("utf-8"))
+    assert list(found["cases"]) == ["S1"]
+    assert [(one["file"], one["line"]) for one in found["faults"]] == [
+        ("L.csv", 1), ("S1/m016_h1e-3.csv", None)
+    ]  # fmt: skip
+    assert "<td>L.csv" in re.sub("</?code>", "", page.read_text("utf-8")).replace(
+        ' class="text"', ""
+    )
     assert err.splitlines() == [
         "L.csv:1: the header is split by semicolons: separate the columns by commas, "
         "elements,speed,frequency",
         "S1/m016_h1e-3.csv: there is no such file",
-        "2 faults: nothing was judged",
+        "2 faults: only the rest is judged",
     ]
+
+
+def test_nothing_is_judged_of_an_unknown_code(call, folder):
+    (folder / "entry.toml").unlink()
+    (folder / "runs.csv").write_text("file,elements,step,colour\n", "utf-8")
+    code, out, err = call("judge", folder)
+    assert (code, out) == (2, "")
+    assert "unknown column 'colour'" in err
+    assert err.endswith("2 faults: nothing is judged\n")
 
 
 @pytest.mark.parametrize(
@@ -99,7 +120,7 @@ def test_a_terminal_obeys_no_author(call, folder, tmp_path):
     (folder / "entry.toml").write_text(entry, "utf-8")
     listed = (folder / "runs.csv").read_text("utf-8").splitlines()
     rows = [f"{row}{HOSTILE}" if n else row for n, row in enumerate(listed)]
-    rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,{HOSTILE},")
+    rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,,{HOSTILE},")
     (folder / "runs.csv").write_text("\n".join(rows), "utf-8")
     code, out, err = call("judge", folder)
     assert code in (0, 1), err

@@ -11,9 +11,10 @@ import pytest
 
 from analytic import Blade, Damping, FourierRamp, Gravity, PointMass, Section, SpinUp, TipForce
 from rotbeam_exu.verification import kit as room
+from rotbeam_exu.verification.case_rows import COLUMNS, Column, row_of
 from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
-from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
+from rotbeam_exu.verification.kit import MESHES, kit_files, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission_files import read_submission
@@ -107,8 +108,8 @@ def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):
 
 def test_another_column_is_a_line(monkeypatch):
     """In both tables and in the problem."""
-    drag = room.Column("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
-    monkeypatch.setitem(room.COLUMNS, "damping.external", drag)
+    drag = Column("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
+    monkeypatch.setitem(COLUMNS, "damping.external", drag)
     case = replace(S1, name="S5", blade=S1.blade.with_damping(Damping(external=0.1)))
     monkeypatch.setitem(CASES, "S5", case)
     assert row_of(case)["drag"] == 0.1
@@ -154,6 +155,32 @@ def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
     assert fine["X"][-1] > 8.0  # and stretched
     slopes = np.gradient(fine["X"], fine["x"], edge_order=2)
     assert fine["X_slope"] == pytest.approx(slopes, abs=1e-6)
+
+
+def test_starts_at_any_places_are_rows_of_the_files(folder):
+    """Quadratic elements, uneven meshes, and every second row of twice the elements."""
+    coarse, fine = (columns(folder / f"start_O_{mesh}.csv") for mesh in (8, 16))
+    assert all(coarse[name] == pytest.approx(fine[name][::2], abs=1e-12) for name in coarse)
+    rows = room.start_table(CASES["O"], [7.5, 0.5]).splitlines()[2:]
+    for row, k in zip(rows, (15, 1), strict=True):
+        found = [float(cell) for cell in row.split(",")]
+        assert found == pytest.approx([fine[name][k] for name in fine], abs=1e-12)
+    with pytest.raises(ValueError, match="x must lie on the beam"):
+        room.start_table(CASES["O"], [8.5])
+
+
+def test_the_tube_has_the_beam():
+    """The problem's formulas give A and I; EI and ρA of the table are E I and ρ A."""
+    beam, row = S1.blade, row_of(S1)
+    squared = beam.second_moment / beam.area
+    r = math.sqrt(squared + math.sqrt(squared**2 - (beam.area / math.pi) ** 2 / 16.0))
+    t = beam.area / (2.0 * math.pi * r)
+    outer, inner = r + 0.5 * t, r - 0.5 * t
+    assert math.pi * (outer**2 - inner**2) == pytest.approx(beam.area, rel=1e-12)
+    assert 0.25 * math.pi * (outer**4 - inner**4) == pytest.approx(beam.second_moment, rel=1e-12)
+    told = json.loads(room.problem_numbers())["material"]
+    assert told["E"] * told["I"] == pytest.approx(row["EI"], rel=1e-14)
+    assert told["rho"] * told["A"] == pytest.approx(row["rhoA"], rel=1e-14)
 
 
 def test_the_history_for_self_check_is_the_reference(folder):

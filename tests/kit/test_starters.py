@@ -130,6 +130,18 @@ def test_the_chain_converges_to_the_reference_in_every_case(case, chain, kit, tm
     assert found.outcome_of(case) is Outcome.REFERENCE, str(found)
 
 
+def test_the_lines_of_the_readme_end_in_a_verdict(kit):
+    """As they stand there, but for the last one, which is the command."""
+    readme = (kit / "README.md").read_text("utf-8")
+    lines = [line.strip() for line in readme.splitlines() if line.startswith("    ")]
+    *before, last = lines
+    assert last == "rotbeam judge ."
+    tool("g++")
+    run(kit, "bash", "-e", "-c", "\n".join(before))
+    found = judged(read_submission(kit / "mine"))
+    assert found.outcome_of("S1") is Outcome.REFERENCE, str(found)
+
+
 def test_the_sample_is_what_the_chain_makes(chain, kit, tmp_path):
     run(tmp_path, chain, "S1", 32, "4e-3", kit)
     found, sample = (

@@ -44,6 +44,21 @@ def pages(right, wrong):
     return {"right": report_page(right), "wrong": report_page(wrong)}
 
 
+def test_tolerances_stand_where_steps_do(submitted):
+    """A column that no run has is left out."""
+    fixed = submitted()
+    runs = [replace(run, step=math.nan, tolerance=run.step) for run in fixed.runs]
+    record = recorded(replace(fixed, runs=tuple(runs)))
+    page, data = report_page(record), document(record)
+    assert "<th>tolerance</th>" in page
+    assert "<th>step [s]</th>" in report_page(recorded(fixed))
+    assert "<th>step [s]</th>" not in page
+    assert {one["step"] for one in data["cases"]["S1"]["runs"]} == {None}
+    told = {one["tolerance"] for one in data["cases"]["S1"]["runs"]}
+    assert told == {one.step for one in fixed.runs}
+    assert runs[0].step_in_words == f"tol {fixed.runs[0].step:g}"
+
+
 class Page(HTMLParser):
     """Tags that are open, and everything that a page names."""
 

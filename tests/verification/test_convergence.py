@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from rotbeam_exu.verification.convergence import Order, converged
 
@@ -61,6 +62,29 @@ def test_errors_of_mesh_and_step_are_told_apart():
     assert found.in_mesh == pytest.approx(0.5 / found.elements**2, rel=0.05)
     assert found.in_step == pytest.approx(3e-3 * found.steps**2, rel=0.05)
     assert (found.elements[-1], found.steps[-1]) == (32, 1.0)
+
+
+def test_a_step_control_is_fitted_by_its_tolerance():
+    """An oscillator whose frequency has the error of a mesh, and whose steps Dormand's rule has."""
+    time = np.linspace(0.0, 10.0, 101)
+
+    def run(elements, tolerance):
+        square = (2.0 * (1.0 + elements**-2.0)) ** 2
+        found = solve_ivp(
+            lambda _, y: [y[1], -square * y[0]], (0.0, 10.0), [1.0, 0.0], t_eval=time,
+            rtol=tolerance, atol=tolerance,
+        )  # fmt: skip
+        return found.y[0] - np.cos(2.0 * time)
+
+    runs = [(16, 1e-5), (32, 1e-5), (64, 1e-5), (32, 1e-4), (32, 1e-6)]
+    values = [run(*one) for one in runs]
+    found = converged(*zip(*runs, strict=True), values, refined="tolerance")
+    # Three tolerances leave 2 % of the finest run's error, their order being 1.16 and no whole one.
+    assert found.limit < min(found.bar, 3e-2 * np.abs(values[2]).max())
+    assert found.orders["mesh"].value == pytest.approx(2.0, abs=0.1)
+    assert found.orders["step"].value == pytest.approx(1.0, abs=0.25)  # per unit of a step: 4/5
+    two = converged(*zip(*runs[:4], strict=True), values[:4], refined="tolerance")
+    assert two.orders["step"].why == "2 tolerances, three are needed"
 
 
 def test_functions_are_fitted_alike():

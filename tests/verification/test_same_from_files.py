@@ -1,5 +1,6 @@
 """What is judged from files is what is judged through Python, to the last digit."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,8 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.peers import installed, peer
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import Frequency
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
 from rotbeam_exu.verification.verify import handed_in
 
@@ -55,6 +58,45 @@ def test_kratos(tmp_path, monkeypatch):
     monkeypatch.setitem(CASES, "S1", case)
     found = the_same(submission, tmp_path)
     assert found.histories["S1"].finest.elements == 16
+
+
+def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):
+    """Those of a step control that are as long as the steps have the same limits and orders."""
+    fixed = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+    runs = [replace(run, step=math.nan, tolerance=run.step) for run in fixed.runs]
+    found = the_same(replace(fixed, runs=tuple(runs)), tmp_path)
+    assert {path.name[:6] for path in (tmp_path / "S1").iterdir()} == {"m008_t", "m016_t", "m032_t"}
+    for key, finding in judged(fixed).by_quantity.items():
+        mine = found.by_quantity[key]
+        assert mine.outcome is finding.outcome
+        assert (mine.runs.limit, mine.runs.bar) == (finding.runs.limit, finding.runs.bar)
+        assert mine.runs.orders["step"].value == finding.runs.orders["step"].value
+    coarse = [run for run in runs if run.tolerance == runs[0].tolerance]
+    note = judged(replace(fixed, runs=tuple(coarse))).findings["S1"]["history"].note
+    assert note.startswith("with one tolerance its error is in the difference")
+
+
+def test_digits_that_are_missing_are_in_the_floor(made_of_the_exact_answer):
+    """Of q(t) in m over max|q|, of frequencies in rad/s over the reference's."""
+    true = reference(CASES["L"]).first_frequency(6.0)
+    meshes = [
+        Frequency(elements=n, speed=6.0, frequency=true * (1.0 + n**-4.0)) for n in (8, 16, 32)
+    ]
+    fine = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+    fine = replace(fine, frequencies=tuple(meshes))
+    off = replace(
+        fine,
+        runs=tuple(replace(run, rounding=1e-3) for run in fine.runs),
+        frequencies=tuple(replace(one, rounding=1e-4) for one in meshes),
+    )
+    before, after = judged(fine), judged(off)
+    for key, lost in {
+        ("S1", "history"): 1e-3 / before.histories["S1"].scale,
+        ("L", "linear frequency"): 1e-4 / true,
+    }.items():
+        one, two = before.by_quantity[key].runs, after.by_quantity[key].runs
+        assert two.noise - one.noise == pytest.approx(lost, rel=1e-9)
+        assert two.bar >= one.bar + 0.99 * lost
 
 
 def test_steps_that_do_not_end_with_the_case(made_of_the_exact_answer, tmp_path):

@@ -190,7 +190,11 @@ FAULTS = [
         lambda text: "time,q\n" + "\n".join(text.split("\n")[1::5]),
         "samples are 100 ms apart (and so in 149 more), at most 20 ms",
     ),
-    (S1, numbers("%.4g"), "column 'q' is written to 4 digits, 8 are needed: write %.10g"),
+    (
+        S1,
+        numbers("%.4g"),
+        "column 'q' is written to 4 digits, at least 5 are needed and 8 lose nothing: write %.10g",
+    ),
     ("S1+h/m016_h5e-4.csv", None, "there is no such file"),
     ("runs.csv", None, "runs.csv: there is no such file"),
     ("runs.csv", lines((2, lambda row: "# " + row)), f"{S1}: stands in no row of runs.csv"),
@@ -200,6 +204,13 @@ FAULTS = [
     ("runs.csv", lambda text: text.replace("csv,8,", "csv,9,"), "the file's name says 8"),
     ("runs.csv", lambda text: text.replace("csv,8,0.001", "csv,8,1"), "the file's name says 0.001"),
     ("runs.csv", lambda text: text.replace("csv,8,", "csv,8.5,"), "must be a whole number"),
+    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,,1e-3,"), "there must be a step and no"),
+    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,1e-3,1e-6,"), "a step and no tolerance"),
+    (
+        "runs.csv",
+        lambda text: text.replace("S1/m008_h1e-3.csv,8,0.001,", "S1/m008_t1e-6.csv,8,,1e-6"),
+        "a step stands beside a tolerance of S1",
+    ),
     ("runs.csv", lambda text: text + text.split("\n")[1], "stand in line 2: keep one"),
     ("L.csv", lambda text: text.replace("8,0.0,", "8,5.0,"), ":2: speed 5 is not asked for: hand"),
     ("L.csv", lambda text: text.replace("2.90928123456", "2.909"), "written to 4 digits"),
@@ -251,19 +262,46 @@ def test_all_faults_are_told_at_once(good):
         assert said in found
 
 
-def test_even_times_may_be_short_and_uneven_ones_not(good):
-    """0.02 k is exact in four digits; what a step control chose is not."""
-    path = good / S1
+def rounding_of(folder, time, form, step=1e-3):
+    """What is read to be lost of sin t by the form of its times."""
+    rows = (f"{form % t},{np.sin(t):.10g}" for t in time)
+    (folder / S1).write_text("\n".join(["time,q", *rows]), "utf-8")
+    text = (folder / "runs.csv").read_text("utf-8").replace("csv,8,0.001", f"csv,8,{step}")
+    (folder / "runs.csv").write_text(text, "utf-8")
+    return read_submission(folder).runs[0].rounding
+
+
+def test_even_times_may_be_short_and_uneven_ones_are_off(good):
+    """0.02 k is exact in four digits; what a step control chose is off by half its last decimal."""
     time = np.linspace(0.0, 15.0, 901) ** 1.02 * 15.0 / 15.0**1.02
+    assert rounding_of(good, 0.02 * np.arange(751.0), "%.4g") == 0.0
+    assert rounding_of(good, time, "%.10g") == 0.0
+    assert rounding_of(good, time, "%.7g") == pytest.approx(5e-6, rel=1e-3)  # of 1 m/s
+    assert rounding_of(good, time, "%.5g") == pytest.approx(5e-4, rel=3e-2)  # so are gaps of 17 ms
+    with pytest.raises(MalformedSubmissionError, match="column 'time' is written to 4 digits, at"):
+        rounding_of(good, np.unique(np.round(time, 2)), "%.4g")
 
-    def text(form):
-        rows = (f"{form % t},{np.sin(t):.10g}" for t in time)
-        return "\n".join(["time,q", *rows])
 
-    path.write_text(text("%.10g"), "utf-8")
-    read_submission(good)
-    path.write_text(text("%.5g"), "utf-8")
-    assert "column 'time' is written to 5 digits" in "\n".join(faults_of(good))
+def test_whole_steps_are_exact_however_uneven(good):
+    """14.992 is a whole number of milliseconds."""
+    time = 1e-3 * np.unique(np.append(np.cumsum(np.tile([8, 12, 16], 420))[:1249], [0, 15000]))
+    time = time[time <= 15.0]
+    assert np.ptp(np.diff(time)) > 1e-3
+    assert rounding_of(good, time, "%.5g") == 0.0
+
+
+def test_few_digits_widen_the_floor_by_what_they_lose(good):
+    before = read_submission(good)
+    few = (good / S1).read_text("utf-8")
+    (good / S1).write_text(numbers("%.6g")(few), "utf-8")
+    table = (good / "L.csv").read_text("utf-8")
+    (good / "L.csv").write_text(table.replace("2.90928123456", "2.9093"), "utf-8")
+    after = read_submission(good)
+    lost = np.abs(after.runs[0].q - before.runs[0].q).max()
+    assert 0.9 * after.runs[0].rounding < lost <= after.runs[0].rounding < 1e-6
+    off = abs(after.frequencies[0].frequency - before.frequencies[0].frequency)
+    assert off < after.frequencies[0].rounding == pytest.approx(5e-5)
+    assert before.runs[0].rounding == before.frequencies[0].rounding == 0.0
 
 
 def test_nothing_to_judge(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,14 @@ from . import entry, runs
 from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError, near, printable
 from .tables import (
-    DIGITS,
     FAILURE,
+    LEAST_DIGITS,
+    TOO_FEW,
     Column,
     asked,
     bounded,
     digits,
+    rounding,
     rows_of,
     sheet_of,
     whole,
@@ -48,7 +51,7 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     Raises
     ------
     MalformedSubmissionError
-        With all faults of all files.
+        With all faults of all files, and what is right besides.
     FileNotFoundError
         If there is no such folder.
 
@@ -75,17 +78,21 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     _strangers(root, faults)
     frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
     backbone = [row for row in backbone if "failure" not in row]
-    if not faults and not (frequencies or backbone or histories):
+    some = bool(frequencies or backbone or histories)
+    if not (faults or some):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
         faults.add(entry.FILE, said)
-    if faults or declaration is None:
+    if declaration is None:
         raise MalformedSubmissionError(faults.told())
-    return Submission(
+    made = Submission(
         declaration=declaration,
         frequencies=tuple(Frequency(**row) for row in frequencies),
         backbone=tuple(BackbonePoint(**row) for row in backbone),
         runs=histories,
     )
+    if faults:
+        raise MalformedSubmissionError(faults.told(), made if some else None)
+    return made
 
 
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
@@ -152,11 +159,11 @@ def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str,
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
     root = Path(folder)
     files = [entry.FILE, *_tables(), runs.FILE, *(run.file for run in submission.runs)]
-    return {
-        file: hashlib.sha256(content_of(root, file)).hexdigest()
-        for file in files
-        if (root / file).is_file()
-    }
+    found = {}
+    for file in files:
+        with suppress(OSError, ValueError):  # not there, or told as a fault
+            found[file] = hashlib.sha256(content_of(root, file)).hexdigest()
+    return found
 
 
 def _tables() -> dict[str, Case]:
@@ -176,7 +183,7 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
     """Return the rows of a case's table by field; rows with a failure have no frequency."""
     sheet = sheet_of(folder, file, _columns(case), faults)
     found: dict[tuple[float, ...], dict[str, Any]] = {}
-    most = []
+    most = [0]
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         place = row["elements"], row["speed"], row.get("amplitude", 0.0)
         if place in found:
@@ -184,9 +191,12 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
             continue
         found[place] = row
         most += [digits(cells["frequency"])] if "frequency" in row else []
-    if most and max(most) < DIGITS:
-        said = f"frequencies are written to {max(most)} digits, {DIGITS} are needed: write %.10g"
-        faults.add(file, said)
+    measured = [row for row in found.values() if "frequency" in row]
+    if measured and max(most) < LEAST_DIGITS:
+        faults.add(file, f"frequencies are written to {max(most)} {TOO_FEW}")
+        return []
+    for row in measured:
+        row["rounding"] = rounding(max(most), row["frequency"])
     return list(found.values())
 
 

@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
+from ..submission import Submission
+
 _VARIES = re.compile(
     r"'(?:\\.|[^'\\])*'|\"(?:\\.|[^\"\\])*\"|[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?"
 )
@@ -77,16 +79,18 @@ class Faults:
 
 
 class MalformedSubmissionError(ValueError):
-    """A submission that cannot be judged before its files are mended.
+    """A submission whose files are to be mended.
 
     Attributes
     ----------
     faults : tuple of Fault
         One of each kind in a file, with the count of those alike, in the order of the files.
+    rest : Submission or None
+        The files and rows without faults, where there are any.
     """
 
-    def __init__(self, faults: Iterable[Fault]) -> None:
-        self.faults = tuple(faults)
+    def __init__(self, faults: Iterable[Fault], rest: Submission | None = None) -> None:
+        self.faults, self.rest = tuple(faults), rest
         super().__init__("\n".join(map(str, self.faults)))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -20,10 +21,13 @@ from .faults import Faults, printable, several, shown
 from .tables import (
     DIGITS,
     FAILURE,
+    LEAST_DIGITS,
+    TOO_FEW,
     Column,
     Sheet,
     bounded,
     digits,
+    rounding,
     rows_of,
     sheet_of,
     text,
@@ -43,13 +47,16 @@ HISTORY = (
     Column("q_dot", unit="m/s", needed=False, measured=True),
 )
 _SLACK = 1e-6
-_NAME = re.compile(r"m([0-9]{1,9})_h((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv")
-"""Name of a history's file: elements, and step [s]."""
+_NAME = re.compile(
+    r"m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
+)
+"""Name of a history's file: elements, and step [s] or tolerance."""
 
 _ROUNDED = 1e-2
-"""Relative distance of a step from the step in the name of its file."""
+"""Relative distance of a step or tolerance from that in the name of its file."""
 
 _positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
+_tolerance = bounded(lambda value: 0.0 < value < 1.0, "must be between 0 and 1, got {}")
 _cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
 
 
@@ -61,13 +68,15 @@ def _history(_: str, cell: str) -> str:
         among = f"known are {', '.join(known)}"
         raise ValueError(f"{shown(case)} is no case with a history; {among}")
     if not _NAME.fullmatch(name):
-        raise ValueError(f"{shown(cell)} is no name of a history: write {case}/m032_h1e-3.csv")
+        remedy = f"write {case}/m032_h1e-3.csv, or _t1e-6 of a tolerance"
+        raise ValueError(f"{shown(cell)} is no name of a history: {remedy}")
     return cell
 
 
 COLUMNS = (
     Column("file", _history), Column("elements", whole),
-    Column("step", _positive, "s"), Column("dof", whole, needed=False),
+    Column("step", _positive, "s", needed=False), Column("tolerance", _tolerance, needed=False),
+    Column("dof", whole, needed=False),
     Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
     FAILURE, Column("remark", text, needed=False),
 )  # fmt: skip
@@ -75,10 +84,10 @@ COLUMNS = (
 
 def file_of(run: Run) -> str:
     """Return the name of a history's file below the folder, as S1/m032_h1e-3.csv."""
-    _, digits, exponent = Decimal(repr(run.step)).normalize().as_tuple()
+    _, digits, exponent = Decimal(repr(run.refinement)).normalize().as_tuple()
     first, *rest = map(str, digits)
     mantissa, power = f"{first}{'.' if rest else ''}{''.join(rest)}", int(exponent) + len(rest)
-    return f"{run.case}/m{run.elements:03d}_h{mantissa}e{power}.csv"
+    return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{mantissa}e{power}.csv"
 
 
 def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
@@ -93,9 +102,11 @@ def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
         return ()
     found, listed = [], list(_listed(root, faults))
     for row in listed:
-        samples: dict[str, FloatArray] | None = {"time": np.empty(0), "q": np.empty(0)}
+        samples: dict[str, Any] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
-            samples = history_of(root, row["file"], CASES[row["case"]], faults)
+            samples = history_of(
+                root, row["file"], CASES[row["case"]], row.get("step", math.nan), faults
+            )
         if samples is not None:
             found.append(Run(**(row | samples)))
     if not faults.of(FILE):
@@ -110,35 +121,53 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     """Yield the rows of runs.csv that are right by themselves, with their case."""
     sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
+    first: dict[str, str] = {}
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
         case, _, name = row["file"].partition("/")
-        elements, step = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        elements, kind, size = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        of, other = ("step", "tolerance") if kind == "h" else ("tolerance", "step")
         wrong = []
         if row["elements"] != int(elements):
             wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
-        if abs(row["step"] - float(step)) > _ROUNDED * float(step):
-            wrong.append(f"step is {cells['step']} s, the file's name says {float(step):g} s")
+        if of not in row or other in row:
+            wrong.append(f"there must be a {of} and no {other}, as the file's name says")
+        elif abs(row[of] - float(size)) > _ROUNDED * float(size):
+            wrong.append(f"{of} is {cells[of]}, the file's name says {float(size):g}")
+        elif first.setdefault(case, of) != of:
+            wrong.append(f"a {of} stands beside a {other} of {case}, which no fit takes together")
         wrong = [f"{said}: correct one of them" for said in wrong]
-        place = case, row["elements"], row["step"]
+        place = case, row["elements"], row.get(of, 0.0)
         if not wrong and seen.setdefault(place, line) != line:
-            wrong = [f"the same case, mesh and step stand in line {seen[place]}: keep one"]
+            wrong = [f"the same case, mesh and {of} stand in line {seen[place]}: keep one"]
         if not faults.extend(FILE, [(said, line) for said in wrong]):
             yield row | {"case": case}
 
 
-def history_of(folder: Path, file: str, case: Case, faults: Faults) -> dict[str, FloatArray] | None:
-    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong."""
+def history_of(
+    folder: Path, file: str, case: Case, step: float, faults: Faults
+) -> dict[str, Any] | None:
+    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong.
+
+    Also the error of their last digits. `step` is NaN where it is not known.
+    """
     sheet = sheet_of(folder, file, HISTORY, faults)
     numbers = None if sheet is None else _numbers(sheet, faults)
     if sheet is None or numbers is None:
         return None
     columns = {column.name: one for column, one in zip(sheet.columns, numbers.T, strict=True)}
     with np.errstate(over="ignore", invalid="ignore"):
-        unfit = _few_digits(sheet, columns) + _unfit(columns["time"], columns["q"], case)
+        most = _digits(sheet, columns)
+        unfit: list[tuple[str, int | None]] = [
+            (f"column {name!r} is written to {count} {TOO_FEW}", None)
+            for name, count in most.items()
+            if count < LEAST_DIGITS
+        ]
+        unfit += _unfit(columns["time"], columns["q"], case)
     if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
         return None
     within = columns["time"] <= case.duration
-    return {name: values[within] for name, values in columns.items()}
+    off = _rounding(columns, most, step)
+    return {name: values[within] for name, values in columns.items()} | {"rounding": off}
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
@@ -187,9 +216,23 @@ def _unfit(time: FloatArray, q: FloatArray, case: Case) -> list[tuple[str, int |
     return found
 
 
-def _few_digits(sheet: Sheet, columns: dict[str, FloatArray]) -> list[tuple[str, int | None]]:
-    """Return which columns are written to too few digits, and to how many."""
-    found: list[tuple[str, int | None]] = []
+def _rounding(columns: dict[str, FloatArray], most: dict[str, int], step: float) -> float:
+    """Return the error of q that the last digits of time and q leave [m].
+
+    A time is exact, however short, that is a whole number of steps with all their decimals.
+    """
+    time, q = columns["time"], columns["q"]
+    late = rounding(most["time"], float(time[-1]))
+    whole_steps = np.abs(time / step - np.rint(time / step)) < _SLACK
+    if late <= (0.5 + _SLACK) * step and whole_steps.all():
+        late = 0.0
+    fastest = float(np.abs(np.gradient(q, time)).max()) if late else 0.0
+    return rounding(most["q"], float(np.abs(q).max())) + late * fastest
+
+
+def _digits(sheet: Sheet, columns: dict[str, FloatArray]) -> dict[str, int]:
+    """Return to how many digits columns are written; DIGITS stands for more, and for exact ones."""
+    found = dict.fromkeys(columns, DIGITS)
     for number, (name, values) in enumerate(columns.items()):
         gaps = np.diff(values)
         if gaps.size and np.ptp(gaps) <= 1e-9 * np.abs(values).max():
@@ -199,7 +242,5 @@ def _few_digits(sheet: Sheet, columns: dict[str, FloatArray]) -> list[tuple[str,
             most = max(most, digits(row.split(",")[number]))
             if most >= DIGITS:
                 break
-        else:
-            said = f"column {name!r} is written to {most} digits, {DIGITS} are needed: write %.10g"
-            found.append((said, None))
+        found[name] = min(most, DIGITS)
     return found

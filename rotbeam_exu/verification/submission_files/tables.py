@@ -25,8 +25,12 @@ MOST_LINES = 2_000_000
 LONGEST_LINE = 10_000
 """Letters of a line, and lines of a table: beyond them is no history and no sentence."""
 
-DIGITS = 8
-"""Written of a number at least: four in the time alone cost 9.5e-3 of q(t)."""
+DIGITS, LEAST_DIGITS = 8, 5
+"""Digits of a number that lose nothing, and that it has at least: four in the time alone cost
+9.5e-3 of q(t). Between them the last digit is an error, which widens the floor."""
+
+TOO_FEW = f"digits, at least {LEAST_DIGITS} are needed and {DIGITS} lose nothing: write %.10g"
+"""End of the sentence on numbers that are too short."""
 
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
@@ -243,6 +247,16 @@ def digits(cell: str) -> int:
     """Return the significant digits that are written."""
     mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
     return len(mantissa.lstrip("0"))
+
+
+def rounding(most: int, largest: float) -> float:
+    """Return by how much numbers are off that are written to `most` digits; 0 of DIGITS or more.
+
+    Half a unit of the last decimal of the largest, which %g and %f have alike.
+    """
+    if most >= DIGITS or not largest:
+        return 0.0
+    return 0.5 * float(10.0 ** (math.floor(math.log10(largest)) + 1 - most))
 
 
 def written(columns: Iterable[Column], things: Sequence[object]) -> str:
