@@ -26,7 +26,7 @@ _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
 _LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
 _TANGENT = 1e-6  # of a tangent's length, that products may leave, twice
-_TOLD, _SMALL = 10, 0.1  # values that tell whether a determinant gets small, over both ends
+_TOLD, _SMALL = 7, 0.1  # values that tell whether a determinant gets small, over both ends
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
