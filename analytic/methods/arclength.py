@@ -191,11 +191,11 @@ def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
     There the equations' Jacobian has two null vectors. The determinant changes its sign through
     infinity too, where a narrow excursion of the curve is stepped over.
     """
-    sizes = list[float]()
+    seen = list[float]()
 
     def singular(point: Point) -> float:
-        sizes.append(abs(point.determinant))
-        if len(sizes) > _TOLD and sizes[-1] > _SMALL * min(sizes[:2]):
+        seen.append(abs(point.determinant))
+        if len(seen) > _TOLD and seen[-1] > _SMALL * min(seen[:2]):
             raise NoOrbitError("the determinant changes its sign, but not through zero")
         return point.determinant
 
