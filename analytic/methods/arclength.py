@@ -16,8 +16,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..arrays import FloatArray
-from ..lazily import optimize
-from .newton import LARGE, Newton, NoOrbitError, Vector, by_products, factored, solved
+from ..lazily import linalg, optimize
+from .newton import LARGE, Newton, NoOrbitError, Vector, by_products, factored, length, solved
 
 # Of the unknowns, which are of order 1.
 _NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
@@ -25,7 +25,8 @@ _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
 _LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
-_TANGENT = 1e-13  # of a tangent's length, that products may leave
+_TANGENT = 1e-6  # of a tangent's length, that products may leave, twice
+_TOLD, _SMALL = 7, 0.1  # values that tell whether a determinant gets small, over both ends
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
@@ -72,13 +73,15 @@ class Point:
 
     @cached_property
     def determinant(self) -> float:
-        """N-th root of the matrix's, with its sign, which changes where a branch crosses."""
-        lu, pivots = self._own or factored(self.matrix())
+        """Determinant of the matrix in sign, which changes where a branch crosses.
+
+        In size what a right side of unit length is over its solution: zero there, and smooth.
+        """
+        lu, pivots = self._own or linalg.lu_factor(self.matrix(), check_finite=False)
         swaps = np.count_nonzero(pivots != np.arange(pivots.size))
-        diagonal = np.diag(lu)
-        sign = (-1.0) ** swaps * np.prod(np.sign(diagonal))
-        size = np.exp(np.log(np.maximum(np.abs(diagonal), np.finfo(float).tiny)).mean())
-        return float(sign * size)
+        sign = (-1.0) ** swaps * np.prod(np.sign(np.diag(lu)))
+        side = np.random.default_rng(0).normal(size=self.z.size)
+        return float(sign * length(side) / length(solved((lu, pivots), side)))
 
 
 def corrected(
@@ -112,15 +115,29 @@ def corrected(
     if found is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.
-    z, last, own, tangent = found.z, np.eye(1, guess.size, guess.size - 1)[0], None, None
+    z, last, own = found.z, np.eye(1, guess.size, guess.size - 1)[0], None
     if z.size > LARGE:
-        factors = found.factors
-        tangent = by_products(products(z), factors, last, _TANGENT)
-    if tangent is None:
+        factors, product = found.factors, products(z)
+        tangent = _by_products(product, factors, last)
+        if tangent is None:
+            factors = factored(matrix(z))
+            tangent = _by_products(product, factors, last)
+        if tangent is None:
+            raise NoOrbitError("the curve's direction is not found")
+    else:
         factors = own = factored(matrix(z))
         tangent = solved(factors, last)
     tangent /= np.linalg.norm(tangent)
     return Point(z, tangent, found.steps, factors, partial(matrix, z), own)
+
+
+def _by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArray | None:
+    """Return the same as `by_products`, with what single precision left of it."""
+    first = by_products(product, factors, vector, _TANGENT)
+    if first is None:
+        return None
+    second = by_products(product, factors, vector - product(first), _TANGENT)
+    return None if second is None else first + second
 
 
 def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[Point, float]:
@@ -174,8 +191,16 @@ def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
     There the equations' Jacobian has two null vectors. The determinant changes its sign through
     infinity too, where a narrow excursion of the curve is stepped over.
     """
+    seen = list[float]()
+
+    def singular(point: Point) -> float:
+        seen.append(abs(point.determinant))
+        if len(seen) > _TOLD and seen[-1] > _SMALL * min(seen[:2]):
+            raise NoOrbitError("the determinant changes its sign, but not through zero")
+        return point.determinant
+
     try:
-        found = located(curve, start, end, lambda point: point.determinant)
+        found = located(curve, start, end, singular)
     except NoOrbitError:
         return None
     if found is None:

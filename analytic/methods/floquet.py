@@ -61,9 +61,16 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     shapes, frequencies = normal_modes(K, M)
     covered = min(modes, frequencies.size)
     phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
-    scaled, exponent = _flow(orbit, max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED))), 1.0)
-    matrix = scaled * np.exp(exponent)
-    constants, n = orbit.constants(), len(matrix) // 2
+    constants, steps = orbit.constants(), max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED)))
+    odd, n = orbit.system.odd, K.shape[0]
+    if constants is None or odd is None:
+        scaled, exponent = _flow(orbit, steps, 1.0)
+        matrix = scaled * np.exp(exponent)
+    else:
+        # Reversed in time the other half undoes what the first does.
+        half, _ = _flow(orbit, -(-steps // 2), 0.5)
+        mirror = np.where(np.concatenate((odd, ~odd)), -1.0, 1.0)[:, None]
+        matrix = mirror * linalg.solve(half, mirror * half)
     basis = np.eye(2 * n)
     if constants is not None:
         # Without them the double multiplier 1 is gone, and what is near it can be told.

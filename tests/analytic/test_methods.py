@@ -7,10 +7,10 @@ import pytest
 from scipy.special import ellipk
 
 from analytic.methods.continuation import Path, linear_orbit
-from analytic.methods.floquet import floquet_multipliers
+from analytic.methods.floquet import _flow, floquet_multipliers
 from analytic.methods.fourier import packed, unpacked
 from analytic.methods.harmonic_balance import jacobian, products, projected, solve
-from analytic.methods.newton import by_products, factored
+from analytic.methods.newton import LARGE, Newton, by_products, factored
 from analytic.methods.orbit import Orbit
 from analytic.methods.system import Tangent
 
@@ -102,6 +102,28 @@ def test_orbits_of_two_coordinates_conserve_energy_and_are_stable():
         there, back = orbit.coordinates(np.array([0.4, -0.4]))[0]
         assert there == pytest.approx([-back[0], back[1]])
         assert floquet_multipliers(orbit).stable()
+
+
+def test_multipliers_by_half_a_period_are_those_of_a_whole_one():
+    (orbit,) = orbits(Duffing(), [0.5])
+    assert orbit.system.odd is not None
+    whole = np.linalg.eigvals(_flow(orbit, 24, 1.0)[0])
+    for value in floquet_multipliers(orbit).values[2:]:
+        assert np.abs(whole - value).min() < 1e-10
+
+
+def test_factors_of_single_precision_lead_to_a_root_in_double():
+    rng = np.random.default_rng(1)
+    count = LARGE + 50
+    matrix = np.diag(np.linspace(1.0, 1e3, count)) + 0.1 * rng.normal(size=(count, count))
+    exact = rng.normal(size=count)
+    side = matrix @ exact
+    factors = factored(matrix.copy())
+    assert factors[0].dtype == np.float32
+    found = Newton(converged=1e-14, slow=0.4, steps=10, tangents=1).root(
+        np.zeros(count), lambda z: matrix @ z - side, lambda z: (factors, matrix @ z - side)
+    )
+    assert found.z == pytest.approx(exact, abs=1e-11)
 
 
 class Coupled(Duffing):
