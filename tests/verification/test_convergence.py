@@ -129,6 +129,8 @@ def test_growths_are_counted_along_meshes_and_steps():
     assert converged(*steps, (0.9, 1.0, 1.1, 1.3, 1.8)).growths == 2
     # What the floor hides does not grow.
     assert converged(meshes, None, (1.0, 1.01, 1.03, 1.08), noise=0.1).growths == 0
+    # Of each change by the floors of both its runs: 2 is above 1.5, and 5 below 5.5.
+    assert converged(meshes, None, (1.0, 2.0, 4.0, 9.0), noise=(0.0, 0.0, 1.5, 4.0)).growths == 1
 
 
 def test_an_order_is_low_below_seven_tenths_of_the_declared_one():
