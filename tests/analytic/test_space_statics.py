@@ -90,6 +90,13 @@ def test_a_column_is_followed_to_where_it_buckles():
         steady_state(ROUND, 0.0, force=(-1.005 * critical, 0.0, 0.0), theory=RIGID)
 
 
+def test_a_twisted_column_leans_to_the_side_to_which_it_is_pushed():
+    """Far beyond buckling it would stand on the other side too; followed from rest it does not."""
+    strip = ROUND.with_section_out_of_plane(1.0 / 16.0, 0.08).with_twist(1.0)
+    state = steady_state(strip, 0.0, force=(-1.0, 0.0, 0.02), theory=RIGID)
+    assert state.tip[2] > 0.5
+
+
 def test_a_force_in_rotation_bends_less():
     """The tension holds the blade: by beam theory to first order, stiffer with the speed."""
     small = 1e-5
