@@ -1,10 +1,9 @@
-r"""
-Backbone
+r"""Backbone
 ========
 
-Frequency against amplitude, a panel of the paper's Fig. 14: the reduced models, the exact backbone
-by harmonic balance, and five finite element runs whose amplitude follows from the ramp time; a
-sixth, of 2 s, ends above the frame, at 0.77.
+Frequency over amplitude, a panel of the paper's Fig. 14: the reduced models, the exact backbone by
+harmonic balance, and five finite element runs with different ramp times. A sixth, of 2 s, lies
+outside the axes, at 0.77.
 """
 
 import matplotlib.pyplot as plt
@@ -12,14 +11,14 @@ import matplotlib.pyplot as plt
 from analytic import Beam, periodic_orbits
 from rotbeam_exu import comparison, figures
 
-# One process, for a gallery; without `jobs` the runs use all cores.
+# One process, for the gallery; without `jobs` the runs use all cores.
 data = comparison.figure_14(omegas=[6.0], meshes=["paper"], jobs=1)
 figures.figure_14(data)
 plt.show()
 
 # %%
-# The exact curve bends to lower frequencies: the beam softens at this speed. By how much,
-# :math:`\lambda_\omega` of :math:`\omega_{NL}=\omega_n(1-\lambda_\omega a^2)`, from two small
-# orbits extrapolated to zero amplitude:
+# The exact curve bends to lower frequencies: the beam softens at this speed. The coefficient
+# :math:`\lambda_\omega` of :math:`\omega_{NL}=\omega_n(1-\lambda_\omega a^2)` is extrapolated from
+# two small orbits to zero amplitude:
 exact = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.1])
 print(f"λ_ω = {exact.lambda_omega:.6f}")

@@ -1,9 +1,8 @@
-r"""
-A million points of the exact backbone
+r"""A million points of the exact backbone
 ======================================
 
-A series through nine exact orbits answers a million amplitudes in milliseconds; beside it what
-perturbation theory gives without any orbit, to third order (FrM) and to fifth (FrM5). The shift is
+A series through nine exact orbits gives a million amplitudes in milliseconds. It is compared with
+perturbation theory, which needs no orbit, to third order (FrM) and to fifth (FrM5). The shift is
 that of the frequency from its value at small amplitude, :math:`\omega_n`.
 """
 

@@ -1,9 +1,8 @@
-r"""
-A blade in an Exudyn model of one's own
-=======================================
+r"""A blade in your own Exudyn model
+================================
 
-:func:`~rotbeam_exu.fem.add_rotating_beam` puts the driven blade into any Exudyn system and returns
-its nodes' and markers' numbers there. Here a weight hangs on its tip by a spring, and bounces.
+:func:`~rotbeam_exu.fem.add_rotating_beam` adds the driven blade to any Exudyn system and returns
+the numbers of its nodes and markers. In this example a weight hangs on its tip by a spring.
 """
 
 import exudyn as exu

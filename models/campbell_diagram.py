@@ -1,9 +1,8 @@
-r"""
-Campbell diagram
+r"""Campbell diagram
 ================
 
-Frequencies of the exact beam in the plane of rotation, its lag, against the speed, and the lines
-:math:`k\omega`. A force that is fixed in space excites a mode where it meets one of them, at a dot.
+Frequencies of the exact beam in the plane of rotation (lag) over the speed, and the lines
+:math:`k\omega`. A force that is fixed in space excites a mode at the intersections, the dots.
 """
 
 import matplotlib.pyplot as plt
@@ -25,9 +24,9 @@ first = next(c for c in diagram.crossings if (c.mode, c.order) == (1, 2))
 print(f"mode 1 meets 2ω at ω = {first.omega:.6f} rad/s")
 
 # %%
-# Where the section is known, flap, out of the plane, and torsion come along: here of a rectangle
-# with the paper's A and I. So thin, it flaps like a chain, at ω, √6 ω and √15 ω, and torsion is
-# as slow as its third lag.
+# If the section is known, the diagram includes flap, out of the plane, and torsion. The example is
+# a rectangle with the paper's A and I. It is so thin that it flaps like a chain, at ω, √6 ω and
+# √15 ω, and torsion is as slow as its third lag mode.
 strip = Beam.reference().with_shape(Rectangle())
 flat = campbell(strip, diagram.omegas, planes=("lag", "flap", "torsion"))
 _, ax = plt.subplots(figsize=(6, 4.5))

@@ -1,11 +1,10 @@
-r"""
-Forced response
+r"""Forced response
 ===============
 
-The beam's response to a ripple of its speed, :math:`\omega+\varepsilon\cos\nu t`, over the drive's
-frequency, at three dampings :math:`\eta_b` of the moment :math:`EI(\kappa+\eta_b\dot\kappa)`: it
-hardens at 2 rad/s and softens at 6. Where the curve turns around, at its folds, the response jumps;
-between two folds it is unstable. The thin line, the backbone, is the free oscillation.
+The response to a speed ripple, :math:`\omega+\varepsilon\cos\nu t`, over its frequency, at three
+dampings :math:`\eta_b` of the moment :math:`EI(\kappa+\eta_b\dot\kappa)`. The beam hardens at
+2 rad/s and softens at 6. At the folds, where the curve turns around, the response jumps; between
+two folds it is unstable. The thin line, the backbone, is the free oscillation.
 """
 
 import matplotlib.pyplot as plt
@@ -32,6 +31,6 @@ for ax, at_speed in zip(axes, curves.values(), strict=True):
 plt.show()
 
 # %%
-# The least damped one at each speed:
+# The curve with the least damping at each speed:
 for at_speed in curves.values():
     print(at_speed[0])

@@ -1,12 +1,10 @@
-r"""
-A beam that turns under its weight
-==================================
+r"""A rotating beam under gravity
+=============================
 
-The paper's beam on earth, in a vertical plane of rotation, with an external damping of
-:math:`d\,\dot{\mathbf r}` per length, the velocity being that in the turning frame. Its weight goes
-around once a turn, and bends it with harmonics of all orders: the k-th is greatest about where
-:math:`\omega_n=k\omega`, dotted. Above is the greatest deflection, to whichever side, below are the
-harmonics.
+The paper's beam in a vertical plane of rotation, with an external damping of
+:math:`d\,\dot{\mathbf r}` per length, where the velocity is that in the turning frame. Gravity
+excites harmonics of all orders. The k-th is greatest near :math:`\omega_n=k\omega` (dotted). Above
+is the greatest deflection to either side, below are the harmonics.
 """
 
 import matplotlib.pyplot as plt
@@ -33,7 +31,7 @@ for crossing in crossings:
 plt.show()
 
 # %%
-# Where each harmonic is greatest, and where it is in resonance:
+# The speed at which each harmonic is greatest, and its resonance:
 for crossing in reversed(crossings):
     greatest = response.omega[np.argmax(np.abs(response.harmonics[:, crossing.order]))]
     print(f"{crossing.order}: {greatest:.2f} rad/s, ω_n = kω at {crossing.omega:.4f} rad/s")

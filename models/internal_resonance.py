@@ -1,11 +1,10 @@
-r"""
-Internal resonance
+r"""Internal resonance
 ==================
 
-The backbone of the paper's beam, inextensible, at 2 rad/s. The sixth harmonic, which the Coriolis
-force brings, meets the second mode at two thirds of the length: the branch turns around and the
-second mode takes over, dashed; beyond, the backbone goes on from the other side. All other
-crossings, the dots with harmonic:mode, are too weak to be seen.
+The backbone of the paper's beam, inextensible, at 2 rad/s. The Coriolis force causes the sixth
+harmonic, which meets the second mode at two thirds of the length. There the branch turns around
+and the second mode dominates (dashed); the backbone continues on the other side. All other
+crossings, the dots with harmonic:mode, are too weak to be visible.
 """
 
 import matplotlib.pyplot as plt

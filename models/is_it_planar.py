@@ -1,10 +1,9 @@
-r"""
-Is it planar?
-=============
+r"""Is the motion planar?
+=====================
 
-How fast the planar orbits of the paper's beam leave the plane of rotation if its section is
-a rectangle with the paper's :math:`A` and :math:`I`; what is white stays. Circles are where its
-spin-ups would end. A thin tube with the same :math:`A` and :math:`I` stays.
+How fast planar orbits leave the plane of rotation if the section of the paper's beam is a rectangle
+with the paper's :math:`A` and :math:`I`; white is stable. Circles are the ends of the paper's
+spin-ups. A thin tube with the same :math:`A` and :math:`I` stays in the plane.
 """
 
 import matplotlib.pyplot as plt
@@ -23,7 +22,8 @@ figures.growth_out_of_plane(data, spin_ups=ends)
 plt.show()
 
 # %%
-# From where on all orbits leave the plane, and the tube where spin-ups to 4 rad/s end:
+# The amplitude above which all orbits leave the plane, and the tube at the ends of the spin-ups to
+# 4 rad/s:
 limit = stability_limit(strip, 4.0, largest=0.1)
 round_one = planar_stability(tube, 4.0, ends[4.0])
 print(limit, round_one, sep="\n")

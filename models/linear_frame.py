@@ -1,12 +1,11 @@
-"""
-A linear model that flies apart
-===============================
+"""A linear model that diverges
+============================
 
-What linear elasticity in one floating frame does with the benchmark: it diverges.
+Linear elasticity in one floating frame diverges in this benchmark.
 
-Above the beam's first natural frequency centrifugal forces win over the bending stiffness, since
-nothing in the model knows of the tension that they bring. A geometrically exact beam just swings.
-The thin line is its length.
+Above the beam's first natural frequency centrifugal forces exceed the bending stiffness, because
+the model does not include the tension that they cause. A geometrically exact beam oscillates. The
+thin line is its length.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,9 @@
-r"""
-Mesh convergence
+r"""Mesh convergence
 ================
 
-The first natural frequency of the finite element model in steady rotation against that of the
-geometrically exact continuum. The cable element converges with the fourth power of its length.
+The first natural frequency of the finite element model in steady rotation, compared with that of
+the geometrically exact continuum. The error of the cable element falls with the fourth power of its
+length.
 """
 
 import matplotlib.pyplot as plt

@@ -1,11 +1,10 @@
-r"""
-What each reduced model gets wrong
-==================================
+r"""Errors of the reduced models
+============================
 
-The error of each model's nonlinear frequency, source by source. One fault after another is taken
-away until the exact beam is left, so that the pieces of a bar add up to the whole error. C and Fr
-have the cantilever's and the rotating mode, I and E are inextensible and extensible, as in the
-paper; FrC has a consistent foreshortening, and FrM all other bending modes as well.
+The error of each model's nonlinear frequency, by source. One error after another is removed until
+the exact beam remains, so the parts of a column add up to the whole error. C and Fr have the
+cantilever's and the rotating mode, I and E are inextensible and extensible, as in the paper; FrC
+has a consistent foreshortening, and FrM all other bending modes as well.
 """
 
 import matplotlib.pyplot as plt
@@ -31,6 +30,6 @@ axes[1].legend(fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5))
 plt.show()
 
 # %%
-# The paper's best model, and ours:
+# The paper's best model, and FrM:
 total = {str(name): budget["total"].sel(model=name).item() for name in budget["model"].to_numpy()}
 print(f"FrE {total['FrE']:+.2e}, FrM {total['FrM']:+.2e}")

@@ -1,9 +1,9 @@
-"""
-The spin-up of a rectangle leaves its plane
+"""The spin-up of a rectangle leaves its plane
 ===========================================
 
-A rectangle with the paper's A and I, 37 mm high and 2 mm wide, without gravity, the tip 8 mm out of
-the plane at first, buckles sideways by w. A tube stays. Sections are strips drawn 0.4 m high.
+A rectangle with the paper's A and I, 37 mm high and 2 mm wide, without gravity. With the tip 8 mm
+out of the plane at first, it buckles sideways by w. A tube stays in the plane. Sections are drawn
+as strips 0.4 m high.
 """
 
 import matplotlib.pyplot as plt

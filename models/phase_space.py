@@ -1,11 +1,10 @@
-r"""
-Phase space
+r"""Phase space
 ===========
 
 One period of the tip's orbit, Fig. 15 of the paper: finite elements, the reduced models, and the
-exact beam at the same peak. A model whose frequency is off does not close. C and Fr have the
-cantilever's and the rotating mode, I and E are inextensible and extensible; FrC has a consistent
-foreshortening, and FrM all other bending modes as well.
+exact beam at the same peak. The orbit of a model with a wrong frequency does not close. C and Fr
+have the cantilever's and the rotating mode, I and E are inextensible and extensible; FrC has a
+consistent foreshortening, and FrM all other bending modes as well.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +16,7 @@ figures.figure_15(data)
 plt.show()
 
 # %%
-# By how much each model's period misses that of the finite element run:
+# The difference of each model's period from that of the finite element run:
 period = data["period"]
 miss = period / period.sel(model="finite element") - 1.0
 for name in data["model"].to_numpy():

@@ -1,10 +1,9 @@
-r"""
-A spin-up that leaves nothing
-=============================
+r"""A ramp without residual vibration
+=================================
 
-To 6 rad/s in 4 s: the ramp of the paper, Eq. 1, and one whose acceleration has a few waves more,
-designed so that the first two modes are at rest when it ends. Both in finite elements, which know
-nothing of the design.
+To 6 rad/s in 4 s: the ramp of the paper, Eq. 1, and one whose acceleration has a few more
+harmonics, designed so that the first two modes are at rest when it ends. Both are computed by
+finite elements, which are independent of the design.
 """
 
 import matplotlib.pyplot as plt

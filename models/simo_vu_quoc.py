@@ -1,10 +1,9 @@
-"""
-The spin-up of Simo and Vu-Quoc
+"""The spin-up of Simo and Vu-Quoc
 ===============================
 
-The classic of 1986, with the smooth ramp of Eq. 1: a beam of 10 m is brought to 6 rad/s in 15 s.
-It lags behind by half a meter on the way, and in steady rotation it is longer by half a millimeter:
-a model that is linear in the wrong place loses the stiffening that this tension brings, and
+The benchmark of 1986, with the smooth ramp of Eq. 1: a beam of 10 m is spun up to 6 rad/s in 15 s.
+It lags behind by half a meter during the ramp, and in steady rotation it is longer by half a
+millimeter. A model that is linear in the wrong place loses the stiffening by this tension, and
 diverges.
 """
 

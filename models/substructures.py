@@ -1,13 +1,12 @@
-"""
-Substructures
+"""Substructures
 =============
 
 Linear floating frames in a row: stable up to a divergence speed that grows with their number.
 
-Valverde and García-Vallejo's point of 2009: the nonlinearity that a rotating beam needs can be had
-from linear substructures, for the rotation between their frames brings it in, and how much each
-of them brings depends on what its frame follows: its tangent at one end, or the line between its
-ends, on which it is pinned. One tangent frame diverges at the first frequency at rest, ω_0.
+Valverde and García-Vallejo showed in 2009 that linear substructures give a rotating beam its
+necessary nonlinearity, by the rotation between their frames. The effect of each substructure
+depends on its frame: it follows the tangent at one end, or the line between the ends, on which it
+is pinned. One tangent frame diverges at the first frequency at rest, ω_0.
 """
 
 import matplotlib.pyplot as plt

@@ -1,10 +1,9 @@
-r"""
-A tapered blade on a hub: lag and flap
+r"""A tapered blade on a hub: lag and flap
 ======================================
 
-The Campbell diagram of the paper's beam made a blade: width and height fall to two thirds and a
-half at the tip, and the hub's radius is a tenth of the length. Lag is in the plane of rotation; out
-of it, in flap, frequencies are higher: :math:`\omega_{flap}^2 \approx \omega_{lag}^2 + \omega^2`.
+The Campbell diagram of the paper's beam as a blade: width and height fall to two thirds and a half
+at the tip, and the hub's radius is a tenth of the length. Lag is in the plane of rotation. Out of
+it, in flap, frequencies are higher: :math:`\omega_{flap}^2 \approx \omega_{lag}^2 + \omega^2`.
 """
 
 import math
@@ -32,7 +31,7 @@ for mode, frequencies in enumerate(flap.frequencies.T, start=1):
 plt.show()
 
 # %%
-# The relation between the two holds for any inextensible blade without turning inertia. What the
-# stretch and the axial motion leave of it:
+# The relation between the two holds for any inextensible blade without rotary inertia. The error
+# due to the stretch and the axial motion:
 gap = flap.frequencies[:, 0] ** 2 - lag.frequencies[:, 0] ** 2 - omegas**2
 print(f"at most {np.abs(gap[1:] / omegas[1:] ** 2).max():.1e} of ω²")

@@ -1,12 +1,12 @@
-r"""
-The paper's element
-===================
+r"""Thickness locking of the paper's element
+========================================
 
-What becomes of it under the law that couples its strains by Poisson's ratio.
+The paper's element with a law that couples its strains by Poisson's ratio.
 
 With Poisson's ratio in the law, bending strains the section across its height, which one slope
-vector cannot follow: the beam bends as if :math:`E` were :math:`E/(1-\nu^2)`, on any mesh. Without
-it a little is left: shear lowers the frequency, and Green-Lagrange strains, in rotation, raise it.
+vector cannot represent. The beam bends as if :math:`E` were :math:`E/(1-\nu^2)`, on any mesh.
+Without it small differences remain: shear lowers the frequency, and Green-Lagrange strains, in
+rotation, raise it.
 """
 
 import matplotlib.pyplot as plt

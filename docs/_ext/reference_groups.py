@@ -24,13 +24,13 @@ def _group(title: str, purpose: str, **names: str) -> Group:
 GROUPS = (
     _group(
         "Beam and blade",
-        "What turns: its lengths, sections, masses and damping.",
+        "The rotating body: its lengths, sections, masses and damping.",
         analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Circle Tube OutOfPlane "
         "AnyBlade Theory",
     ),
     _group(
         "Motion and loads",
-        "How its clamp turns, and what acts on it.",
+        "The motion of the clamp, and the loads.",
         analytic="SpinUp FourierRamp SpeedTable SteadyRotation Gravity TipForce DistributedForce "
         "SpeedRipple",
     ),
@@ -46,7 +46,7 @@ GROUPS = (
     ),
     _group(
         "Backbone",
-        "Frequency against amplitude, exactly: orbit by orbit, as a series, beyond folds.",
+        "Exact frequency over amplitude: single orbits, a series, branches beyond folds.",
         analytic="periodic_orbits Orbits AmplitudeNotReachedError backbone Backbone backbone_curve",
         analytic__exact__beam__state="BeamState",
         analytic__exact__free__curve="BackboneCurve",
@@ -56,12 +56,12 @@ GROUPS = (
     ),
     _group(
         "Forced response",
-        "Damped and driven, through the folds.",
+        "The response of damped blades to loads, through folds.",
         analytic="forced_response ForcedResponse ResponseNotReachedError",
     ),
     _group(
         "Spin-up",
-        "The transient, exactly and linear, what a ramp leaves, and ramps that leave nothing.",
+        "The transient, exact and linear; the residual vibration, and ramps that avoid it.",
         analytic="spin_up_response residual_amplitude quiet_ramp_times design_ramp linear_response",
         analytic__exact__driven__response="SpinUpResponse",
         analytic__spin_up__quiet="QuietRamps",
@@ -76,7 +76,7 @@ GROUPS = (
     ),
     _group(
         "Reduced models",
-        "The models of the paper, and those that repair them.",
+        "The models of the paper, and improved ones.",
         analytic="reduced_model ReducedModel VARIANTS Variant paper_table",
         analytic__reduced__speeds="softening_speed divergence_speed",
     ),
@@ -95,7 +95,7 @@ GROUPS = (
     ),
     _group(
         "Files and sweeps",
-        "Runs, beams and grids of runs, kept and read again.",
+        "Saving and loading of runs, beams and grids of runs.",
         rotbeam_exu="dataset_of save load sweep",
         rotbeam_exu__sweeps__grid="failures",
         rotbeam_exu__files__beam_file="load_beam",
@@ -108,15 +108,13 @@ GROUPS = (
         rotbeam_exu__verification__judgement="judged",
         rotbeam_exu__verification__submission_files="read_submission write_submission",
     ),
-    _group(
-        "Warnings", "What is legal, and probably not what was meant.", analytic="RotbeamWarning"
-    ),
+    _group("Warnings", "Valid input that is probably not intended.", analytic="RotbeamWarning"),
 )
 
 DATA = {
     "analytic.AnyBlade": "What theory and simulation take: a `Beam` or a `Blade`.",
     "analytic.VARIANTS": "The variants of the reduced model by name: CI, CE, FrI, FrE and, by "
-    "polynomials, P3, P4 and P5 of the paper; FrC, FrM and FrM5, which are ours.",
+    "polynomials, P3, P4 and P5 of the paper; FrC, FrM and FrM5 of this package.",
 }
 """What names say that have no docstring of their own."""
 

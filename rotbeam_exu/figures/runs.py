@@ -29,9 +29,9 @@ def _shows_3(data: xr.Dataset) -> str:
     ]
     return (
         f"Tip displacement with {listed(data['elements'])} elements, brought to "
-        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s; shaded: steady rotation; "
+        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s. Shaded: steady rotation; "
         "inset: its last quarter. "
-        f"Amplitude and period of the steady oscillation against those of {last} elements: "
+        f"Amplitude and period of the steady oscillation, compared with {last} elements: "
         f"{'; '.join(off)}. {numerics(data)}"
     )
 
@@ -39,8 +39,8 @@ def _shows_3(data: xr.Dataset) -> str:
 @paper_figure(
     shows=_shows_3,
     claim=(
-        "The paper: even one element is stable. So it is; the phase of the steady oscillation "
-        "takes more."
+        "The paper states that even one element gives a stable solution. We confirm this; the "
+        "phase of the steady oscillation needs more."
     ),
 )
 def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -82,19 +82,19 @@ def _shows_4(data: xr.Dataset) -> str:
     smeared = data.isel(case=int(np.argmax(data["smear"].to_numpy())))
     return (
         f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
-        "speed, in one scale; what both have is black. Lines are the first turn, all turns lie "
-        "behind it, pale. The normalization is that of Eqs. 17 and 18, m the mass ρAL: "
+        "speed, with the same scale; black: the case in both. Lines: the first turn; pale: all "
+        "turns. The normalization is that of Eqs. 17 and 18, with the mass m = ρAL: "
         "q₀ = mωL⁴/(T(EI + mω²L³)) and, corrected, q̇₀ = q₀√(EI/mL³ + ω²). "
         f"{numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
         f"rad/s, T = {float(smeared['ramp_time']):g} s is smeared: "
-        f"{100.0 * float(smeared['smear']):.1f} % of its velocity is no harmonic of its frequency "
-        "but the second mode, which so short a ramp excites too."
+        f"{100.0 * float(smeared['smear']):.1f} % of its velocity belongs to the second mode, "
+        "which such a short ramp excites, too."
     )
 
 
 @paper_figure(
     shows=_shows_4,
-    claim="The paper: orbits of large amplitude are distorted. So they are.",
+    claim="The paper states that orbits of large amplitude are distorted. We confirm this.",
 )
 def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw normalized steady orbits: (a) by ramp time, (b) by speed.
@@ -146,18 +146,18 @@ def _first_turn(q: Any, rate: Any) -> slice:
     shows=lambda data: (
         f"One period of the tip's orbit at ω = {data.attrs['omega']:g} rad/s, "
         f"T = {data.attrs['ramp_time']:g} s: finite elements, {models(data)} and the exact beam at "
-        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}; dots mark where each ends, and the "
-        f"inset those that end near the start. {numerics(data)}"
+        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}. Dots: the end of each orbit; inset: "
+        f"orbits that end near the start. {numerics(data)}"
     ),
     claim=(
-        "The paper: FrI is noticeably close "
-        "but open, its frequency too low; CI and CE are significantly inaccurate. The print does "
-        "not say which T. At T = 3.375 and 3.25 s (a = 0.20, 0.23) the paper's order of the paths "
-        "holds: FrI strays 3.0 and 3.4 % of the half axes, CI 4.3 and 3.9 %, CE 6 %. From T = 3 s "
-        "on (a = 0.32) it does not: FrI strays 6.2 % and misses its start by 35 %, CI only 2.3 and "
-        "7.5 %, as its too high ω_n and too strong softening cancel. FrI's frequency is too low "
-        "at every T. At T = 3 s FrM, FrC and FrE close to 1.2 %. FrC and FrE stray 2 %, for they "
-        "lack the second harmonic, which Coriolis forces bring; FrM has it and strays 0.2 %."
+        "The paper states that FrI is close but open, with too low a frequency, and that CI and "
+        "CE are significantly inaccurate. It does not state T. At T = 3.375 and 3.25 s (a = 0.20, "
+        "0.23) the paper's order of the models holds: FrI deviates by 3.0 and 3.4 % of the half "
+        "axes, CI by 4.3 and 3.9 %, CE by 6 %. From T = 3 s on (a = 0.32) it does not: FrI "
+        "deviates by 6.2 % and misses its start by 35 %, CI only by 2.3 and 7.5 %, because its "
+        "errors of ω_n and of the softening cancel. FrI's frequency is too low at every T. At "
+        "T = 3 s FrM, FrC and FrE close to 1.2 %. FrC and FrE deviate by 2 %, because they lack "
+        "the second harmonic, which Coriolis forces cause; FrM has it and deviates by 0.2 %."
     ),
 )
 def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:

@@ -24,12 +24,12 @@ _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
     shows=lambda data: (
         f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
         f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
-        "marked strip, as high. The model's a is the first harmonic of q/L, the exact beam's half "
-        "peak to peak."
+        "marked strip, at the same height. The model's a is the first harmonic of q/L, the exact "
+        "beam's half peak to peak."
     ),
     claim=(
-        "The paper: all lie in the shaded area. As algebra of the model they do, and at rest the "
-        "model is right; in rotation it softens far too much, because Eq. 25 drops -v'⁴/8."
+        "The paper states that all backbones lie in the shaded area. In the model they do, and at "
+        "rest it is right; in rotation it softens far too much, because Eq. 25 drops -v'⁴/8."
     ),
 )
 def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -60,8 +60,8 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}."
     ),
     claim=(
-        "The paper: softening grows with speed. True of the model, and an artifact of Eq. 25: the "
-        "exact λ_ω stays below 0.025."
+        "The paper states that softening grows with speed. In the model it does, because of Eq. "
+        "25: the exact λ_ω stays below 0.025."
     ),
 )
 def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
@@ -75,9 +75,9 @@ def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
         f"degree 3, 4 and 5; {EXACT}."
     ),
     claim=(
-        "The paper: degree 5 is nearest to the mode at low speed, and degree 4 never hardens. "
-        "Reproduced; from 4 rad/s on the shape matters little next to the distance from the exact "
-        "beam; at rest the mode alone is right."
+        "The paper states that degree 5 is closest to the mode at low speed, and that degree 4 "
+        "never hardens. We confirm this. From 4 rad/s on the effect of the shape is small compared "
+        "with the distance from the exact beam; at rest only the mode is right."
     ),
 )
 def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
@@ -92,8 +92,8 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
         f"of μ = {beam_of(data.attrs).slenderness:.4g}."
     ),
     claim=(
-        "The print does not say which μ it shows. Reproduced in shape; the elongation by a sine is "
-        "an assumption, and of a slender beam λ_ω goes the wrong way."
+        "The paper does not state its μ. We reproduce the shape of the curves. The elongation by a "
+        "sine is an assumption, and for a slender beam λ_ω changes in the wrong direction."
     ),
 )
 def figure_11(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
@@ -126,15 +126,15 @@ def _shows_12(data: xr.Dataset) -> str:
     first = [int(data["degree"][np.isfinite(row.to_numpy())][0]) for row in data["omega_n"]]
     return (
         "Distance of the natural frequency by Frobenius' series from its limit, over the degree N "
-        f"of the polynomial, even ones, at ω = {listed(data['omega'])} rad/s. "
-        f"Before N = {listed(first)} there is no point, for Eq. 86 has no root near the first "
-        "frequency; below 1e-13 rad/s there is none, for that is round-off."
+        f"of the polynomial, for even N, at ω = {listed(data['omega'])} rad/s. "
+        f"Before N = {listed(first)} there is no point, because Eq. 86 has no root near the first "
+        "frequency. Differences below 1e-13 rad/s are round-off and not shown."
     )
 
 
 @paper_figure(
     shows=_shows_12,
-    claim="The paper: degree 36 is enough. At 8 rad/s it is 2.1e-4 rad/s off. Eq. 81 is corrected.",
+    claim="The paper uses degree 36. At 8 rad/s the error is 2.1e-4 rad/s. Eq. 81 is corrected.",
 )
 def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the distance of Frobenius' natural frequency from its limit over the degree."""
@@ -174,7 +174,7 @@ def _shows_13(data: xr.Dataset) -> str:
 
 @paper_figure(
     shows=_shows_13,
-    claim="The paper: the difference becomes significant with speed. It does: tension straightens.",
+    claim="The paper states that the difference grows with speed. It does: tension straightens.",
 )
 def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the first mode shape at rest and in rotation."""

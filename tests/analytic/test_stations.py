@@ -30,7 +30,7 @@ from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 
-NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
+NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw_edgewise.toml"
 
 
 @pytest.fixture(scope="module")

@@ -61,7 +61,7 @@ def test_an_amplitude_out_of_the_plane_costs_a_fraction_of_a_second(beam):
     assert min(took) < 1.0
 
 
-NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
+NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw_edgewise.toml"
 DAMPING = Damping(external=5.0)
 ON_A_REAL_BLADE = {
     "modes": lambda blade: linear_modes(blade, 1.267),

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
+NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw_edgewise.toml"
 SPEED = ("--omega", "1.267")
 MOTION = (*SPEED, "--ramp-time", "3")
 MESH = ("--elements", "4", "--step", "0.01", "--duration", "10")

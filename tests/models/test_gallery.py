@@ -191,3 +191,17 @@ def test_is_it_planar(run):
     # The tension holds the blade back, so that more stays in the plane as it turns faster.
     assert np.all(np.diff((rate == 0.0).sum("a")) >= 0)
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
+
+
+def test_real_blade(run):
+    found = run("real_blade")
+    (meeting,) = found["diagram"].crossings
+    modes = linear_modes(found["blade"], meeting.omega, 1)
+    assert meeting.omega == pytest.approx(1.5759, abs=1e-4)
+    assert modes.frequencies[0] == pytest.approx(3.0 * meeting.omega, rel=1e-6)
+    # It hardens, whatever the functions: 16 have -0.0898, too. Extension makes it -0.0877.
+    assert found["orbits"].lambda_omega == pytest.approx(-0.0898, abs=1e-4)
+    assert found["start"].error < 1e-4
+    # The cone is pulled flat by 0.32 m, about which flap swings.
+    late = found["start"].flap[found["times"] > 4.0]
+    assert late.mean() == pytest.approx(0.319, abs=0.01)

@@ -21,7 +21,7 @@ from .unit import SpaceUnit
 from .vectors import about_axis
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
-_FEW = 6  # on each of many short cells, which turn less
+_FEW = 4  # on each of many short cells, which turn less
 _MANY_CELLS = 8
 
 

@@ -1,0 +1,91 @@
+"""The pages are plain English: short sentences, and the words of the field."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+MADE = {"_build", "gallery"}  # by Sphinx
+PAGES = [
+    ROOT / "README.md",
+    *sorted(
+        page
+        for page in (ROOT / "docs").rglob("*.md")
+        if not MADE & set(page.relative_to(ROOT / "docs").parts)
+    ),
+]
+MOST_WORDS = 35
+# One's own word: what the field says.
+OWN_WORDS = {
+    r"bars?": "uncertainty",
+    r"beside": "compared with, next to, near",
+    r"held against": "compared with",
+    r"tells?|told": "shows, determines, reports",
+    r"truths?": "reference solution",
+    r"what is left": "residual vibration",
+    r"the pull": "tension",
+    r"ours (?:is|are)": "we, this package",
+    r"leaves? (?:nothing|almost nothing|least|less)": "the residual amplitude is ...",
+    r"fl(?:y|ies) apart": "diverges",
+    r"colour\w*|fibres?|licence|behaviour|centre\w*|grey|\w*metres?": "American spelling",
+    r"judgement\w*|neighbour\w*|modelled|labelled": "American spelling",
+}
+
+
+def prose(text):
+    """Return the paragraphs of a page, without code, tables, headings and formulas."""
+    text = re.sub(r"^( *)(```+|~~~+).*?^\1\2 *$", "\n", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"\$\$.*?\$\$", "\n\n", text, flags=re.DOTALL)
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
+    text = re.sub(r"^\s*(\||#|:{3,}|:\w+:|\(\S+\)=).*$", "\n", text, flags=re.MULTILINE)
+    text = re.sub(r"^(?= *(?:[-*]|\d+\.) )", "\n", text, flags=re.MULTILINE)
+    text = re.sub(r"(?:\{[\w:]+\})?`+[^`]+`+|\$[^$]+\$", "X", text)
+    text = re.sub(r"!?\[([^]]*)\](?:\([^)]*\))?", r"\1", text)
+    text = re.sub(r"\b(Eqs?|Figs?|Secs?|al)\.", r"\1", text)  # no end of a sentence
+    parts = re.split(r"\n(?:[ \t]*\n)+", text)
+    return [" ".join(part.split()) for part in parts if part.strip() and part[:4] != " " * 4]
+
+
+def sentences(text):
+    """Split each paragraph where a full stop is followed by something that is no small letter."""
+    for paragraph in prose(text):
+        yield from re.split(r"(?<=[.!?])[*)\"]*\s+(?=[^a-z\s])", paragraph)
+
+
+def words(sentence):
+    return [part for part in sentence.split() if re.search(r"\w", part)]
+
+
+def long_sentences(text):
+    return [one for one in sentences(text) if len(words(one)) > MOST_WORDS]
+
+
+def own_words(text):
+    return [
+        f"{found[0]} (say: {better}): {found.string[max(0, found.start() - 40) : found.end() + 40]}"
+        for paragraph in prose(text)
+        for pattern, better in OWN_WORDS.items()
+        for found in re.finditer(rf"\b(?:{pattern})\b", paragraph, re.IGNORECASE)
+    ]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_no_sentence_is_longer_than_35_words(page):
+    assert long_sentences(page.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_pages_use_the_words_of_the_field(page):
+    assert own_words(page.read_text(encoding="utf-8")) == []
+
+
+def test_both_can_fail():
+    code = "```text\n" + "word " * 36 + "\n```\n"
+    formula = "$$\n" + "x + " * 36 + "y\n$$\n"
+    allowed = "Word " + "word " * 34 + "end"
+    assert len(words(allowed)) == MOST_WORDS + 1
+    assert long_sentences(f"{code}\n{formula}\n| {'cell ' * 36} |\n\nShort. Also short.") == []
+    assert long_sentences(f"- item\n- {allowed}.") == [f"- {allowed}."]
+    assert own_words("The `bar` of $bar$ and barely.") == []
+    assert len(own_words("The bars are held\nagainst the truth, in metres.")) == 4
