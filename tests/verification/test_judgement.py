@@ -42,6 +42,10 @@ def test_a_right_code_converges_to_the_reference(judged_right):
     assert of["history"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
     for quantity in ("amplitude", "history"):
         assert abs(of[quantity].model_difference) < 1e-6
+    # All runs are compared as far as the shortest goes, its last sample included.
+    seen = found.histories["S"]
+    compared = seen.finest.time <= min(run.time[-1] for run in seen.runs)
+    assert {d.size for d in seen.aligned.values()} == {np.count_nonzero(compared)}
     # The exact answer lies on the exact backbone, a second mode in it notwithstanding.
     assert abs(of["nonlinear shift"].model_difference) < 1e-3
     assert found.sources["S"]
