@@ -125,9 +125,9 @@ class StationSection(Section):
         return np.array((self.stiffness, self.mass))
 
     def matrices(self, x: FloatArray) -> FloatArray:
-        """Return stiffness and mass at `x` in units of its stations, (2, places, 6, 6)."""
+        """Return stiffness and mass at `x` between stations, in their unit, (2, places, 6, 6)."""
         at = np.array(self.x)
-        first = np.clip(np.searchsorted(at, x, side="right") - 1, 0, at.size - 2)
+        first = np.searchsorted(at, x, side="right") - 1
         share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
         return np.asarray(
             (1.0 - share) * self._arrays[:, first] + share * self._arrays[:, first + 1]

@@ -144,9 +144,8 @@ def models_of(x: tuple[float, ...], y: tuple[float, ...], declared: Declared) ->
 
 
 def shares(orders: Sequence[float] | FloatArray, declared: float | None) -> FloatArray:
-    """Return the share that each order of a grid has before there are runs."""
-    share = _density(np.asarray(orders), declared) * np.gradient(np.log(orders))
-    return np.asarray(share / share.sum())
+    """Return the share that each order of a grid has before there are runs, but for a factor."""
+    return np.asarray(_density(np.asarray(orders), declared) * np.gradient(np.log(orders)))
 
 
 def _density(orders: FloatArray, declared: float | None) -> FloatArray:

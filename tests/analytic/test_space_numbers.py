@@ -186,6 +186,23 @@ def test_the_first_torsion_of_a_bar_in_closed_form():
         )
 
 
+def test_torsion_alone_has_the_rotary_inertia_that_is_told():
+    """j2 and j3 as r to 1, with or without what a theory adds; told to be zero, no mode."""
+
+    def first(told, theory):
+        section = Section(
+            mass_per_length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, rotary_inertia=told
+        )
+        blade = Blade(length=1.0, section=section).with_section_out_of_plane(0.0625, 0.08)
+        return linear_modes(blade, 0.0, 1, plane="torsion", theory=theory).frequencies[0]
+
+    known = 0.5 * math.pi * math.sqrt(0.08 / (1.0625 * 2e-4))
+    for theory in (Theory(), Theory(trapeze=False)):
+        assert first(2e-4, theory) == pytest.approx(known, rel=1e-9)
+        with pytest.raises(ValueError, match="without polar inertia"):
+            first(0.0, theory)
+
+
 def test_the_polar_inertia_of_a_taper_is_that_of_its_slices():
     """Told for the root or found of the section: the same all along the blade."""
     section = Section(

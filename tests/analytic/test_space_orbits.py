@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Theory, backbone, linear_modes, periodic_orbits
+from analytic.exact.space.modes import orbit_modes
+from analytic.exact.space.steady import space_continuum, space_rotation
 
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
 BLADE = Beam.from_stiffness(
@@ -34,6 +36,30 @@ def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
     assert found.lambda_omega == pytest.approx(softening, abs=6e-7)
     assert found.lambda_omega_error < 1e-5
     assert found.frequency_error.max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("blade", "gauge", "reversible"),
+    [
+        (twisted(30.0), "flap", True),
+        (BLADE.with_precone(0.1), "lag", True),
+        (BLADE.with_precone(0.1), "flap", False),
+        (twisted(30.0).with_precone(0.1), "lag", False),
+    ],
+)
+def test_orbits_grow_out_of_free_vibration_with_the_tip_in_the_sine(blade, gauge, reversible):
+    """K + iΩC - Ω²M of each shape, and its gauge sin φ; as far as modes are resolved, all."""
+    begun = space_rotation(blade, 1.5, space_continuum(blade, SOLID, 6))
+    steady, frequencies, shapes = orbit_modes(begun, 1, gauge)
+    assert (steady.odd is not None) == reversible
+    if reversible:
+        shapes = np.where(steady.odd, -1j, 1.0) * shapes
+    _, K, C, M = (part[0] for part in steady.linearized)
+    gradient = steady.gauge_gradient(steady.equilibrium[None])[0]
+    for w, shape in zip(frequencies[:4], shapes[:4], strict=True):
+        work = (K + 1j * w * C - w**2 * M) @ shape
+        assert np.linalg.norm(work) < 1e-7 * np.linalg.norm(shape)
+        assert gradient @ shape == pytest.approx(-1j, abs=1e-9)
 
 
 def test_the_softening_of_a_coned_blade_by_half_of_the_swing():

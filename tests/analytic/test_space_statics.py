@@ -70,13 +70,15 @@ def test_a_moment_rolls_a_bar_up(about, turns):
 
 
 def test_a_torque_and_a_pull_twist_and_stretch():
-    """M/GJ and F/EA, of a bar with GJ = EI/2."""
-    blade = ROUND.with_section_out_of_plane(1.0, 0.5)
+    """ML/GJ and F/EA, of a bar of two meters with GJ = EI/2."""
+    blade = Beam.from_stiffness(
+        length=2.0, axial_stiffness=1e4, bending_stiffness=3.0, mass_per_length=1.0
+    ).with_section_out_of_plane(1.0, 0.5)
     load = {"force": (50.0, 0.0, 0.0), "moment": (0.7, 0.0, 0.0)}
     state = steady_state(blade, 0.0, **load, theory=Theory(trapeze=False))
-    assert state.tip == pytest.approx([1.0 + 50.0 / 1e4, 0.0, 0.0], abs=1e-13)
+    assert state.tip == pytest.approx([2.0 + 2.0 * 50.0 / 1e4, 0.0, 0.0], abs=1e-13)
     model, q = state._steady.model, state._steady.equilibrium
-    assert model.weights @ (model.strains.K[0] @ q) == pytest.approx(0.7 / 0.5, abs=1e-12)
+    assert model.weights @ (model.strains.K[0] @ q) == pytest.approx(0.7 * 2.0 / 1.5, abs=1e-12)
 
 
 def test_a_column_is_followed_to_where_it_buckles():
@@ -86,6 +88,13 @@ def test_a_column_is_followed_to_where_it_buckles():
     assert straight.tip == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
     with pytest.raises(ValueError, match=r"at 0\.99\d* of the load.* load it less"):
         steady_state(ROUND, 0.0, force=(-1.005 * critical, 0.0, 0.0), theory=RIGID)
+
+
+def test_a_twisted_column_leans_to_the_side_to_which_it_is_pushed():
+    """Far beyond buckling it would stand on the other side too; followed from rest it does not."""
+    strip = ROUND.with_section_out_of_plane(1.0 / 16.0, 0.08).with_twist(1.0)
+    state = steady_state(strip, 0.0, force=(-1.0, 0.0, 0.02), theory=RIGID)
+    assert state.tip[2] > 0.5
 
 
 def test_a_force_in_rotation_bends_less():

@@ -36,6 +36,14 @@ def test_a_pure_power_is_found(order, elements):
     assert found.errors == pytest.approx(found.in_mesh, rel=1e-3, abs=0.1 * finest)
 
 
+@pytest.mark.parametrize("order", [1.3, 1.7, 2.3, 3.4, 4.5])
+def test_an_order_that_nobody_declared_is_found_between_those_of_the_grid(order):
+    """Of four meshes, to a hundredth; the limit to a tenth of the finest run's error, as above."""
+    found = converged((8, 16, 32, 64), None, series((8, 16, 32, 64), order=order))
+    assert found.orders["mesh"].value == pytest.approx(order, rel=0.01)
+    assert found.limit == pytest.approx(LIMIT, abs=0.1 / 64**order)
+
+
 TOGETHER = (8, 16, 32, 16, 16), (2.0, 2.0, 2.0, 1.0, 4.0)
 """Meshes at one of the steps that were tried on one of them."""
 APART = (8, 16, 32, 64, 64, 64), (2.0, 2.0, 2.0, 1.0, 0.5, 0.25)
@@ -153,6 +161,8 @@ def test_growths_are_counted_along_meshes_and_steps():
     assert converged(*steps, (0.9, 1.0, 1.1, 1.3, 1.8)).growths == 2
     # What the floor hides does not grow.
     assert converged(meshes, None, (1.0, 1.01, 1.03, 1.08), noise=0.1).growths == 0
+    # Of each change by the floors of both its runs: 2 is above 1.5, and 5 below 5.5.
+    assert converged(meshes, None, (1.0, 2.0, 4.0, 9.0), noise=(0.0, 0.0, 1.5, 4.0)).growths == 1
 
 
 def test_an_order_is_low_below_seven_tenths_of_the_declared_one():

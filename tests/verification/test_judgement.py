@@ -42,6 +42,10 @@ def test_a_right_code_converges_to_the_reference(judged_right):
     assert of["history"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
     for quantity in ("amplitude", "history"):
         assert abs(of[quantity].model_difference) < 1e-6
+    # All runs are compared as far as the shortest goes, its last sample included.
+    seen = found.histories["S"]
+    compared = seen.finest.time <= min(run.time[-1] for run in seen.runs)
+    assert {d.size for d in seen.aligned.values()} == {np.count_nonzero(compared)}
     # The exact answer lies on the exact backbone, a second mode in it notwithstanding.
     assert abs(of["nonlinear shift"].model_difference) < 1e-3
     assert found.sources["S"]
@@ -65,6 +69,21 @@ def test_a_clock_that_is_slow_by_a_thousandth_is_seen_in_the_shift(
     shift = exact.frequency_at(amplitude) / exact.first_frequency(6.0) - 1.0
     assert found.model_difference == pytest.approx(-1e-3 / shift, rel=0.02)
     assert found.outcome is Outcome.DIFFERS
+
+
+def test_a_linear_frequency_of_its_own_moves_the_shift_and_adds_its_bar(judged_right):
+    """By its error over the shift, 1.4e-2, where that is known; else by nothing."""
+    seen = judged_right.histories["S"]
+    without = seen.shift(5e-2, None)
+    amplitude = seen.oscillations[seen.finest].amplitude
+    shift = seen.reference.frequency_at(amplitude) / seen.reference.first_frequency(6.0) - 1.0
+    for limit, bar in ((1e-4, 5e-5), (-1e-4, 5e-5), (1e-4, 2e-4)):
+        own = replace(without.runs, limit=limit, bar=bar)
+        off, doubt = (limit, bar) if bar < abs(limit) else (0.0, 0.0)
+        found = seen.shift(5e-2, own)
+        moved = found.model_difference - without.model_difference
+        assert moved == pytest.approx(-off / shift, rel=1e-6, abs=1e-9)
+        assert found.bound == pytest.approx(without.bound + doubt / abs(shift), rel=1e-9)
 
 
 def test_a_linear_oscillator_is_told_from_the_truth_at_two_radians():
@@ -244,11 +263,16 @@ def test_nonlinear_frequencies_are_over_the_linear_one_of_the_same_code():
     shift = truth.frequency_at(0.3, 2.0) / linear - 1.0
     other = replace(CASES["L"], blade=CASES["L"].blade.with_tip_mass(0.1))
     for known, expected in ((CASES["L"], 0.0), (other, off / shift)):
-        found = judged(submission, cases={"L": known, "B": CASES["B"]}).findings["B"]["backbone"]
+        of = judged(submission, cases={"L": known, "B": CASES["B"]}).findings
+        found, doubt = of["B"]["backbone"], of["L"]["linear frequency"].runs.bar
         assert found.model_difference == pytest.approx(expected, abs=1e-4)
+        # The bar of ω_n counts where ω_n is the code's own.
+        known_to = truth.bound + (0.0 if expected else doubt)
+        assert found.bound == pytest.approx(known_to / shift, rel=1e-12)
 
 
-def test_thresholds_are_asked_of_every_quantity(judged_right):
+def test_thresholds_are_those_that_authors_were_told(judged_right):
+    assert list(THRESHOLDS.values()) == [2e-4, 1e-2, 1e-2, 5e-2, 5e-2]
     assert {quantity for _, quantity in judged_right.by_quantity} < set(THRESHOLDS)
 
 

@@ -1,5 +1,7 @@
 """What is said of a limit: right, off by a little, different, or which runs would decide."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -89,6 +91,29 @@ def test_what_is_undecided_says_which_runs_would_decide(runs, said):
         n = np.array([*elements, finer], dtype=float)
         fit = converged(n, None, 0.02 * (32 / n) ** 2, declared=(2.0, 2.0))
         assert found_of(fit, tolerance=5e-3, bound=0.0, where="here").outcome.passed
+
+
+@pytest.mark.parametrize(
+    ("limit", "in_mesh", "in_step", "said"),
+    [
+        # The bar, 1, has to shrink to half the tolerance: by four.
+        (0.0, 0.1, 0.1, "about 64 elements and a step of about 0.5 ms would decide"),
+        (0.0, 0.1, 0.02, "here: about 64 elements would decide"),
+        (0.0, 0.02, 0.1, "here: a step of about 0.5 ms would decide"),
+        # To what the limit is beyond the tolerance: by 2.5.
+        (-0.9, 0.1, 0.1, "about 52 elements and a step of about 0.6 ms would decide"),
+    ],
+)
+def test_a_remedy_refines_the_finest_run_by_its_orders(limit, in_mesh, in_step, said):
+    """Both orders are two; what has less than a third of the other's error is left as it is."""
+    runs = replace(
+        known(limit, 1.0), elements=np.array([8.0, 16.0, 32.0]), powers=(2.0, 2.0),
+        steps=np.array([4e-3, 2e-3, 1e-3]), in_mesh=np.array([0.4, 0.2, in_mesh]),
+        in_step=np.array([0.4, 0.2, -in_step]),
+    )  # fmt: skip
+    found = found_of(runs, tolerance=0.5, bound=0.0, where="here")
+    assert found.outcome is Outcome.UNDECIDED
+    assert found.note.endswith(said)
 
 
 def test_a_reference_that_is_not_known_well_enough_is_named():
