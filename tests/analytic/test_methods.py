@@ -104,7 +104,6 @@ def test_orbits_of_two_coordinates_conserve_energy_and_are_stable():
         assert floquet_multipliers(orbit).stable()
 
 
-<<<<<<< HEAD
 def test_multipliers_by_half_a_period_are_those_of_a_whole_one():
     (orbit,) = orbits(Duffing(), [0.5])
     assert orbit.system.odd is not None
@@ -125,7 +124,8 @@ def test_factors_of_single_precision_lead_to_a_root_in_double():
         np.zeros(count), lambda z: matrix @ z - side, lambda z: (factors, matrix @ z - side)
     )
     assert found.z == pytest.approx(exact, abs=1e-11)
-=======
+
+
 def test_a_scaled_orbit_is_right_to_leading_order_in_every_harmonic():
     """Mean and second harmonic go with the square: what is left is smaller by the square again."""
     seed = solve(linear_orbit(Duffing(), np.array([1.0, 0.0]), 1.0, 0.02), 0.02)
@@ -135,7 +135,6 @@ def test_a_scaled_orbit_is_right_to_leading_order_in_every_harmonic():
         rows = slice(first, first + 3)
         scaled = seed.scaled(0.04).coefficients[rows]
         assert scaled == pytest.approx(double.coefficients[rows], rel=5e-3, abs=1e-12)
->>>>>>> mutants2
 
 
 class Coupled(Duffing):
