@@ -64,7 +64,7 @@ def verify(
 
     Examples
     --------
-    $ rotbeam verify --element exact
+    $ rotbeam verify --element cable
     $ rotbeam verify --element cable --element ancf3 --cost
     """
     from ..verification.entries import entries_at_hand

@@ -65,9 +65,10 @@ def folder(tmp_path, monkeypatch, call):
         lambda entry, **_: Judgement(
             declaration=Declaration(code=entry.name),
             findings={},
-            orders={},
             histories={},
             sources={},
+            remarks={},
+            asked=(),
         ),
     )
     monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
