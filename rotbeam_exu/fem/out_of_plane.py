@@ -72,7 +72,7 @@ def kicked(
             else BeamState(**dict.fromkeys((one.name for one in fields(BeamState)), zero))
         )
         tilt = 2.0 * kick * fine / blade.length
-        # What is added to the slopes (u', v', w') turns the tangent, and leaves it as long.
+        # The change of the slopes (u', v', w') turns the tangent, and keeps its length.
         tangent = np.stack((1.0 + start.u_slope, start.v_slope))
         slopes = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))
         u, v, w = integrate.cumulative_simpson(slopes, x=fine, initial=0.0)

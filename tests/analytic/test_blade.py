@@ -99,7 +99,7 @@ def test_a_turning_inertia_is_not_softened_by_the_rotation():
 @pytest.mark.parametrize("shear_share", [None, 0.3])
 @pytest.mark.parametrize("psi", [0.0, 0.7, FLAP])
 def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
-    """Of a blade with all there is, and with inertia of its sections."""
+    """A blade with all there is, and with inertia of its sections."""
     unit = replace(HUB_AND_ALL.with_setting_angle(psi).unit, rotary=1e-2)
     model = Continuum(1e-3, 6, 4, blade=unit, shear=shear_share)
     rng = np.random.default_rng(0)

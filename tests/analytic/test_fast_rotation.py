@@ -23,7 +23,7 @@ def deflection_frequencies(rate, count):
 @pytest.mark.parametrize("rate", [0.0, 3.0, 12.0, 150.0, 1000.0, 1500.0])
 def test_inextensible_modes_are_those_of_the_equation_in_the_deflection(rate):
     found = linear_modes(unit_beam(1e-10), rate, theory=Theory(extension=False)).frequencies
-    # Of the fast ones twenty functions are 2.7e-4, 34 % and 58 % off in the first.
+    # With twenty functions the fast ones are off by 2.7e-4, 34 % and 58 % in the first.
     expected = deflection_frequencies(rate, 14 if rate < 20.0 else 160)
     assert found[:3] == pytest.approx(expected, rel=1e-9 if rate < 20.0 else 1e-8)
 

@@ -1,4 +1,4 @@
-"""What the reduced models refuse, and where they warn; test_remedies follows what is advised."""
+"""Refusals and warnings of the reduced models; test_remedies follows the advice."""
 
 import math
 import warnings

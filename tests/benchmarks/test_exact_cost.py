@@ -1,4 +1,4 @@
-"""What exact answers cost, against the simulation they judge, in the same run; and models."""
+"""Cost of exact answers, against the simulation they judge, in the same run; and models."""
 
 import subprocess
 import sys

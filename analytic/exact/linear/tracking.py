@@ -78,7 +78,7 @@ def family_of(
 
     def detuning_from(row: int) -> Callable[[float, int, int], float]:
         here, there = found[row : row + 2]
-        # What resolves the modes at both ends does so between them.
+        # A model that resolves the modes at both ends does so between them.
         finer = max(here.model, there.model, key=lambda model: model.bending)
 
         def detuning(omega: float, mode: int, order: int) -> float:

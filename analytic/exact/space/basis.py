@@ -18,7 +18,6 @@ from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory
 from .unit import SpaceUnit
-from .vectors import about_axis
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
 _FEW = 4  # on each of many short cells, which turn less
@@ -142,13 +141,6 @@ class StrainFunctions:
         return self.blade.grid(2 * self.bending, more, of_fields=True)
 
     @cached_property
-    def viscosity(self) -> FloatArray:
-        """Damping of each coordinate, (n,)."""
-        bend, stretch, _ = self.blade.damping
-        bending, torsion, axial, shear = self.counts
-        return np.repeat([bend, stretch, 0.0], [bending + torsion, axial, shear])
-
-    @cached_property
     def odd(self) -> np.ndarray | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal."""
         bending, torsion, axial, shear = self.counts
@@ -163,14 +155,10 @@ class StrainFunctions:
             return None
         return np.concatenate(kinds).astype(bool)
 
-    def _turned(self, x: FloatArray) -> FloatArray:
-        """Return the section's frame in that without twist, (3, 3, places)."""
-        return about_axis(self.blade.angle + evaluated(self.blade.line.twist, x))
-
     def _flexibility(self, x: FloatArray) -> FloatArray:
         """Return strains over forces in the frame without twist, (places, 6, 6)."""
         turned = np.zeros((x.size, 6, 6))
-        turned[:, :3, :3] = turned[:, 3:, 3:] = np.moveaxis(self._turned(x), -1, 0)
+        turned[:, :3, :3] = turned[:, 3:, 3:] = np.moveaxis(self.blade.section_frames(x), -1, 0)
         soft = self.blade.flexibility(x, self.theory, self.slenderness)
         return np.asarray(turned @ soft @ np.swapaxes(turned, 1, 2))
 
@@ -223,36 +211,27 @@ class StrainFunctions:
     @cached_property
     def damping(self) -> FloatArray:
         """The viscous resistance to q̇, (n, n)."""
-        root = np.sqrt(self.viscosity)
+        bend, stretch, _ = self.blade.damping
+        bending, torsion, axial, shear = self.counts
+        root = np.sqrt(np.repeat([bend, stretch, 0.0], [bending + torsion, axial, shear]))
         return np.asarray(root[:, None] * self.stiffness * root)
 
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
-        blade, turned, soft = self.blade, self._turned(x), self._flexibility(x)
+        soft = self._flexibility(x)
         strains = np.moveaxis(soft @ (self._forces(x) @ self._own[0]), 1, 0).copy()
-        # Of bending about the center of tension, and of axial force there.
+        # Bending stiffness about the center of tension, and compliance to axial force there.
         bends = np.linalg.inv(soft[:, 4:, 4:])
         beside = soft[:, 0, 4:]
         along = soft[:, 0, 0] - np.einsum("pi,pij,pj->p", beside, bends, beside)
         k2 = np.trace(bends, axis1=1, axis2=2) * along
-        bows = np.stack(
-            (np.zeros_like(x), evaluated(blade.line.prebend, x), evaluated(blade.line.sweep, x))
-        )
         return Strains(
             gamma=strains[:3],
             K=strains[3:],
-            initial=np.einsum("ijp,jp->ip", turned, bows),
-            twist=slope_of(blade.line.twist, x),
+            initial=self.blade.bent(x),
+            twist=slope_of(self.blade.line.twist, x),
             trapeze=k2 if self.theory.trapeze else np.zeros_like(x),
         )
-
-    @property
-    def kinks(self) -> list[tuple[float, FloatArray]]:
-        """Places and rotation vectors (3,) of the line's kinks, in the frame without twist."""
-        return [
-            (x, self._turned(np.array([x]))[:, 1:, 0] @ angles)
-            for x, *angles in self.blade.line.kinks
-        ]
 
     @cached_property
     def masses(self) -> Masses:
@@ -265,7 +244,7 @@ class StrainFunctions:
         )
         mass = evaluated(blade.mass, x)
         places = np.concatenate((x, positions))
-        turned = self._turned(places)
+        turned = blade.section_frames(places)
         own, J = np.zeros((3, places.size)), np.zeros((3, 3, places.size))
         own[:, : x.size], about = blade.inertia_about(x, self.theory, self.slenderness)
         J[:, :, : x.size] = weights * about

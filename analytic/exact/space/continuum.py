@@ -53,7 +53,7 @@ class SpaceContinuum:
         self.points, self.weights = grid.points, grid.weights
         self.inner = grid.integral(grid.points)
         self.outer = grid.integral(masses.places)
-        self._frames = Frames(grid, masses.places, functions.kinks)
+        self._frames = Frames(grid, masses.places, self.blade.kinks)
         self.masses = masses
         self.strains = functions.at(grid.points)
         self.outboard = {

@@ -159,6 +159,8 @@ class SpaceBlade(AtConstantRate):
     @property
     def _loaded(self) -> float:
         """Angle by which the load bends or twists the softest section's blade, about."""
+        if not self.load:
+            return 0.0
         own = self.model.functions
         soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]
         return float(np.sum(np.abs(self.load)) * np.trace(soft, axis1=1, axis2=2).max())

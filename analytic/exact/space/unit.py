@@ -125,17 +125,33 @@ class SpaceUnit(UnitBlade):
         cone = self.line.precone
         return self.hub * np.array([math.cos(cone), 0.0, -math.sin(cone)])
 
+    def section_frames(self, x: FloatArray) -> FloatArray:
+        """Return the section's frame in that without twist, (3, 3, places)."""
+        return about_axis(self.angle + evaluated(self.line.twist, x))
+
+    def bent(self, x: FloatArray) -> FloatArray:
+        """Return the curvatures of the unloaded line in the frame without twist, (3, places)."""
+        line = self.line
+        bows = np.stack([evaluated(one, x) for one in (0.0, line.prebend, line.sweep)])
+        return turned(self.section_frames(x), bows)
+
+    @property
+    def kinks(self) -> list[tuple[float, FloatArray]]:
+        """Places and rotation vectors (3,) of the line's kinks, in the frame without twist."""
+        return [
+            (x, self.section_frames(np.array([x]))[:, 1:, 0] @ angles)
+            for x, *angles in self.line.kinks
+        ]
+
     def unloaded(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the unloaded line at `x`, (places, 3), and its sections' axes (places, 3, 3).
 
         From the clamp and over L, in the root frame; axes in columns.
         """
-        line, grid = self.line, self.grid(_POINTS, 0)
-        angle, angle_x = (self.angle + evaluated(line.twist, at) for at in (grid.points, x))
-        bows = np.stack([evaluated(one, grid.points) for one in (0.0, line.prebend, line.sweep)])
-        frame, frame_x = Frames(grid, x).of(turned(about_axis(angle), bows)[:, None])
+        grid = self.grid(_POINTS, 0)
+        frame, frame_x = Frames(grid, x, self.kinks).of(self.bent(grid.points)[:, None])
         place = grid.integral(x) @ frame[:, 0, 0].T
-        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], about_axis(angle_x))
+        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], self.section_frames(x))
         return place, sections
 
     @property
