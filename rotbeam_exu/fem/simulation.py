@@ -12,7 +12,8 @@ import numpy as np
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import require_planar, warn_if_rpm
-from analytic.exact.beam.state import BeamState, stretched_state
+from analytic.exact.beam.state import BeamState
+from analytic.exact.beam.steady import stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
 from analytic.motion import SpeedChange

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -21,7 +20,6 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rotation
-from ..plane.planarity import planar_note
 from ..space.steady import lives_in_space, space_continuum, space_rotation
 from .transient import Motion, grid_of, integrated
 
@@ -83,17 +81,6 @@ class SpinUpResponse:
     error: float
     steps: int
     functions: int
-
-    @cached_property
-    def out_of_plane(self) -> str:
-        """One sentence if the beam ends on a motion that leaves the plane, "" if not.
-
-        By half of |q| from peak to peak after the ramp; "" too where the times do not reach that
-        far or the section out of the plane is unknown. Computed when first asked for.
-        """
-        late = self.q[self.time >= self.spin_up.ramp_time]
-        size = 0.5 * float(np.ptp(late)) / self.beam.length if late.size else 0.0
-        return planar_note(self.beam, self.spin_up.omega, size)
 
     @staticmethod
     def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:

@@ -15,11 +15,10 @@ from ...input_checks import rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.space import require_out_of_plane
+from ..beam.discretization import require_out_of_plane, resolved_model
 from ..free.backbone import periodic_orbits
 from ..free.branch import AmplitudeNotReachedError
 from ..free.path import ModePath
-from ..linear.modes import resolved_model
 from .growth import STEPS, Growth, grown, grown_and_checked, settled_functions
 
 LEAST_GROWTH = 0.01
