@@ -21,7 +21,7 @@ from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rotation
 from ..space.steady import lives_in_space, space_continuum, space_rotation
-from .transient import Motion, grid_of, integrated
+from .transient import BladeMotion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
@@ -83,7 +83,9 @@ class SpinUpResponse:
     functions: int
 
     @staticmethod
-    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    def in_units(
+        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
+    ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
         z, unit = beam.length * motion.tip, beam.unit
         # Out of the plane of rotation the deflection has a share that is not seen here.
@@ -123,7 +125,9 @@ class SpaceResponse(SpinUpResponse):
         return self.tip[:, 2]
 
     @staticmethod
-    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    def in_units(
+        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
+    ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
         tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
         return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}
