@@ -300,7 +300,7 @@ UNIT = Blade(
         ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
-            "at w_bar = 100 flap bends in a layer .* rotate slower",
+            "in the flap frequencies at w_bar = 100; rotate slower",
         ),
         (lambda: linear_modes(UNIT, 1.0, plane="pitch"), "plane must be 'lag', 'flap' or"),
         (lambda: campbell(UNIT, [1.0], planes=()), "name families once each"),
