@@ -7,9 +7,10 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
 
-from analytic import Theory, linear_modes, steady_state
+from analytic import Theory, linear_modes
 from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
+from analytic.exact.space.unit import space_unit
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import finite_elements
 
@@ -188,13 +189,17 @@ def test_its_matrices_in_beamdyn_s_axes_have_its_frequencies(iea, key_points):
 
 
 def test_its_line_passes_through_the_key_points(iea, key_points):
-    x, *_ = key_points
-    tip = steady_state(iea, 0.0, theory=BEAMDYN).tip
+    x, twist, fine, along = key_points
     slope = np.arctan(x(0.0, 1))
     assert iea.line.precone == pytest.approx(np.radians(-4.0) + slope, abs=1e-7)
-    along, across = tip[[0, 2]] @ [[np.cos(slope), np.sin(slope)], [-np.sin(slope), np.cos(slope)]]
-    # Fitted, and stations to 1 mm.
-    assert (along, across, tip[1]) == pytest.approx((117.0, -4.0, 0.0), abs=2e-3)
+    z = np.linspace(0.0, 117.0, 50)
+    place, axes = space_unit(iea).unloaded(np.minimum(np.interp(z, fine, along) / iea.length, 1.0))
+    forward = np.array([[np.cos(slope), np.sin(slope)], [-np.sin(slope), np.cos(slope)]])
+    found = iea.length * place[:, [0, 2]] @ forward
+    assert found == pytest.approx(np.stack([z, FORWARD], axis=1), abs=2e-3)
+    assert iea.length * place[:, 1] == pytest.approx(np.zeros(50), abs=2e-3)
+    # Linear between stations 6 m apart, where BeamDyn has a spline.
+    assert np.arctan2(axes[:, 2, 1], axes[:, 1, 1]) == pytest.approx(-twist(z), abs=2e-3)
 
 
 def test_it_weighs_what_its_repository_says(iea):
