@@ -25,12 +25,14 @@ FILM = ("animate", "--ramp-time", "1", "--duration", "2", "--rate", "3", "--out"
 @contextmanager
 def files_of_at_most(size):
     """As on a disk that is full: each file ends there."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before, cached = resource.getrlimit(resource.RLIMIT_FSIZE), sys.dont_write_bytecode
+    sys.dont_write_bytecode = True  # half a module in a cache would be read by the next
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
     try:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        sys.dont_write_bytecode = cached
 
 
 @pytest.mark.slow  # a child process; signals and Ctrl-C within this one are tested below

@@ -23,10 +23,22 @@ def exact():
     return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.6, 3.7, 3.8], functions=8)
 
 
-def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_path, exact):
+def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
+    call, tmp_path, monkeypatch, exact
+):
+    asked = []
+
+    def computed(*arguments, **options):
+        asked.append((*arguments, options["functions"]))
+        return exact
+
+    monkeypatch.setattr(job.analytic, "forced_response", computed)
     code, out, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 0
     assert error == ""
+    ((blade, omega, ripple, frequencies, functions),) = asked
+    assert (blade, omega, ripple, functions) == (exact.beam, 6.0, exact.load, 8)
+    assert frequencies == pytest.approx([3.6, 3.7, 3.8], rel=1e-15)
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     assert [row[0] for row in rows] == ["start", "fold", "fold", "peak", "end"]
     assert [row[4] for row in rows] == ["yes", "yes | no", "no | yes", "yes", "yes"]
@@ -64,10 +76,12 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_pa
     ],
 )
 def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
+    """Figures of curves are tested above, and in tests/figures."""
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--functions", "8", "--inextensible", "--out", tmp_path,
+        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out",
+        tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))
