@@ -56,7 +56,9 @@ def pushed():
     return forced_response(damped, 6.0, load, around, theory=Theory(extension=False))
 
 
-@pytest.mark.parametrize("name", ["loaded", "rippled", pytest.param("pushed", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "name", ["loaded", "rippled", pytest.param("pushed", marks=pytest.mark.slow)]
+)
 def test_damping_takes_what_the_load_gives(name, request):
     response = request.getfixturevalue(name)
     omega, load, d = response.omega[0], response.load, response.beam.damping.external
