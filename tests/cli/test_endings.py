@@ -135,7 +135,7 @@ def test_standard_output_that_takes_no_more_is_named(monkeypatch, capsys, buffer
     stream = io.BufferedWriter(raw) if buffered else raw
     full = io.TextIOWrapper(stream, encoding="utf-8", write_through=not buffered)
     with redirect_stdout(full), pytest.raises(SystemExit) as stop:
-        main(["table", "2"])
+        main(["table", "4"])
     assert stop.value.code == 2
     error = capsys.readouterr().err
     assert "rotbeam: cannot write to standard output" in error
@@ -147,7 +147,7 @@ def test_standard_output_that_takes_no_more_is_named(monkeypatch, capsys, buffer
 def test_closed_outputs_are_no_reason_to_stop():
     """As by >&- and 2>&-: what is None is not written to, and no file takes the number."""
     text = (
-        "import os, sys; from rotbeam_exu.cli import main; main(['table', '2']); "
+        "import os, sys; from rotbeam_exu.cli import main; main(['table', '4']); "
         "print('lost', file=sys.stderr); "
         "assert os.readlink('/proc/self/fd/1') == os.readlink('/proc/self/fd/2') == os.devnull"
     )
