@@ -115,6 +115,7 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
     -------
     Dataset
         `lambda_omega` and `quartic` κ [-] over omega; κ is zero unless asked for.
+        `lambda_omega_error`, the standard error by the scatter of the points about the curve.
     """
     found = []
     for omega in points["omega"]:
@@ -123,12 +124,17 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
         square = here["amplitude"].to_numpy()[inside] ** 2
         columns = np.stack([square, square**2] if quartic else [square], axis=1)
         drop = 1.0 - here["ratio"].to_numpy()[inside]
-        found.append(np.pad(np.linalg.lstsq(columns, drop, rcond=None)[0], (0, 2))[:2])
+        solution, *_ = np.linalg.lstsq(columns, drop, rcond=None)
+        free = max(square.size - solution.size, 0)
+        scatter = np.sum((drop - columns @ solution) ** 2) / free if free else np.nan
+        error = np.sqrt(scatter * np.linalg.inv(columns.T @ columns)[0, 0]) if free else np.nan
+        found.append([*np.pad(solution, (0, 2))[:2], error])
     values = np.array(found)
     return dataset(
         {
             "lambda_omega": ("omega", values[:, 0], "λ_ω"),
             "quartic": ("omega", values[:, 1], "a⁴ coefficient"),
+            "lambda_omega_error": ("omega", values[:, 2], "standard error of λ_ω"),
         },
         {"omega": points["omega"]},
     )
@@ -144,14 +150,24 @@ def figure_5(beam: Beam | None = None, **options: Any) -> xr.Dataset:
     -------
     Dataset
         The points of the paper's mesh over (omega, ramp_time), `lambda_omega` and `quartic` κ over
-        omega, and the curves `fit` over (omega, a), up to a = 0.6. Options are those of
-        `finite_element_points`.
+        omega, and the curves `fit` over (omega, a), up to a = 0.6. The exact backbone is `exact`
+        over `exact_amplitude`, (omega, node), up to the largest point of each speed. Options are
+        those of `finite_element_points`.
     """
+    beam = beam or Beam.reference()
     points = finite_element_points(beam, mesh="paper", **options)
     fit = fitted_softening(points, below=_FITTED)
     a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
     curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
-    return points.merge(fit).assign(fit=curve.assign_attrs(labeled(RATIO))).assign_coords(a=a)
+    data = points.merge(fit).assign(fit=curve.assign_attrs(labeled(RATIO))).assign_coords(a=a)
+    top = points["amplitude"].max("ramp_time")
+    peaks = top * xr.DataArray(np.linspace(0.0, 1.0, 25), dims="node")
+    orbits = [
+        periodic_orbits(beam, omega, row[1:])
+        for omega, row in zip(points["omega"].to_numpy().tolist(), peaks.to_numpy(), strict=True)
+    ]
+    exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
+    return data.assign(exact_amplitude=peaks, exact=(peaks.dims, exact, labeled(RATIO)))
 
 
 def figure_14(

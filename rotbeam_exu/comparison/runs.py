@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Beam, SpinUp, periodic_orbits, reduced_model
+from analytic import Beam, SpinUp, periodic_orbits, reduced_model, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.exact.free.orbits import Orbits
 from analytic.lazily import interpolate
@@ -56,12 +56,14 @@ def figure_3(
     Returns
     -------
     Dataset
-        `q` [m] over (elements, time).
+        `q` [m] over (elements, time), and `exact`, the exact beam's, over time.
     """
     beam, spin_up = beam or Beam.reference(), spin_up or SpinUp(omega=4.0, ramp_time=15.0)
     runs = [simulate(beam, spin_up, element=element, elements=n, duration=duration) for n in meshes]
     data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
-    data["elements"] = ("elements", list(meshes), labeled("elements"))
+    data["elements"] = ("elements", list(meshes), labeled("number of elements"))
+    exact = spin_up_response(beam, spin_up, data["time"].to_numpy(), tolerance=1e-5).q
+    data["exact"] = ("time", exact, data["q"].attrs)
     motion = {name: runs[0].attrs[name] for name in ("omega", "ramp_time")}
     data.attrs = {**beam_attributes(beam), **motion, **motion_attributes(spin_up)}
     data.attrs |= _numerics(runs[0])

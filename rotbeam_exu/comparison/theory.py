@@ -24,6 +24,9 @@ from ..runs.attributes import beam_attributes
 _SMALL = 0.03
 """Amplitude of an orbit whose harmonics give λ_x: its square times 0.08 is the error."""
 
+_STRETCHED = 0.6
+"""Share of the speed that stretches a beam without bound, up to which orbits are computed."""
+
 _SPEED_RATIO = "speed ratio Ω = ω/ω0"
 RATIO = "frequency ratio ω_NL/ω_n"
 
@@ -81,25 +84,28 @@ def figure_10(beam: Beam | None = None) -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
     beam = beam or Beam.reference()
     polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
-    models = {"cantilever mode": (beam, "CI"), **polynomials}
+    models = {"CI": (beam, "CI"), **polynomials}
     return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
 
 
 def figure_11(
     beam: Beam | None = None, slendernesses: Sequence[float] = (1e-2, 1e-3, 1e-4, 1.758374435e-6)
 ) -> xr.Dataset:
-    """λ_ω and λ_x of CE against ω for several slendernesses μ, and of the exact beam (Fig. 11).
+    """λ_ω and λ_x of CE and of the exact beam against ω for several slendernesses μ (Fig. 11).
 
     The print does not say which μ it shows. Length, mass and bending stiffness are the beam's own;
-    only the area, and with it EA = EI/(μL²), follows μ. The exact beam has the μ of `beam`.
+    only the area, and with it EA = EI/(μL²), follows μ. The exact curves end at 0.6 of the speed
+    that stretches the beam without bound.
     """
     beam = beam or Beam.reference()
-    models = {}
+    beams = {}
     for mu in slendernesses:
         area = beam.second_moment / (mu * beam.length**2)
-        other = replace(beam, area=area, density=beam.mass_per_length / area)
-        models[f"μ = {mu:.4g}"] = (other, "CE")
-    data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
+        name = f"μ = {mu:.4g}"
+        beams[name] = replace(beam, area=area, density=beam.mass_per_length / area)
+    models = {name: (other, "CE") for name, other in beams.items()}
+    exact = {f"exact, {name}": other for name, other in beams.items()}
+    data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA, exact=exact)
     return data.assign_attrs(held="L, m and EI are held, EA = EI/(μL²)")
 
 
@@ -151,10 +157,11 @@ def _coefficients(
     axis: FloatArray,
     label: str,
     scale: float = 1.0,
+    exact: dict[str, Beam] | None = None,
 ) -> xr.Dataset:
-    """λ_ω and λ_x over (model, axis), "exact" the last; NaN where a model has no oscillation."""
-    omegas = scale * axis
-    values = np.full((2, len(models) + 1, axis.size), np.nan)
+    """λ_ω and λ_x over (model, axis), the exact ones last; NaN where there is no oscillation."""
+    omegas, exact = scale * axis, exact or {"exact": beam}
+    values = np.full((2, len(models) + len(exact), axis.size), np.nan)
     with beyond_range():
         for i, (other, variant) in enumerate(models.values()):
             for j, omega in enumerate(omegas):
@@ -163,11 +170,12 @@ def _coefficients(
                 except ValueError:
                     continue
                 values[:, i, j] = model.lambda_omega, model.lambda_x
-        values[:, -1] = _exact_coefficients(beam, omegas)
+        for i, other in enumerate(exact.values(), len(models)):
+            values[:, i] = _exact_coefficients(other, omegas)
     dims = ("model", name)
     return dataset(
         {"lambda_omega": (dims, values[0], "λ_ω"), "lambda_x": (dims, values[1], "λ_x")},
-        {"model": ([*models, "exact"], "model"), name: (axis, label)},
+        {"model": ([*models, *exact], "model"), name: (axis, label)},
         beam_attributes(beam),
     )
 
@@ -176,11 +184,14 @@ def _exact_coefficients(beam: Beam, omegas: FloatArray) -> FloatArray:
     """λ_ω, and λ_x = h₃/h₁³ of a small orbit's harmonics (Eq. 65), over (2, omegas).
 
     Computed at 17 speeds, closer where λ_ω turns; a cubic spline between them is 1e-4 off at most.
+    NaN near the speed that stretches the beam without bound, where orbits are slow to find.
     """
     nodes = np.linspace(0.0, 1.0, 17)
+    fastest = min(float(omegas[-1]), _STRETCHED * beam.burst_speed)
     found = []
     for node in nodes:
-        orbits = periodic_orbits(beam, float(omegas[-1] * node**1.5), [_SMALL])
+        orbits = periodic_orbits(beam, float(fastest * node**1.5), [_SMALL])
         first, third = orbits.harmonics[0, [0, 2]]
         found.append((orbits.lambda_omega, third / first**3))
-    return np.asarray(interpolate.CubicSpline(nodes, found)((omegas / omegas[-1]) ** (2.0 / 3.0)).T)
+    curve = interpolate.CubicSpline(nodes, found, extrapolate=False)
+    return np.asarray(curve((omegas / fastest) ** (2.0 / 3.0)).T)

@@ -18,7 +18,7 @@ from analytic.exact.driven.response import SpinUpResponse
 from analytic.reduced.linear_frame import LinearResponse
 
 from ..paper import BLUE, ORANGE, RED
-from .style import STYLE, new_figure
+from .style import STYLE, new_figure, shade_ramp
 
 _REACH = 1.08  # of a view, beyond the beam's length
 _TRAIL = 0.6  # seconds of the tip's path that stay visible
@@ -285,13 +285,9 @@ def _history(history: Axes, response: _Response, color: str, dot: str) -> _Movin
 
 def _ramp(history: Axes, response: _Response) -> None:
     """Shade the spin-up, and name the axes."""
-    history.axvspan(0.0, response.spin_up.ramp_time, color="0.93", lw=0, zorder=0)
+    shade_ramp(history, response.spin_up.ramp_time)
     history.axhline(0.0, color="0.6", lw=0.5)
     history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q [m]")
-    history.annotate(
-        "spin-up", (0.0, 1.0), xycoords="axes fraction", xytext=(4, -4),
-        textcoords="offset points", va="top", color="0.35",
-    )  # fmt: skip
 
 
 def _between(time: FloatArray) -> FloatArray:

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 
 from ..comparison import backbones as made
 from ..paper import MODEL_NAMES
-from .paper_figure import models, numerics, paper_figure, spin_ups
-from .style import column, columns, cycle, house_axes, label, model_line
+from .paper_figure import EXACT, models, numerics, paper_figure, spin_ups
+from .style import column, columns, cycle, house_axes, label, model_line, typeset
 
 _MESHES: dict[str, tuple[str, Any]] = {
     "paper": ("16 elements", {"marker": "s", "ms": 4.5, "mfc": "white"}),
@@ -25,13 +25,13 @@ _MESHES: dict[str, tuple[str, Any]] = {
     shows=lambda data: (
         f"Frequency over amplitude of the finite element model, {spin_ups(data)}; a is half "
         "peak to peak of q/L. ω_n is that of the same mesh. Error bars of step, mesh and estimate "
-        "are smaller than the symbols. The curves are 1 - λ_ω a² - κ a⁴, fitted for "
-        f"a < {float(data['a'].max()):g}. {numerics(data)}"
+        "are smaller than the symbols. Dashed: 1 − λ_ω a² − κ a⁴, fitted for "
+        f"a < {float(data['a'].max()):g}, with the standard error of λ_ω; {EXACT}. {numerics(data)}"
     ),
     claim=(
         "The paper states that the backbone is nearly quadratic. This holds up to a = 0.4; a "
         "parabola through all points misses most of them, and its λ_ω is a third to a half too "
-        "large at 6 and 8 rad/s. The curves' λ_ω are within 1.5 % of the exact -0.00896, 0.00874, "
+        "large at 6 and 8 rad/s. The curves' λ_ω are within 1.5 % of the exact −0.00896, 0.00874, "
         "0.0197, 0.0238. λ_ω changes sign between 2 and 4 rad/s."
     ),
     sweeps=True,
@@ -41,12 +41,17 @@ def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     with house_axes(ax, column(), 3.0) as axes:
         for omega, color, marker in zip(data["omega"], cycle(), "osD^", strict=False):
             here = data.sel(omega=omega)
-            name = f"ω = {float(omega):g} rad/s: $λ_ω = {float(here['lambda_omega']):#.3g}$"
-            axes.plot(here["fit"], here["a"], color=color)
+            fitted, error = (1e3 * float(here[f"lambda_omega{end}"]) for end in ("", "_error"))
+            name = typeset(f"{float(omega):g} rad/s: {fitted:.2f} ± {error:.2f}")
+            axes.plot(here["exact"], here["exact_amplitude"], **model_line("exact"), zorder=1)
+            fit = here["fit"].where(here["a"] <= here["amplitude"].max())
+            axes.plot(fit, here["a"], color=color, ls="--")
             _points(axes, here, color=color, marker=marker, ms=3.5, mfc="white", label=name)
+        axes.plot([], [], **model_line("exact"), label="exact")
+        axes.plot([], [], color="0.4", ls="--", label="least squares")
         axes.axvline(1.0, color="0.7", lw=0.5)
         axes.set(xlabel=label(data["ratio"]), ylabel=label(data["amplitude"]), ylim=(0.0, 0.88))
-        axes.legend(loc="lower left")
+        axes.legend(loc="lower left", title="ω: 1000 $λ_ω$, fitted", alignment="left")
     return axes
 
 
@@ -64,7 +69,7 @@ def _points(ax: Axes, data: xr.Dataset, **look: Any) -> None:
     ),
     claim=(
         "The paper explains FrE by extensibility. In fact one error and one omission partly "
-        "cancel. The sine restores 95 to 97 % of the -v'⁴/8 that Eq. 25 drops; the part that it "
+        "cancel. The sine restores 95 to 97 % of the −v'⁴/8 that Eq. 25 drops; the part that it "
         "lacks softens 1.1 to 1.4 times as much as the Coriolis-coupled modes, which the model "
         "omits. FrM has both and is inextensible. No model here has an a⁴ term; above a = 0.55 at "
         "4 and 6 rad/s FrE is closer, by coincidence. Every amplitude is half peak to peak; Eq. 63 "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -17,19 +18,20 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
     values, ratio = data["lambda_omega"].to_numpy().T, data["ratio"].to_numpy().T
-    # Half as much again as most of the map has: lines stay legible on its darkest colors.
-    limit = float(np.round(1.5 * np.quantile(np.abs(values), 0.95), 2))
+    limit = float(np.quantile(np.abs(values), 0.99))
     with house_axes(ax, column(), 3.0) as axes:
-        levels = np.linspace(-limit, limit, 17)
+        step = np.ceil(limit / 5.0 * 200.0) / 200.0
+        levels = step * np.arange(-5.0, 5.5, 0.5)
         filled = axes.contourf(x, y, values, levels, cmap=colormap("RdBu_r"), extend="both")
-        colorbar = axes.figure.colorbar(filled, ax=axes, ticks=levels[::4])
-        colorbar.set_label(f"{label(data['lambda_omega'])}: hardens < 0 < softens")
+        colorbar = axes.figure.colorbar(filled, ax=axes, ticks=levels[1::4])
+        colorbar.set_label(f"{label(data['lambda_omega'])}: hardening < 0, softening > 0")
         zero = axes.contour(x, y, values, levels=[0.0], colors="black", linewidths=1.0)
         axes.clabel(zero, fmt={0.0: "0"}, fontsize=6.5)
         lines = axes.contour(
             x, y, ratio, levels=[3.0, 4.0, 5.0], colors="black", linewidths=0.8, linestyles="--"
         )
-        axes.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5)
+        for text in axes.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5):
+            text.set_rotation(0.0)
         axes.set(xlabel=label(data["hub_ratio"]), ylabel=label(data["w_bar"]))
     return axes
 
@@ -53,8 +55,10 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                     f"{zero:.2f}", (zero, 0.0), xytext=at, textcoords="offset points",
                     fontsize=6.5, color=color, ha=side,
                 )  # fmt: skip
-        sign = f"{label(data['lambda_omega'])}: hardens < 0 < softens"
-        axes.set(xlabel=label(data["w_bar"]), ylabel=sign, xlim=(x[0], x[-1]))
+        axes.set(xlabel=label(data["w_bar"]), ylabel=label(data["lambda_omega"]))
+        axes.set_xlim(x[0], x[-1])
+        for words, at, side in (("softening", 0.98, "top"), ("hardening", 0.02, "bottom")):
+            axes.text(0.02, at, words, transform=axes.transAxes, va=side, color="0.35")
         axes.legend()
     return axes
 
@@ -64,8 +68,11 @@ def growth_out_of_plane(
     ax: Axes | None = None,
     *,
     spin_ups: Mapping[float, Sequence[float]] | None = None,
+    limits: Mapping[float, float] | None = None,
 ) -> Axes:
     """Draw the map of growth rates over speed and amplitude; white stays in the plane.
+
+    Grey is where no orbit was found.
 
     Parameters
     ----------
@@ -75,12 +82,14 @@ def growth_out_of_plane(
         Drawn on these; otherwise on a new figure.
     spin_ups : mapping, optional
         Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s].
+    limits : mapping, optional
+        Amplitudes by `analytic.stability_limit`, by their speeds [rad/s]: a line.
     """
-    rate = data["growth_rate"].where(data["growth_rate"] > 0.0).to_numpy().T
-    with house_axes(ax, column(), 3.0) as axes:
-        axes.set_facecolor("white")
+    rate = np.maximum(data["growth_rate"].to_numpy().T, 1e-9)  # zero has no logarithm
+    colors = mpl.colormaps[colormap("YlOrRd")].with_extremes(under="white", bad="0.8")
+    with house_axes(ax, column(), 3.2) as axes:
         drawn = axes.pcolormesh(
-            data["omega"], data["a"], rate, cmap=colormap("YlOrRd"), norm=LogNorm(0.01, 100.0),
+            data["omega"], data["a"], rate, cmap=colors, norm=LogNorm(0.01, 100.0),
             shading="nearest", rasterized=True,
         )  # fmt: skip
         bar = axes.figure.colorbar(drawn, ax=axes, extend="both")
@@ -88,15 +97,18 @@ def growth_out_of_plane(
         ends = [(omega, a) for omega, peaks in (spin_ups or {}).items() for a in peaks]
         if ends:
             axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
-                    clip_on=False, label="where spin-ups end")  # fmt: skip
-            axes.legend(loc="lower right")
-        step = 0.5 * float(data["omega"].diff("omega").max())
+                    clip_on=False, label="ends of spin-ups")  # fmt: skip
+        if limits:
+            axes.plot(*zip(*limits.items(), strict=True), color="black", label="limit")
+            axes.text(0.97, 0.1, "stable in the plane", transform=axes.transAxes, ha="right")
+        if ends or limits:
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
         axes.set(
             xlabel=label(data["omega"]), ylabel=label(data["a"]),
-            xlim=(float(data["omega"].min()) - step, float(data["omega"].max()) + step),
+            xlim=(float(data["omega"].min()), float(data["omega"].max())),
         )  # fmt: skip
         axes.set_yscale("log")
-        levels = [0.01, 0.02, 0.05, 0.1, 0.2, 0.4]
+        levels = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]
         axes.set_yticks(levels, [f"{level:g}" for level in levels])
         axes.set_yticks([], minor=True)
         # White beyond what was computed would say that it stays.

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import xarray as xr
+from matplotlib.ticker import EngFormatter
 
 from ..paper import MODEL_NAMES, MODELS
 from ..runs.attributes import beam_of
+from .style import typeset
 
 DrawT = TypeVar("DrawT", bound=Callable[..., Any])
 
@@ -43,7 +45,8 @@ class PaperFigure:
     def caption(self, data: xr.Dataset) -> str:
         """Return the caption: the content, the beam, the paper's claim, and our answer."""
         plane = str(data.attrs.get("out_of_plane", ""))
-        return " ".join(" ".join([self.shows(data), _beam(data), self.claim, plane]).split())
+        words = " ".join([self.shows(data), _beam(data), self.claim, plane])
+        return typeset(" ".join(words.split()))
 
 
 PAPER_FIGURES: dict[int, PaperFigure] = {}
@@ -74,7 +77,8 @@ def _beam(data: xr.Dataset) -> str:
     beam = beam_of(data.attrs)
     return (
         f"Beam: L = {beam.length:g} m, EI = {beam.bending_stiffness:.5g} N m², "
-        f"EA = {beam.axial_stiffness:.4g} N, ρA = {beam.mass_per_length:.5g} kg/m, "
+        f"EA = {EngFormatter('N')(float(f'{beam.axial_stiffness:.4g}'))}, "
+        f"ρA = {beam.mass_per_length:.5g} kg/m, "
         f"μ = {beam.slenderness:.4g}."
     )
 

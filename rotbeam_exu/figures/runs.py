@@ -10,29 +10,32 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..comparison import runs as made
-from ..paper import BLUE, ORANGE
+from ..paper import BLUE
 from .paper_figure import listed, models, numerics, paper_figure
-from .style import STYLE, column, columns, cycle, house_axes, ink, label, model_line
+from .style import column, columns, cycle, house_axes, ink, label, model_line, ramp, shade_ramp
 
-_DASHES = ("-", "--", ":")
+_DASHES = ((0, (1, 1)), (0, (5, 1, 1, 1)), "--")
+_POINTS: Any = {
+    "ls": "none", "marker": "o", "ms": 3.0, "mfc": "white", "mec": "black", "mew": 0.6, "zorder": 6,
+}  # fmt: skip
 _DASHES_OF_ORBITS = ("-.", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), "--", ":")
 
 
 def _shows_3(data: xr.Dataset) -> str:
     attrs = data.attrs
-    steady = data["q"].where(data["time"] >= attrs["ramp_time"], drop=True)
-    size, period = np.ptp(steady.to_numpy(), axis=1) / 2.0, [_period(row) for row in steady]
-    last = int(data["elements"][-1])
+    both = xr.concat([data["q"], data["exact"].expand_dims(elements=[0])], dim="elements")
+    steady = both.where(data["time"] >= attrs["ramp_time"], drop=True)
+    size, period = np.ptp(steady.to_numpy(), axis=1), [_period(row) for row in steady]
     off = [
-        f"{int(n)} element{'s' if n > 1 else ''}: {100.0 * (a / size[-1] - 1.0):+.1f} and "
+        f"{_elements(int(n))}: {100.0 * (a / size[-1] - 1.0):+.1f} and "
         f"{100.0 * (p / period[-1] - 1.0):+.1f} %"
-        for n, a, p in zip(data["elements"].to_numpy()[:-1], size, period, strict=False)
+        for n, a, p in zip(data["elements"].to_numpy(), size, period, strict=False)
     ]
     return (
         f"Tip displacement with {listed(data['elements'])} elements, brought to "
-        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s. Shaded: steady rotation; "
-        "inset: its last quarter. "
-        f"Amplitude and period of the steady oscillation, compared with {last} elements: "
+        f"ω = {attrs['omega']:g} rad/s in T = {attrs['ramp_time']:g} s; black: the geometrically "
+        "exact beam. Shaded: spin-up; inset: the last quarter of the steady rotation. "
+        f"Amplitude and period of the steady oscillation, compared with the exact beam: "
         f"{'; '.join(off)}. {numerics(data)}"
     )
 
@@ -46,7 +49,7 @@ def _shows_3(data: xr.Dataset) -> str:
     ),
 )
 def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the tip displacement of one, two and three elements; the inset shows its phase."""
+    """Draw the tip displacement of coarse meshes, and the exact one; the inset shows phases."""
     ramp_time, end = float(data.attrs["ramp_time"]), float(data["time"][-1])
     last = data["q"].where(data["time"] >= end - 0.25 * (end - ramp_time), drop=True)
     height = 1.15 * float(np.abs(last).max())
@@ -55,11 +58,12 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         near.set(xlim=(last["time"][0], end), ylim=(-height, height))
         near.spines[["top", "right"]].set_visible(True)
         near.tick_params(labelsize=6.0)
-        axes.axvspan(ramp_time, end, color="0.92", lw=0)
+        shade_ramp(axes, ramp_time)
         for panel in (axes, near):
-            for row, color, style in zip(data["q"], cycle(), _DASHES, strict=False):
-                count = int(row["elements"])
-                name = f"{count} element{'s' if count > 1 else ''}"
+            panel.plot(data["time"], data["exact"], label="exact", **model_line("exact"))
+            colors = ramp(data.sizes["elements"])
+            for row, color, style in zip(data["q"], colors, _DASHES, strict=False):
+                name = _elements(int(row["elements"]))
                 panel.plot(data["time"], row, color=color, ls=style, label=name)
         low = float(data["q"].min())
         axes.set(
@@ -67,9 +71,13 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             ylim=(1.08 * low, 0.2 * abs(low)),
         )  # fmt: skip
         axes.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
         axes.set_title(f"ω = {data.attrs['omega']:g} rad/s, T = {ramp_time:g} s", loc="left")
     return axes
+
+
+def _elements(count: int) -> str:
+    return f"{count} element{'s' if count > 1 else ''}"
 
 
 def _period(q: xr.DataArray) -> float:
@@ -150,8 +158,9 @@ def _first_turn(q: Any, rate: Any) -> slice:
     shows=lambda data: (
         f"One period of the tip's orbit at ω = {data.attrs['omega']:g} rad/s, "
         f"T = {data.attrs['ramp_time']:g} s: finite elements, {models(data)} and the exact beam at "
-        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}. Dots: the end of each orbit; inset: "
-        f"orbits that end near the start. {numerics(data)}"
+        f"the same peak |q|/L = {data.attrs['amplitude']:.4f}. a) Dots: the end of each orbit; "
+        "inset: orbits that end near the start. b) Radial deviation from the exact orbit, both in "
+        f"units of its half axes. {numerics(data)}"
     ),
     claim=(
         "The paper states that FrI is close but open, with too low a frequency, and that CI and "
@@ -164,15 +173,16 @@ def _first_turn(q: Any, rate: Any) -> slice:
         "the second harmonic, which Coriolis forces cause; FrM has it and deviates by 0.2 %."
     ),
 )
-def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+def figure_15(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw the orbits of models, exact beam and finite elements over one period of the latter.
 
-    A dot marks the end of each orbit; the inset shows the orbits that end near the start.
+    (a) A dot marks the end of each orbit; the inset shows the orbits that end near the start.
+    (b) Distance from the origin, in units of the exact half axes, less that of the exact orbit.
     """
     amplitude = float(data.attrs["amplitude"])
     fastest = float(data["q_dot_bar"].sel(model="finite element").max())
-    with house_axes(ax, column(), 4.4) as axes:
-        near = axes.inset_axes((0.25, 0.3, 0.5, 0.4))
+    with house_axes(ax, columns(), 3.4, ncols=2) as (axes, apart):
+        near = axes.inset_axes((0.31, 0.28, 0.35, 0.44))
         near.set(
             xlim=(0.9 * amplitude, 1.02 * amplitude), ylim=(-0.45 * fastest, 0.45 * fastest),
             xticks=[], yticks=[],
@@ -182,22 +192,44 @@ def figure_15(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             _orbits(panel, data)
         axes.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)
         axes.set(xlabel=label(data["q_bar"]), ylabel=label(data["q_dot_bar"]))
-        axes.set_title(f"ω = {data.attrs['omega']:g} rad/s, a = {amplitude:.4f}", loc="left")
-        axes.legend(
-            loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, columnspacing=1.2,
-            title="$\\bullet$ end of the period", title_fontsize=STYLE["legend.fontsize"],
-        )  # fmt: skip
-    return axes
+        axes.set_title(f"a) ω = {data.attrs['omega']:g} rad/s, a = {amplitude:.4f}", loc="left")
+        _deviations(apart, data)
+        axes.plot([], [], "o", color="0.4", ms=4.0, label="end of the period")
+        figure: Any = axes.get_figure(root=True)
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    return axes, apart
+
+
+def _deviations(ax: Axes, data: xr.Dataset) -> None:
+    """Draw how far outside the exact orbit the others lie, over the angle around it."""
+    exact = data.sel(model="exact")
+    half_axes = [np.abs(exact[name]).max() for name in ("q_bar", "q_dot_bar")]
+
+    def around(model: str) -> tuple[Any, Any]:
+        q, rate = (data[k].sel(model=model) for k in ("q_bar", "q_dot_bar"))
+        z = (q / half_axes[0] - 1j * rate / half_axes[1]).to_numpy()
+        return np.degrees(np.unwrap(np.angle(z))), np.abs(z)
+
+    on = around("exact")
+    for model in data["model"].values.tolist():
+        angle, radius = around(model)
+        off = 100.0 * (radius / np.interp(angle, *on, period=360.0) - 1.0)
+        if model == "finite element":
+            ax.plot(angle[::8], off[::8], **_POINTS)
+        else:
+            ax.plot(angle, off, **model_line(model))
+    ax.set(
+        xlabel="angle around the orbit [°]", ylabel="radial deviation [%]", xlim=(0.0, 360.0),
+        xticks=range(0, 361, 90),
+    )  # fmt: skip
+    ax.set_title("b) distance from the exact orbit", loc="left")
 
 
 def _orbits(ax: Axes, data: xr.Dataset) -> None:
     for model in data["model"].values.tolist():
         q, rate = (data[name].sel(model=model) for name in ("q_bar", "q_dot_bar"))
         if model == "finite element":
-            ax.plot(
-                q[::8], rate[::8], ls="none", marker="o", ms=3.0, mfc="white", mec="black",
-                mew=0.6, zorder=6, label=f"{data.attrs['elements']} elements",
-            )  # fmt: skip
+            ax.plot(q[::8], rate[::8], **_POINTS, label=f"{data.attrs['elements']} elements")
             continue
         line = model_line(model)
         ax.plot(q, rate, label=model, **line)
@@ -205,27 +237,23 @@ def _orbits(ax: Axes, data: xr.Dataset) -> None:
 
 
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
-    """Draw q(t), its steady phase shaded, and the steady orbit (q, q_dot) of a run by `simulate`.
+    """Draw q(t), the ramp shaded, and the steady orbit (q, q_dot) of a run by `simulate`.
 
     On two Axes, of the time history and of phase space.
     """
     ramp_time, end = float(run.attrs["ramp_time"]), float(run["time"][-1])
     steady = run.where(run["time"] >= ramp_time, drop=True)
     with house_axes(ax, columns(), 2.6, ncols=2, width_ratios=(1.7, 1.0)) as (history, phase):
-        history.axvspan(ramp_time, end, color="0.92", lw=0)
+        shade_ramp(history, ramp_time)
         history.axhline(0.0, color="0.6", lw=0.5)
         history.plot(run["time"], run["q"], color=ink(BLUE))
         history.set(xlabel=label(run["time"]), ylabel=label(run["q"]), xlim=(0.0, end))
-        history.annotate(
-            "steady rotation", (end, 0.0), xycoords=("data", "axes fraction"), xytext=(-4, 4),
-            textcoords="offset points", ha="right", va="bottom", color="0.35",
-        )  # fmt: skip
         history.set_title(
             f"ω = {run.attrs['omega']:g} rad/s, T = {ramp_time:g} s, "
             f"{run.attrs['elements']} {run.attrs['element']} elements",
             loc="left",
         )
-        phase.plot(steady["q"], steady["q_dot"], color=ink(ORANGE), lw=0.6)
+        phase.plot(steady["q"], steady["q_dot"], color=ink(BLUE), lw=0.6)
         phase.set(xlabel=label(run["q"]), ylabel=label(run["q_dot"]))
         phase.set_title(f"steady orbit, t > {ramp_time:g} s", loc="left")
     return history, phase

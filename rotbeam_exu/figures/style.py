@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import matplotlib as mpl
+import numpy as np
 import xarray as xr
 from cycler import cycler
 from matplotlib.axes import Axes
@@ -24,6 +25,8 @@ _CYCLE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
 
 # Where a grey is near another's, dashes and marks tell the two apart.
 _GREYS = {BLUE: "0.45", RED: "0.3", GREEN: "0.2", PURPLE: "0.55", ORANGE: "0.65", SKY: "0.6"}
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_RAMP = {False: (0.15, 0.8), True: (0.9, 0.4)}  # parts of viridis, and of the greys
 
 STYLE: Any = {
     "font.size": 8.0,
@@ -129,6 +132,11 @@ def model_line(name: str) -> dict[str, Any]:
     return {**line, "color": ink(line["color"])}
 
 
+def ramp(count: int) -> list[Any]:
+    """Return colors in order, dark to light: of meshes, degrees or slendernesses."""
+    return list(mpl.colormaps[colormap("viridis")](np.linspace(*_RAMP[_ACTIVE.get().grey], count)))
+
+
 def colormap(name: str) -> str:
     """Return a color map, or the greys."""
     return "Greys" if _ACTIVE.get().grey else name
@@ -151,6 +159,15 @@ def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) ->
         yield given
 
 
+def shade_ramp(ax: Axes, ramp_time: float) -> None:
+    """Shade the spin-up, in every figure over time, and name it."""
+    ax.axvspan(0.0, ramp_time, color="0.92", lw=0, zorder=0)
+    ax.annotate(
+        "spin-up", (0.0, 1.0), xycoords=("data", "axes fraction"), xytext=(4, -4),
+        textcoords="offset points", va="top", color="0.35",
+    )  # fmt: skip
+
+
 def label(variable: xr.DataArray) -> str:
     """Return an axis label, long name and unit, from a variable's attributes."""
     unit = variable.attrs.get("units", "")
@@ -159,6 +176,14 @@ def label(variable: xr.DataArray) -> str:
     name = re.sub(r"ω0\b", "ω_0", name)
     name = re.sub(r"(\w)_(\w+)", r"$\1_{\2}$", name)
     return f"{name} [{unit}]" if unit and unit != "1" else name
+
+
+def typeset(words: str) -> str:
+    """Return words with the minus and the powers of print: −33.4, 1.758·10⁻⁶."""
+    words = re.sub(
+        r"(?<=\d)e([+-]\d+)", lambda power: "·10" + str(int(power[1])).translate(_RAISED), words
+    )
+    return re.sub(r"(?<![\w)-])-(?=[\d.])", "−", words)
 
 
 def save_figure(axes: Axes, path: Path) -> tuple[Path, ...]:

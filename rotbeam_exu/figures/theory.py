@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
 from ..comparison import theory as made
-from ..paper import MODEL_NAMES
-from ..runs.attributes import beam_of
+from ..paper import MODEL_LINES, MODEL_NAMES
 from .paper_figure import EXACT, listed, paper_figure
-from .style import STYLE, column, columns, cycle, house_axes, label, model_line
+from .style import column, columns, cycle, house_axes, label, model_line, ramp, typeset
 
+_NEAR = "Inset: the same near zero."
 _SHORT_DASHES = ("-", (0, (2, 1)), (0, (1, 1)))  # what greys do not tell from the models'
-_DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
+_DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), ":")
 _ROUND_OFF = 1e-13
-_COEFFICIENTS = "λ_ω of ω_NL = ω_n (1 - λ_ω a²) and λ_x of Eq. 65, a → 0,"
+_COEFFICIENTS = "λ_ω of ω_NL = ω_n (1 − λ_ω a²) and λ_x of Eq. 65, a → 0,"
 _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
 
 
@@ -31,7 +32,7 @@ _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
     ),
     claim=(
         "The paper states that all backbones lie in the shaded area. In the model they do, and at "
-        "rest it is right; in rotation it softens far too much, because Eq. 25 drops -v'⁴/8."
+        "rest it is right; in rotation it softens far too much, because Eq. 25 drops −v'⁴/8."
     ),
 )
 def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -60,7 +61,7 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 @paper_figure(
     made.figure_9,
     shows=lambda _: (
-        f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}."
+        f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}. {_NEAR}"
     ),
     claim=(
         "The paper states that softening grows with speed. In the model it does, because of Eq. "
@@ -69,14 +70,14 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 )
 def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw λ_ω and λ_x of CI against Ω."""
-    return _coefficients(data, "speed_ratio", ax)
+    return _coefficients(data, "speed_ratio", ax, near=True)
 
 
 @paper_figure(
     made.figure_10,
     shows=lambda _: (
-        f"{_COEFFICIENTS} against ω, inextensible, by the cantilever's mode and by polynomials of "
-        f"degree 3, 4 and 5; {EXACT}."
+        f"{_COEFFICIENTS} against ω, inextensible, by the cantilever's mode (CI) and by "
+        f"polynomials of degree 3, 4 and 5; {EXACT}. {_NEAR}"
     ),
     claim=(
         "The paper states that degree 5 is closest to the mode at low speed, and that degree 4 "
@@ -86,15 +87,15 @@ def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
 )
 def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw λ_ω and λ_x of the polynomial shapes and of the cantilever's mode against ω."""
-    return _coefficients(data, "omega", ax)
+    return _coefficients(data, "omega", ax, near=True)
 
 
 @paper_figure(
     made.figure_11,
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
-        f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, "
-        f"of μ = {beam_of(data.attrs).slenderness:.4g}."
+        f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, of the same μ in the same "
+        f"dashes, up to 0.6 of the speed that stretches it without bound."
     ),
     claim=(
         "The paper does not state its μ. We reproduce the shape of the curves. The elongation by a "
@@ -103,28 +104,48 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 )
 def figure_11(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw λ_ω and λ_x of CE against ω for several slendernesses."""
-    axes = _coefficients(data, "omega", ax)
-    axes[0].set_title(f"CE; {data.attrs['held']}", loc="left", fontsize=STYLE["axes.titlesize"])
-    return axes
+    return _coefficients(data, "omega", ax)
 
 
-def _coefficients(data: xr.Dataset, axis: str, ax: Sequence[Axes] | None) -> Sequence[Axes]:
-    with house_axes(ax, columns(), 2.8, ncols=2) as axes:
-        symbols = {"lambda_omega": r"$\lambda_\omega$", "lambda_x": r"$\lambda_x$"}
-        for panel, (variable, symbol) in zip(axes, symbols.items(), strict=True):
-            for row, color, dashes in zip(data[variable], cycle(), _DASHES, strict=False):
-                name = str(row["model"].item())
-                line = model_line(name) if name == "exact" else {"color": color, "ls": dashes}
-                panel.plot(data[axis], row, **line, label=name)
-            panel.axhline(0.0, color="0.7", lw=0.5)
-            low, high = float(np.nanmin(data[variable])), float(np.nanmax(data[variable]))
-            margin = 0.06 * (high - low)
-            panel.set(
-                xlabel=label(data[axis]), ylabel=symbol, xlim=(0, float(data[axis][-1])),
-                ylim=(min(low, 0.0) - margin, high + margin),
-            )  # fmt: skip
-        axes[0].legend(loc="best")
+def _coefficients(
+    data: xr.Dataset, axis: str, ax: Sequence[Axes] | None, *, near: bool = False
+) -> Sequence[Axes]:
+    lines = _lines(data["model"].values.tolist())
+    with house_axes(ax, columns(), 3.0, ncols=2) as axes:
+        for panel, variable, letter in zip(axes, ("lambda_omega", "lambda_x"), "ab", strict=True):
+            _rows(panel, data[axis], data[variable], lines)
+            panel.set(xlabel=label(data[axis]), ylabel=label(data[variable]))
+            panel.set_title(f"{letter})", loc="left")
+        if near:
+            inset = axes[0].inset_axes((0.5, 0.2, 0.5, 0.5))
+            _rows(inset, data[axis], data["lambda_omega"], lines)
+            inset.set_ylim(-0.05, 0.05)
+            inset.tick_params(labelsize=6.0)
+        figure: Any = axes[0].get_figure(root=True)
+        named = axes[0].get_legend_handles_labels()
+        figure.legend(*named, loc="outside lower center", ncols=min(len(lines), 5))
     return tuple(axes)
+
+
+def _rows(ax: Axes, x: xr.DataArray, rows: xr.DataArray, lines: dict[str, dict[str, Any]]) -> None:
+    for (name, line), row in zip(lines.items(), rows, strict=True):
+        ax.plot(x, row, **line, label=typeset(name))
+    ax.axhline(0.0, color="0.7", lw=0.5)
+    ax.set_xlim(0.0, float(x[-1]))
+
+
+def _lines(names: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Return how each row is drawn: "exact, μ = ..." in black and in the dashes of "μ = ..."."""
+    lines: dict[str, dict[str, Any]] = {}
+    others = [name for name in names if name not in MODEL_LINES and "exact" not in name]
+    looks = dict(zip(others, zip(ramp(len(others)), _DASHES[1:], strict=False), strict=True))
+    for name in names:
+        if name in looks:
+            lines[name] = dict(zip(("color", "ls"), looks[name], strict=True))
+        else:
+            kind, _, own = name.partition(", ")
+            lines[name] = model_line(kind) | ({"ls": looks[own][1]} if own else {})
+    return lines
 
 
 def _shows_12(data: xr.Dataset) -> str:
@@ -133,14 +154,14 @@ def _shows_12(data: xr.Dataset) -> str:
         "Distance of the natural frequency by Frobenius' series from its limit, over the degree N "
         f"of the polynomial, for even N, at ω = {listed(data['omega'])} rad/s. "
         f"Before N = {listed(first)} there is no point, because Eq. 86 has no root near the first "
-        "frequency. Differences below 1e-13 rad/s are round-off and not shown."
+        "frequency. Differences below 10⁻¹³ rad/s are round-off and not shown."
     )
 
 
 @paper_figure(
     made.figure_12,
     shows=_shows_12,
-    claim="The paper uses degree 36. At 8 rad/s the error is 2.1e-4 rad/s. Eq. 81 is corrected.",
+    claim="The paper uses degree 36. At 8 rad/s the error is 2.1·10⁻⁴ rad/s. Eq. 81 is corrected.",
 )
 def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the distance of Frobenius' natural frequency from its limit over the degree."""
