@@ -52,15 +52,8 @@ if __name__ == "__main__":
     write(figures.figure_14(golden())[0], "figure_14")
     run = simulate(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), elements=16)
     write(figures.spin_up(run)[0], "spin_up")
-    ends = (
-        golden()["amplitude"]
-        .sel(mesh="paper")
-        .to_series()
-        .dropna()
-        .groupby("omega")
-        .apply(list)
-        .to_dict()
-    )
+    peaks = golden()["amplitude"].sel(mesh="paper").to_series().dropna().groupby("omega")
+    ends = peaks.apply(list).to_dict()
     strip, speeds = Beam.reference().with_shape(Rectangle()), [0.0, 0.25, 0.5, *range(1, 9)]
     limits = {omega: stability_limit(strip, omega, largest=0.1).amplitude for omega in speeds}
     growth = comparison.growth_out_of_plane()

@@ -15,7 +15,7 @@ from ..datasets import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 
-_W_BAR = "speed ω̄ = ω/√(EI/mL³)"
+_W_BAR = "speed ω̄ = ω/√(EI/ρAL⁴)"
 
 
 def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:

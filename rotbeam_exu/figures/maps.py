@@ -23,14 +23,15 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         step = np.ceil(limit / 5.0 * 200.0) / 200.0
         levels = step * np.arange(-5.0, 5.5, 0.5)
         filled = axes.contourf(x, y, values, levels, cmap=colormap("RdBu_r"), extend="both")
-        colorbar = axes.figure.colorbar(filled, ax=axes, ticks=levels[1::4])
+        colorbar = axes.figure.colorbar(filled, ax=axes, ticks=levels[2::4])
         colorbar.set_label(f"{label(data['lambda_omega'])}: hardening < 0, softening > 0")
         zero = axes.contour(x, y, values, levels=[0.0], colors="black", linewidths=1.0)
-        axes.clabel(zero, fmt={0.0: "0"}, fontsize=6.5)
+        axes.clabel(zero, fmt={0.0: "0"}, fontsize=6.5, manual=[(3.0, 0.8)])
         lines = axes.contour(
             x, y, ratio, levels=[3.0, 4.0, 5.0], colors="black", linewidths=0.8, linestyles="--"
         )
-        for text in axes.clabel(lines, fmt=lambda value: f"{value:.0f}:1", fontsize=6.5):
+        places = [(2.4, 6.5), (2.6, 2.8), (2.6, 1.5)]
+        for text in axes.clabel(lines, fmt="%.0f:1", fontsize=6.5, manual=places):
             text.set_rotation(0.0)
         axes.set(xlabel=label(data["hub_ratio"]), ylabel=label(data["w_bar"]))
     return axes
@@ -57,8 +58,11 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 )  # fmt: skip
         axes.set(xlabel=label(data["w_bar"]), ylabel=label(data["lambda_omega"]))
         axes.set_xlim(x[0], x[-1])
-        for words, at, side in (("softening", 0.98, "top"), ("hardening", 0.02, "bottom")):
-            axes.text(0.02, at, words, transform=axes.transAxes, va=side, color="0.35")
+        for words, place, ha in (
+            ("softening", (0.02, 0.93), "left"),
+            ("hardening", (0.98, 0.03), "right"),
+        ):
+            axes.text(*place, words, transform=axes.transAxes, ha=ha, color="0.35")
         axes.legend()
     return axes
 

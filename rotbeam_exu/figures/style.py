@@ -42,6 +42,7 @@ STYLE: Any = {
     "axes.prop_cycle": cycler(color=(*_CYCLE, "0.4")),
     "lines.linewidth": 1.0,
     "figure.constrained_layout.use": True,
+    "figure.figsize": (3.5, 2.6),
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
     "svg.hashsalt": "rotbeam",
