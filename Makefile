@@ -96,4 +96,4 @@ $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html .pytest_cache .mypy_cache .ruff_cache

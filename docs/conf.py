@@ -12,10 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.animation import FFMpegWriter
 
 HERE = Path(__file__).parent
 _HANDS = 8  # that pages are dealt to: more than there are chunks for each process
 sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
+
+from gallery_order import same_resolution  # noqa: E402
 
 import rotbeam_exu  # noqa: E402
 
@@ -92,6 +95,7 @@ sphinx_gallery_conf = {
     "write_computation_times": False,  # a page whose table another host sorts
     "image_scrapers": ("matplotlib",),
     "image_srcset": ["2x"],
+    "reset_modules": ("matplotlib", same_resolution),
 }
 
 html_theme = "pydata_sphinx_theme"
@@ -159,13 +163,14 @@ def write_interactive(app: Any) -> None:
     """Write the explorer and the animations that the pages embed, by the command line itself."""
     if not app.config.computed_runs:
         return
+    ending = "mp4" if FFMpegWriter.isAvailable() else "gif"
     rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
     for lines in (
         ("explore --cache _build/runs --out _static/explorer.html",),  # takes all cores
         (
-            "animate --omega 6 --ramp-time 3 --force --out _static/spin_up.gif",
+            f"animate --omega 6 --ramp-time 3 --force --out _static/figures/spin_up.{ending}",
             "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
-            "--out _static/figures/linear.gif",
+            f"--out _static/figures/linear.{ending}",
         ),
     ):
         jobs = [

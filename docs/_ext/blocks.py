@@ -55,6 +55,17 @@ def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
     print(f"```{{figure}} {source}\n:alt: {brief}\n:width: {width}px\n\n{text}\n```")  # noqa: T201
 
 
+def film(pages: Path, source: str, words: str) -> None:
+    """Print a film that can be stopped; where no ffmpeg made it, the moving picture."""
+    if (pages / f"{source.lstrip('./')}.mp4").exists():
+        print(  # noqa: T201
+            f'<video controls muted loop playsinline width="640" aria-label="{words}" '
+            f'src="{source}.mp4"></video>\n'
+        )
+    else:
+        print(f'<img src="{source}.gif" alt="{words}">\n')  # noqa: T201
+
+
 def names(pages: Path) -> dict[str, Any]:
     """Return what the blocks of a page in the folder `pages` start with."""
     return {
@@ -62,6 +73,7 @@ def names(pages: Path) -> dict[str, Any]:
         "pages": pages,
         "table": table,
         "figure": partial(figure, pages / "_static" / "figures"),
+        "film": partial(film, pages),
         "cache": pages / "_build" / "runs",
     }
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import matplotlib as mpl
+
 FIRST = (
     "spin_up", "quiet_spin_up", "backbone", "phase_space", "model_errors", "mesh_convergence",
     "thickness_locking", "linear_frame", "substructures", "campbell_diagram", "tapered_blade",
@@ -20,3 +24,9 @@ class GalleryOrder:
         """Return the key of a script."""
         stem = file_name.removesuffix(".py")
         return (FIRST.index(stem) if stem in FIRST else len(FIRST), stem)
+
+
+def same_resolution(gallery: dict[str, Any], file_name: str) -> None:
+    """Save pictures at the resolution of the house, whether a script sets its style or not."""
+    del gallery, file_name
+    mpl.rcParams["savefig.dpi"] = 300

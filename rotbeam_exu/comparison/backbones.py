@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
+from numpy.linalg import norm
 
 from analytic import Beam, periodic_orbits, reduced_model
 from analytic.exact.plane.planarity import planar_note
@@ -115,7 +116,7 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
     -------
     Dataset
         `lambda_omega` and `quartic` κ [-] over omega; κ is zero unless asked for.
-        `lambda_omega_error`, the standard error by the scatter of the points about the curve.
+        `lambda_omega_error`: the points' own errors, plus the standard error by their scatter.
     """
     found = []
     for omega in points["omega"]:
@@ -124,17 +125,19 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
         square = here["amplitude"].to_numpy()[inside] ** 2
         columns = np.stack([square, square**2] if quartic else [square], axis=1)
         drop = 1.0 - here["ratio"].to_numpy()[inside]
-        solution, *_ = np.linalg.lstsq(columns, drop, rcond=None)
-        free = max(square.size - solution.size, 0)
-        scatter = np.sum((drop - columns @ solution) ** 2) / free if free else np.nan
-        error = np.sqrt(scatter * np.linalg.inv(columns.T @ columns)[0, 0]) if free else np.nan
-        found.append([*np.pad(solution, (0, 2))[:2], error])
+        inverse = np.linalg.pinv(columns)
+        solution = inverse @ drop
+        free = square.size - solution.size
+        scatter = np.sum((drop - columns @ solution) ** 2) / free if free > 0 else np.nan
+        # Errors of step and mesh have one sign at all points of a speed: no square root of a sum.
+        own = np.abs(inverse[0]) @ here["ratio_error"].to_numpy()[inside]
+        found.append([*np.pad(solution, (0, 2))[:2], own + np.sqrt(scatter) * norm(inverse[0])])
     values = np.array(found)
     return dataset(
         {
             "lambda_omega": ("omega", values[:, 0], "λ_ω"),
             "quartic": ("omega", values[:, 1], "a⁴ coefficient"),
-            "lambda_omega_error": ("omega", values[:, 2], "standard error of λ_ω"),
+            "lambda_omega_error": ("omega", values[:, 2], "error of λ_ω"),
         },
         {"omega": points["omega"]},
     )

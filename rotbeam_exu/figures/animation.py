@@ -17,9 +17,12 @@ from analytic.arrays import FloatArray
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.reduced.linear_frame import LinearResponse
 
-from ..paper import BLUE, ORANGE, RED
+from ..paper import BLUE, RED
 from .style import STYLE, new_figure, shade_ramp
 
+_LETTERS = dict.fromkeys(
+    ("font.size", "axes.labelsize", "axes.titlesize", "xtick.labelsize", "ytick.labelsize"), 11.0
+)  # legible on a phone
 _REACH = 1.08  # of a view, beyond the beam's length
 _TRAIL = 0.6  # seconds of the tip's path that stay visible
 _FINER = 8  # points of that path from one picture to the next
@@ -66,7 +69,7 @@ def animate(
     """
     _require_drawable(response, beside)
     time = response.time
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(response, beside) if beside else _two_frames(response)
         _ramp(history, response)
         words = history.set_title("", loc="left", family="monospace")
@@ -76,10 +79,11 @@ def animate(
         for move in moving:
             move(n)
         rate_now = float(response.spin_up.rate(time[n]))
-        line = f"t = {time[n]:5.2f} s   dθ/dt = {rate_now:4.2f} rad/s   q = {response.q[n]:+5.2f} m"
+        q = response.q[n] / response.beam.length
+        line = f"t = {time[n]:5.2f} s  dθ/dt = {rate_now:4.2f} rad/s  q/L = {q:+5.2f}"
         if beside is not None:
-            form = "+5.2f" if abs(beside.q[n]) < 100.0 else "+.1e"
-            line += f"   linear {beside.q[n]:{form}} m"
+            q = beside.q[n] / beside.beam.length
+            line += f", linear {q:{'+6.2f' if abs(q) < 100.0 else '+6.0f'}}"
         words.set_text(line.replace("-", "−"))
         return []
 
@@ -158,10 +162,10 @@ def _two_frames(response: SpinUpResponse) -> tuple[Axes, list[_Moving]]:
     _scale_bar(inside, length)
     inside.plot([0.0, 1.1 * length], [0.0, 0.0], **_CLAMP)
     return history, [
-        _beam(outside, response, BLUE, ORANGE),
-        _beam(inside, response, BLUE, ORANGE, turning=True),
+        _beam(outside, response, "black", BLUE),
+        _beam(inside, response, "black", BLUE, turning=True),
         _clamp(outside, response),
-        _history(history, response, BLUE, ORANGE),
+        _history(history, response, "black", BLUE),
     ]
 
 
@@ -171,22 +175,21 @@ def _two_models(response: SpinUpResponse, beside: LinearResponse) -> tuple[Axes,
     length = response.beam.length
     moving = []
     for ax, of, title, color in (
-        (exact, response, "exact beam", BLUE),
+        (exact, response, "exact beam", "black"),
         (linear, beside, "linear floating frame", RED),
     ):
         _view(ax, title, length)
         moving += [_clamp(ax, of), _beam(ax, of, color, color)]
     _scale_bar(exact, length, -_REACH)
-    moving += [_history(history, of, c, c) for of, c in ((beside, RED), (response, BLUE))]
-    history.set_ylim(-_REACH * length, _REACH * length)
+    moving += [_history(history, of, c, c) for of, c in ((beside, RED), (response, "black"))]
+    history.set_ylim(-_REACH, _REACH)
     _mark_instability(history, beside)
     _, path = _shapes_and_path(beside)
     seen = np.maximum(np.abs(path.real), np.abs(path.imag)) <= _REACH * length
     left = float(_between(beside.time)[seen][-1])
     if left < response.time[-1]:
         said = f"left the picture at {left:.2f} s"
-        # A fixed place: that of a title that is not seen yet would put the other one anywhere.
-        text = linear.set_title(said, loc="right", color=RED, y=1.0)
+        text = linear.text(0.0, 0.02, said, color=RED, transform=linear.transAxes)
         moving.append(lambda n: text.set_visible(response.time[n] >= left))
     return history, moving
 
@@ -235,11 +238,11 @@ def _mark_instability(history: Axes, beside: LinearResponse) -> None:
     faster = beside.spin_up.rate(fine) * beside.beam.unit.setting > beside.beam.omega_0
     if beside.foreshortening or not faster.any():
         return
-    start, speed = fine[np.argmax(faster)], beside.beam.omega_0 / beside.beam.unit.setting
+    start = fine[np.argmax(faster)]
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
     # Where there is more room.
     side, shift = ("right", -4) if start > 0.5 * beside.time[-1] else ("left", 4)
-    said = f"from {start:.2f} s on faster than {speed:.2f} rad/s: linear unstable"
+    said = f"from {start:.2f} s on linear unstable"
     history.annotate(
         said, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(shift, -4),
         textcoords="offset points", ha=side, va="top", color=RED,
@@ -251,7 +254,7 @@ def _axes(height: float, *widths: float) -> tuple[Axes, Axes, Axes]:
     ratios = {"height_ratios": (3.0, 1.0), "width_ratios": widths}
     # Solving the layout for every picture would take most of the time, and let the axes tremble.
     figure, axes = new_figure(6.4, height, nrows=2, ncols=2, layout="none", **ratios)
-    figure.subplots_adjust(0.09, 0.44 / height, 0.985, 1.0 - 0.23 / height, 0.04, 0.16)
+    figure.subplots_adjust(0.11, 0.55 / height, 0.985, 1.0 - 0.3 / height, 0.04, 0.24)
     for ax in axes[1]:
         ax.remove()
     return axes[0, 0], axes[0, 1], figure.add_subplot(axes[1, 0].get_gridspec()[1, :])
@@ -278,16 +281,17 @@ def _scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
 def _history(history: Axes, response: _Response, color: str, dot: str) -> _Moving:
     """Draw q over time, and return the point that moves on it."""
     fine = _between(response.time)
-    history.plot(fine, CubicSpline(response.time, response.q)(fine), color=color)
+    q = response.q / response.beam.length
+    history.plot(fine, CubicSpline(response.time, q)(fine), color=color)
     (point,) = history.plot([], [], "o", color=dot, ms=6, mec="white", mew=0.8)
-    return lambda n: point.set_data([response.time[n]], [response.q[n]])
+    return lambda n: point.set_data([response.time[n]], [q[n]])
 
 
 def _ramp(history: Axes, response: _Response) -> None:
     """Shade the spin-up, and name the axes."""
     shade_ramp(history, response.spin_up.ramp_time)
     history.axhline(0.0, color="0.6", lw=0.5)
-    history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q [m]")
+    history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q/L")
 
 
 def _between(time: FloatArray) -> FloatArray:

@@ -26,7 +26,8 @@ _MESHES: dict[str, tuple[str, Any]] = {
         f"Frequency over amplitude of the finite element model, {spin_ups(data)}; a is half "
         "peak to peak of q/L. ω_n is that of the same mesh. Error bars of step, mesh and estimate "
         "are smaller than the symbols. Dashed: 1 − λ_ω a² − κ a⁴, fitted for "
-        f"a < {float(data['a'].max()):g}, with the standard error of λ_ω; {EXACT}. {numerics(data)}"
+        f"a < {float(data['a'].max()):g}, ± by scatter and errors of the points; "
+        f"{EXACT}. {numerics(data)}"
     ),
     claim=(
         "The paper states that the backbone is nearly quadratic. This holds up to a = 0.4; a "

@@ -137,6 +137,14 @@ def test_figure_5_is_fitted_where_its_curve_holds(monkeypatch):
     # The parabola through all points, as the paper has it: 32 and 45 % off at 6 and 8 rad/s.
     parabola = comparison.fitted_softening(points, below=1.0, quartic=False)["lambda_omega"]
     assert (np.abs(parabola / exact - 1.0)[2:] > 0.3).all()
+    assert (abs(data["lambda_omega"] - exact) < data["lambda_omega_error"]).all()
+    # The points lie on the exact backbone, up to the mesh's error, and it ends at the last.
+    for omega in data["omega"]:
+        here = data.sel(omega=omega)
+        at = here["amplitude"].to_numpy()
+        on = np.interp(at, here["exact_amplitude"], here["exact"])
+        assert np.abs(on - here["ratio"]).max() < 2e-4
+        assert here["exact_amplitude"].max() == at.max()
     # The curve goes through the points that it is fitted to, to a tenth of the nonlinearity.
     for omega in data["omega"]:
         here = data.sel(omega=omega)

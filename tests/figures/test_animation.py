@@ -40,7 +40,7 @@ def test_both_views_show_the_same_beam_turned(response):
         np.testing.assert_allclose(inertial, rotating * np.exp(1j * angle), atol=1e-12)
         tip = inertial[-1]
         np.testing.assert_allclose([tip.real, tip.imag], response.tip[n], atol=1e-9)
-        assert dot == (response.time[n], response.q[n])
+        assert dot == (response.time[n], response.q[n] / response.beam.length)
         assert rotating[-1].imag == pytest.approx(response.q[n], abs=1e-9)
         plt.close(animation._fig)
 

@@ -49,4 +49,5 @@ def test_lag_and_flap_change_sign_where_they_do():
     data = comparison.softening_by_plane()
     axes = figures.softening_by_plane(data)
     # Computed by another code: 0.900803 and 3.59302; shown to two decimals.
-    assert sorted(text.get_text() for text in axes.texts) == ["0.90", "3.59"]
+    names = [text.get_text() for text in axes.texts]
+    assert sorted(names) == ["0.90", "3.59", "hardening", "softening"]

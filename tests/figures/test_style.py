@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 
 from rotbeam_exu import figures
+from rotbeam_exu.figures.style import typeset
 from rotbeam_exu.paper import MODEL_LINES
 
 
@@ -68,6 +69,11 @@ def test_an_unknown_style_names_those_that_are_known():
     known = pytest.raises(ValueError, match="known are house, journal, grey")
     with known, figures.style("sepia"):
         pass
+
+
+def test_numbers_are_typeset():
+    words = typeset("-33.4 %, 1.758e-06, 2e+03 and (-v), rad-s, 1-2")
+    assert words == "−33.4 %, 1.758·10⁻⁶, 2·10³ and (-v), rad-s, 1-2"
 
 
 def test_one_speed_has_one_panel(data):
