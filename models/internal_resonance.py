@@ -16,23 +16,23 @@ plt.style.use(figures.STYLE)
 branch = backbone(Beam.reference(), omega=2.0, theory=Theory(extension=False)).branch(up_to=0.8)
 print(branch)
 
-_, ax = plt.subplots(figsize=(6.0, 4.2))
+_, ax = plt.subplots(figsize=(3.5, 3.2))
 (resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
 for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece
     lower = branch.amplitude < resonance.amplitude
     for part in (here & lower, here & ~lower) if piece == 0 else (here,):
         ax.plot(branch.frequency[part], branch.amplitude[part], "C1--" if piece else "k-")
-ax.annotate(
-    "harmonic 6, mode 2", (branch.folds[0].frequency, branch.folds[0].amplitude),
-    (3.02, 0.69), arrowprops={"arrowstyle": "-", "color": "0.5"},
-)  # fmt: skip
+ax.plot([], [], "k-", label="first mode dominates")
+ax.plot([], [], "C1--", label="second mode dominates")
+ax.plot([], [], "o", color="0.6", markersize=3, label="harmonic:mode")
 for one in branch.resonances:
     if one is not resonance:
         ax.plot(one.frequency, one.amplitude, "o", color="0.6", markersize=3)
         left = one.mode == 4
         ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
-                    (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=8,
+                    (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=6,
                     ha="right" if left else "left")  # fmt: skip
 ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85))
+ax.legend(loc="lower right")
 plt.show()

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from scipy.interpolate import CubicSpline
 
 from ..comparison import backbones as made
 from ..paper import MODEL_NAMES
@@ -89,13 +90,16 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
     count = data.sizes["omega"]
     rows, height = (count + 1) // 2, 2.6 if count > 1 else 3.6
     grid = {"nrows": rows, "ncols": min(count, 2), "squeeze": False}
+    fine = np.linspace(0.0, float(data["a"].max()), 121)
     with house_axes(ax, columns(), height * rows, **grid) as given:
         axes = np.ravel(np.asarray(given, dtype=object))
         for panel, omega, letter in zip(axes, data["omega"], "abcdefgh", strict=False):
             here = data.sel(omega=omega)
             for name in here["model"].values.tolist():
-                ratio = np.append(1.0, here["backbone"].sel(model=name))
-                panel.plot(ratio, np.append(0.0, here["a"]), label=name, **model_line(name))
+                # Smooth in the square of a, as the frequency is.
+                known = np.append(0.0, here["a"]), np.append(1.0, here["backbone"].sel(model=name))
+                ratio = CubicSpline(known[0] ** 2, known[1])(fine**2)
+                panel.plot(ratio, fine, label=name, **model_line(name))
             for mesh, (name, look) in _MESHES.items():
                 if mesh in here["mesh"]:
                     _points(panel, here.sel(mesh=mesh), color="black", mew=0.6, zorder=5,

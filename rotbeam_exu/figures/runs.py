@@ -92,7 +92,7 @@ def _shows_4(data: xr.Dataset) -> str:
     smeared = data.isel(case=int(np.argmax(data["smear"].to_numpy())))
     return (
         f"Steady orbits of the tip with {data.attrs['elements']} elements, a) by ramp time, b) by "
-        "speed, with the same scale; black: the case in both. Lines: the first turn; pale: all "
+        "speed, with the same scale; grey: the case in both. Lines: the first turn; pale: all "
         "turns. The normalization is that of Eqs. 17 and 18, with the mass m = ρAL: "
         "q₀ = mωL⁴/(T(EI + mω²L³)) and, corrected, q̇₀ = q₀√(EI/mL³ + ω²). "
         f"{numerics(data)} The orbit of ω = {float(smeared['omega']):g} "
@@ -124,7 +124,7 @@ def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
                 row = here.isel(case=case)
                 key = float(row["omega"]), float(row["ramp_time"])
                 if key not in looks:
-                    looks[key] = ("black", "-") if key in common else next(fresh)
+                    looks[key] = ("0.4", "-") if key in common else next(fresh)
                 color, dashes = looks[key]
                 q, rate = row["q_bar"].to_numpy(), row["q_dot_bar"].to_numpy()
                 names = f"ω = {key[0]:g} rad/s", f"T = {key[1]:g} s"

@@ -26,8 +26,8 @@ _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
     made.figure_8,
     shows=lambda data: (
         f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
-        f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
-        "marked strip, at the same height. The model's a is the first harmonic of q/L, the exact "
+        f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Inset: the "
+        "marked strip, of the same height. The model's a is the first harmonic of q/L, the exact "
         "beam's half peak to peak."
     ),
     claim=(
@@ -41,8 +41,8 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     names = ("CI, Ω = 0", "CI, Ω = 1", "CI, Ω → ∞")
     line = model_line("exact")
     with house_axes(ax, column(), 3.2) as axes:
-        near = axes.inset_axes((0.06, 0.1, 0.42, 0.5))
-        near.set(xlim=(0.991, 1.005), ylim=(0.0, 0.4), xticks=(0.995, 1.0), yticks=())
+        near = axes.inset_axes((0.1, 0.1, 0.38, 0.5))
+        near.set(xlim=(0.991, 1.005), ylim=(0.0, 0.4), xticks=(0.995, 1.0), yticks=(0.0, 0.2, 0.4))
         near.spines[["top", "right"]].set_visible(True)
         near.tick_params(labelsize=6.0)
         for panel in (axes, near):
@@ -207,7 +207,7 @@ def _shows_13(data: xr.Dataset) -> str:
 def figure_13(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the first mode shape at rest and in rotation."""
     with house_axes(ax, column(), 2.6) as axes:
-        for row, color, style in zip(data["shape"], ("black", *cycle()), _DASHES, strict=False):
+        for row, color, style in zip(data["shape"], ("0.5", *cycle()), _DASHES, strict=False):
             omega = float(row["omega"])
             name = "cantilever at rest" if omega == 0.0 else f"ω = {omega:g} rad/s"
             axes.plot(data["eta"], row, color=color, ls=style, label=name)

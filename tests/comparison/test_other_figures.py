@@ -72,7 +72,7 @@ def test_figure_4_orbits_close(data_of):
     # The last of a) is the first of b), and drawn as it is; pale lines are all turns of each.
     common = [panel.lines[i] for panel, i in ((left, 5), (right, 1))]
     np.testing.assert_array_equal(*[line.get_xydata() for line in common])
-    assert common[0].get_color() == common[1].get_color() == "black"
+    assert common[0].get_color() == common[1].get_color() == "0.4"
     looks = [line.get_linestyle() + str(line._dash_pattern) for line in left.lines[1::2]]
     assert len(set(looks)) == 3
     # The second mode, in the steady motion after the shortest ramp.

@@ -30,12 +30,29 @@ function showControls() {
   for (const key of ["scale", "norm"])
     for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
 }
-// Beside the charts where there is room, below them where there is none; Tab follows what is seen.
-const wide = matchMedia("(min-width: 1181px)");
-function arrange() { document.querySelector(wide.matches ? ".side" : "main").append(...document.querySelectorAll(".numbers, .words")); }
-wide.addEventListener("change", arrange);
+// Beside the charts where there is room, else below; on a phone the table is folded above them. Tab follows what is seen.
+const wide = matchMedia("(min-width: 1181px)"), phone = matchMedia("(max-width: 700px)");
+const numbers = document.querySelector(".numbers"), words = document.querySelector(".words"), aside = document.querySelector(".side"), main = document.querySelector("main");
+function arrange() {
+  (wide.matches || phone.matches ? aside : main).append(numbers);
+  (wide.matches ? aside : main).append(words);
+  numbers.open = !phone.matches;
+}
+for (const width of [wide, phone]) width.addEventListener("change", arrange);
 arrange();
+// On paper everything is open, on white, and drawings scale to the sheet.
+let folded = [];
+window.addEventListener("beforeprint", () => {
+  document.documentElement.classList.add("printing");
+  folded = [...document.querySelectorAll(".numbers, .letters")].filter(e => !e.open);
+  for (const e of folded) e.open = true;
+});
+window.addEventListener("afterprint", () => {
+  document.documentElement.classList.remove("printing");
+  for (const e of folded) e.open = false;
+});
 function drawAll() {
+  for (const plot of document.querySelectorAll(".plot")) plot.firstElementChild.setAttribute("viewBox", `0 0 ${plot.clientWidth || 1} ${plot.clientHeight || 1}`);
   showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft(); tellSpeed();
 }
 let waiting = false, changed = new Set(), spun = -1;

@@ -10,7 +10,9 @@ function makeRows() {
     if (m === "FE") node("circle", {class: "point", cx: 10.5, cy: 5, r: 3.6}, swatch);
     else node("line", {class: m === "exact" ? "curve exact" : "curve", x1: 0, x2: 21, y1: 5, y2: 5, "stroke-dasharray": dashes(m)}, swatch);
     text.textContent = m === "FE" ? "finite elements, points only" : m;
-    row.title = ABOUT[m] ?? ""; row.dataset.model = m; head.scope = "row";
+    row.dataset.model = m; head.scope = "row";
+    if (m in ABOUT)
+      for (const [tag, words] of [["dt", m], ["dd", ABOUT[m]]]) document.getElementById("letters").append(Object.assign(document.createElement(tag), {textContent: words}));
     label.append(box, swatch, text); head.append(label); row.append(head);
     if (m === "FE") head.colSpan = 6;
     else for (const name of ["linear", "linear-error", "lambda", "frequency", "shift-error"]) row.append(Object.assign(document.createElement("td"), {className: name}));

@@ -8,4 +8,5 @@
   system.addEventListener("change", follow);
   if (around) new MutationObserver(follow).observe(around, {attributeFilter: ["data-theme"]});
   follow();
+  own.classList.toggle("framed", window !== window.parent);
 }
