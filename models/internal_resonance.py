@@ -16,7 +16,7 @@ plt.style.use(figures.STYLE)
 branch = backbone(Beam.reference(), omega=2.0, theory=Theory(extension=False)).branch(up_to=0.8)
 print(branch)
 
-_, ax = plt.subplots(figsize=(3.5, 3.2))
+_, ax = plt.subplots(figsize=(3.5, 3.6))
 (resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
 for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece
@@ -34,5 +34,5 @@ for one in branch.resonances:
                     (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=6,
                     ha="right" if left else "left")  # fmt: skip
 ax.set(xlabel="frequency [rad/s]", ylabel="peak |q|/L", ylim=(0.0, 0.85))
-ax.legend(loc="lower right")
+ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
 plt.show()
