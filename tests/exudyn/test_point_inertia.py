@@ -52,7 +52,7 @@ def test_a_free_slope_keeps_energy_and_angular_momentum():
         add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
         sensors = Sensors(mbs, chain)
         mbs.Assemble()
-        settings, _ = solver_settings(400, 2.5e-3, 200, "rotating", round_off=1e-10)
+        settings = solver_settings(400, 2.5e-3, 200, "rotating", tolerance=1e-9)
         assert solve(mbs, settings, None) is None
         found = sensors.read()
     p, rate = found.coordinates[:, 0, 2:], found.velocities[:, 0, 2:]

@@ -101,6 +101,8 @@ class Formulation(Described, abstract=True):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
+    joint: ClassVar[tuple[int, ...]] = ()
+    """Axes of the joint that clamps the root to a rigid body; none if its node has no frame."""
 
     @property
     def order(self) -> float | None:
