@@ -74,23 +74,18 @@ def clamp_to_body(
             "add one to your hub, at its axis"
         )
     reference = chain.reference(mbs)
-    sections = element.sections(reference)
-    about, seat = np.eye(4), np.eye(4)
-    about[:2, :2] = [
-        [math.cos(azimuth), -math.sin(azimuth)], [math.sin(azimuth), math.cos(azimuth)],
-    ]  # fmt: skip
-    seat[: element.dimensions, 3] = reference[0, : element.dimensions]
-    if sections is not None:
-        seat[:3, :3] = sections[0]
+    radius, c, s = reference[0, 0], math.cos(azimuth), math.sin(azimuth)
+    seat = np.eye(4)
+    seat[:2, [0, 1, 3]] = [[c, -s, radius * c], [s, c, radius * s]]
     ends = (
         items.MarkerBodyRigid(
-            bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ about @ seat
+            bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ seat
         ),
         items.MarkerNodeRigid(nodeNumber=chain.nodes[0]),
     )
     joint = mbs.AddObject(
         items.ObjectJointGeneric(
-            markerNumbers=[mbs.AddMarker(end) for end in ends], constrainedAxes=element.joint
+            markerNumbers=[mbs.AddMarker(end) for end in ends], constrainedAxes=[1, 1, 0, 0, 0, 1]
         )
     )
     add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
@@ -100,24 +95,21 @@ def clamp_to_body(
         np.array(mbs.GetMarkerOutput(marker, variable, exudyn.ConfigurationType.Initial))
         for variable in (kind.RotationMatrix, kind.Position, kind.AngularVelocity, kind.Velocity)
     )
-    if not np.allclose([turn[8], *spin[:2]], [1.0, 0.0, 0.0]):
+    if turn[8] < 1.0 - 1e-9:
         raise ValueError(
-            "the marker of a clamp must begin with its z axis along the global one and turn about "
-            f"it, and its axis is {turn[2::3].round(6)} and its angular velocity {spin.round(6)} "
-            "rad/s: turn the marker by its localHT"
+            "the blade bends in the global x-y plane, and the z axis of its marker is "
+            f"{turn[2::3].round(6)}: turn the marker by its localHT"
         )
     set_state(
         mbs, chain, element, reference, np.zeros_like(reference),
         angle=azimuth + math.atan2(turn[3], turn[0]), rate=float(spin[2]),
-        place=place[: element.dimensions], velocity=velocity[: element.dimensions],
+        place=place[:2], velocity=velocity[:2],
     )  # fmt: skip
 
     def torque(mbs: Any, t: float) -> float:
-        force, moment = (
-            seat[:3, :3] @ mbs.GetObjectOutput(joint, one)
-            for one in (kind.ForceLocal, kind.TorqueLocal)
-        )
-        return float((np.cross(seat[:3, 3], force) + moment)[2])
+        # Exudyn reports the moment on the blade, and the force on the body.
+        moment = mbs.GetObjectOutput(joint, kind.TorqueLocal)[2]
+        return float(moment - radius * mbs.GetObjectOutput(joint, kind.ForceLocal)[1])
 
     return [joint], _torque_sensor(mbs, torque)
 

@@ -101,8 +101,8 @@ class Formulation(Described, abstract=True):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
-    joint: ClassVar[tuple[int, ...]] = ()
-    """Axes of the joint that clamps the root to a rigid body; none if its node has no frame."""
+    joins_bodies: ClassVar[bool] = False
+    """Whether a joint of Exudyn's holds its root on a rigid body."""
 
     @property
     def order(self) -> float | None:
