@@ -62,7 +62,7 @@ def test_agrees_with_a_library_integrator(beam):
             acceleration,
             residual=lambda *state, rates=rates: model.residual(*state, *rates),
             tangent=lambda *state, rates=rates: model.tangent(*state, *rates),
-        )
+        ).z
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
     ours, theirs = model.tip(q), model.tip(library.y[:n, -1])
