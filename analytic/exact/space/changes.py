@@ -70,7 +70,7 @@ class Changes:
         heavy = masses.mass * self.center
         mass, damping, stiffness = (_contracted(heavy, pull) for pull, _ in pulls)
         if masses.turns:
-            mass += _contracted(self.turn_m, self._model.inertia(self._at, self.turn_m))
+            mass += _contracted(self.turn_m, self._carried)
             damping += _contracted(self.turn_m, pulls[1][1])
             stiffness += _contracted(self.turn_m, pulls[2][1])
         if masses.drag is not None:
@@ -78,6 +78,17 @@ class Changes:
             damping += _contracted(dragged, self._place_m)
             stiffness += _contracted(dragged, self._velocity)
         return mass, damping, stiffness
+
+    @cached_property
+    def _inertia(self) -> FloatArray:
+        """R J Rᵀ, (3, 3, samples, 1, masses)."""
+        units = np.eye(3)[:, :, None, None, None]
+        return np.stack([self._model.inertia(self._at, unit) for unit in units], axis=1)
+
+    @cached_property
+    def _carried(self) -> FloatArray:
+        """R J Rᵀ Φ."""
+        return turned(self._inertia, self.turn_m)
 
     @cached_property
     def _bent(self) -> FloatArray:
@@ -101,10 +112,15 @@ class Changes:
         return cross(self.turn, motion.stretching) + self._shortening(motion.turning)
 
     @cached_property
+    def _slope_rate(self) -> FloatArray:
+        """The change of ṙ' with q."""
+        slope = cross(self._spins, self._at.slope) + cross(self._motion.spin, self.slope)
+        return slope + self._stretched
+
+    @cached_property
     def _velocity(self) -> FloatArray:
         """The change of the masses' velocity with q."""
-        slope = cross(self._spins, self._at.slope) + cross(self._motion.spin, self.slope)
-        return self._integral(slope + self._stretched)
+        return self._integral(self._slope_rate)
 
     def _shortening(self, turning: FloatArray) -> FloatArray | float:
         """Return the change -k² K̇1 Ψ1 R e1 of R Γ̇ with q."""
@@ -122,7 +138,7 @@ class Changes:
         slope = (
             cross(self._model.at_points(change), at.slope)
             + cross(turn, cross(spin, at.slope) + 2.0 * motion.stretching)
-            + cross(spin, cross(turn, at.slope) + 2.0 * self._stretch)
+            + cross(spin, self.slope + self._stretch)
             + 2.0 * self._shortening(motion.turning)
         )
         total, offset = motion.total_spin, at.offset_m
@@ -134,17 +150,15 @@ class Changes:
         pull += cross(self.turn_m, cross(total, offset)) + cross(total, self._offset)
         if not self._model.masses.turns:
             return pull, about
-        inertia = self._model.inertia
-        carried = inertia(at, motion.total_spin)
-        couple = inertia(at, about) + cross(self.turn_m, carried)
-        return pull, couple + cross(total, inertia(at, self.turn_m))
+        couple = cross(self.turn_m, turned(self._inertia, motion.total_spin))
+        return pull, couple + turned(self._inertia, about) + cross(total, self._carried)
 
     def _of_places(self) -> tuple[FloatArray, FloatArray]:
         """Return the derivatives of A_c and of J α + ω × J ω to q."""
         at, motion, W, W_dot = self._at, self._motion, self._W, self._W_dot
         turn, spin, slope = self.turn, motion.spin, at.slope
         turning, stretching = motion.turning, motion.stretching
-        spins_m, spins, stretched = self._spins_m, self._spins, self._stretched
+        spins_m, spins = self._spins_m, self._spins
         change = self._integral(
             cross(turn, motion.twisting) + cross(spins, turning) + cross(spin, self._bent)
         )
@@ -152,7 +166,7 @@ class Changes:
             cross(self._model.at_points(change), slope)
             + cross(motion.spin_rate, self.slope)
             + cross(spins, cross(spin, slope) + 2.0 * stretching)
-            + cross(spin, cross(spins, slope) + cross(spin, self.slope) + 2.0 * stretched)
+            + cross(spin, self._slope_rate + self._stretched)
             + cross(turn, motion.speeding)
             + self._shortening(motion.twisting)
         )
@@ -168,14 +182,14 @@ class Changes:
         if not self._model.masses.turns:
             return pull, about
         couple = self._turned_inertia(motion.total_spin_rate, about)
-        couple += cross(spins_m, self._model.inertia(at, motion.total_spin))
+        couple += cross(spins_m, turned(self._inertia, motion.total_spin))
         return pull, couple + cross(total, self._turned_inertia(motion.total_spin, spins_m))
 
     def _turned_inertia(self, vector: FloatArray, change: FloatArray) -> FloatArray:
         """Return the change of R J Rᵀ y to q, where y changes by `change`."""
-        inertia, turn = self._model.inertia, self.turn_m
-        result = cross(turn, inertia(self._at, vector))
-        return np.asarray(result + inertia(self._at, change - cross(turn, vector)))
+        turn, inertia = self.turn_m, self._inertia
+        result = cross(turn, turned(inertia, vector))
+        return np.asarray(result + turned(inertia, change - cross(turn, vector)))
 
     def geometric(self, pulled: FloatArray, force: FloatArray, moment: FloatArray) -> FloatArray:
         """Return the part of K from forces that the basis functions turn into, (samples, n, n)."""
