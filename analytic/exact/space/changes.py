@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -51,7 +52,8 @@ class Changes:
         motion = Motion(*(field[..., None, :] for field in motion))
         self._model, self._at, self._motion = model, at, motion
         self._W, self._W_dot = W[..., None], W_dot[..., None]
-        self._integral, self._K = model.integrals.of, own.K.swapaxes(1, 2)
+        self._integral: Callable[[FloatArray], FloatArray] = model.integrals.of
+        self._K = own.K.swapaxes(1, 2)
         gamma = np.repeat(own.gamma.swapaxes(1, 2)[:, None], len(at.K[0]), axis=1)
         if own.trapezes:
             gamma[0] -= own.trapeze * (at.K[0] + own.twist) * self._K[0]
@@ -103,7 +105,7 @@ class Changes:
     @property
     def _spins(self) -> FloatArray:
         """The same at the points."""
-        return self._model.at_points(self._spins_m)
+        return np.asarray(self._model.at_points(self._spins_m))
 
     @cached_property
     def _stretched(self) -> FloatArray:
