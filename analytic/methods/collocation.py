@@ -24,7 +24,7 @@ Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
 # Of the coordinates, which are of order 1. The tangent of a step before contracts what is stiff
 # slower than the rest, so the first small change is not the last.
-_NEWTON = Newton(converged=1e-15, stagnates=1e-13, slow=0.5, steps=20, broyden=True)
+_NEWTON = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
 
 
 class Collocation:
