@@ -147,13 +147,13 @@ class At(Generic[S]):
 
 
 def response_curve(
-    system: S, frequencies: FloatArray, largest: float, harmonics: int
+    system: S, frequencies: FloatArray, largest: float, harmonics: int, tail: float = 1.0
 ) -> list[Marked]:
     """Return the response from the first frequency to the last, in order along the curve.
 
     Followed by arclength through all folds, from the small response at the first; the frequencies
     between are met wherever the curve passes them. Curves that are not connected to it are not
-    found. At least so many `harmonics` are taken.
+    found. At least so many `harmonics` are taken; for the `tail` see `Care`.
 
     Raises
     ------
@@ -165,7 +165,8 @@ def response_curve(
     rest = np.zeros((2 * harmonics + 1, system.size))
     rest[0] = system.rest(first)
     like = Orbit(system=system, frequency=first, coefficients=rest)
-    curve = OrbitCurve(like, first, last - first, partial(refined, care=_CARE))
+    care = _CARE._replace(tail=tail)
+    curve = OrbitCurve(like, first, last - first, partial(refined, care=care))
     found: list[Marked] = []
     try:
         at = _beginning(curve)
