@@ -31,6 +31,8 @@ amplitude, a "branch point" where another curve crosses."""
 _CARE = Care(harmonics=40, functions=64)
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
+_LEAST_SHARE = 1.0 / 32.0  # of a load, by which it is raised
+_STILL = 1e-12  # amplitude that is round-off, and has no peaks
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +137,8 @@ class At(Generic[S]):
     def peak(self, there: At[S]) -> Point | None:
         """Return where the amplitude turns around before the next point, if it does."""
         curve = self.curve
+        if self.orbit.amplitude < _STILL:
+            return None
 
         def climb(point: Point) -> float:
             return float(peak_gradient(curve.orbit(point.z)) @ point.tangent)
@@ -187,10 +191,20 @@ def response_curve(
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:
-    """Return the small response at the first frequency."""
-    z = curve.unknowns(curve.like)
-    across = np.eye(1, z.size, z.size - 1)[0]
-    resolved = At(curve, corrected(curve, z, across)).resolved()
+    """Return the small response at the first frequency; the load is raised in steps if it takes."""
+    z, share, step = curve.unknowns(curve.like), 0.0, 1.0
+    across, like = np.eye(1, z.size, z.size - 1)[0], curve.like
+    while share < 1.0:
+        eased = replace(curve, like=replace(like, system=like.system.loaded(share + step)))
+        try:
+            point = corrected(eased, z, across)
+        except NoOrbitError:
+            step *= 0.5
+            if step < _LEAST_SHARE:
+                raise
+        else:
+            z, share = point.z, share + step
+    resolved = At(curve, point).resolved()
     curve, z = resolved.curve, resolved.point.z.copy()
     z[-1] = 0.0  # refining goes across the curve, not along the frequency
     return At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -130,7 +129,9 @@ def forced_response(
             response = _packed(kind, beam, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        remedy = failed.remedy or "take more damping or a smaller load"
+        free = lives_in_space(beam) and not beam.damping.bending
+        more = "damping of the bending, without which torsion has none," if free else "more damping"
+        remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
@@ -139,8 +140,8 @@ def forced_response(
 
 def _planar_or_spatial(
     beam: AnyBlade, omega: float, theory: Theory, functions: int, gauge: str
-) -> tuple[SteadyBeam | SpaceBlade, float, Callable[..., ForcedResponse]]:
-    """Return the blade in steady rotation at ω [rad/s], the tail of `Care`, and what is returned."""
+) -> tuple[SteadyBeam | SpaceBlade, float, type[ForcedResponse]]:
+    """Return the blade in steady rotation at ω [rad/s], the tail of `Care`, and the response."""
     if gauge not in DIRECTIONS:
         raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
     if not lives_in_space(beam):
@@ -153,7 +154,7 @@ def _planar_or_spatial(
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
     in_space = space_continuum(beam, theory, functions // 2)
     steady = replace(space_rotation(beam, omega, in_space), direction=DIRECTIONS[gauge])
-    return steady, in_space.functions.blade.tail, partial(SpaceForcedResponse, gauge=gauge)
+    return steady, in_space.functions.blade.tail, SpaceForcedResponse
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -193,11 +194,7 @@ def _require_no_resonance(
 
 
 def _packed(
-    kind: Callable[..., ForcedResponse],
-    beam: AnyBlade,
-    load: Load,
-    theory: Theory,
-    found: list[Marked],
+    kind: type[ForcedResponse], beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]
 ) -> ForcedResponse:
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)

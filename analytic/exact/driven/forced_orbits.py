@@ -166,19 +166,17 @@ class ForcedResponse(Branch):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
 class SpaceForcedResponse(SpaceOrbitSet, ForcedResponse):
     """Periodic response of a blade in space under one load; made by `forced_response`.
 
     As `ForcedResponse`, but q is the gauge, the tip's place along lag or flap less that of the
-    steady state, under gravity less that at rest. `lag`, `flap` and `twist` are amplitudes of all.
-
-    Attributes
-    ----------
-    gauge : {"lag", "flap"}
+    steady state, under gravity less that at rest.
     """
 
-    gauge: Literal["lag", "flap"]
+    @property
+    def gauge(self) -> Literal["lag", "flap"]:
+        """Place of the tip whose greatest deflection is the amplitude."""
+        return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
 
     def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
         """Return the first mode that has more of the gauge, and the gauge."""

@@ -113,6 +113,10 @@ class DrivenBlade(Discretized):
         """Return the steady state without the load, (n,)."""
         return replace(self.steady, rate=self.speed(frequency)).equilibrium
 
+    def loaded(self, share: float) -> DrivenBlade:
+        """Return the blade under a share of the load."""
+        return replace(self, load=self.load.times(share))
+
     def _drive(self, phase: FloatArray, frequency: float) -> tuple[FloatArray, FloatArray, Any]:
         """Return w, ẇ and the push at the phases."""
         load = self.load
