@@ -17,8 +17,9 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.discretization import MOST_FUNCTIONS, resolved_model
 from ..beam.steady import SteadyBeam, steady_rotation
-from ..linear.modes import MOST_FUNCTIONS, linear_modes, resolved_model
+from ..linear.modes import linear_modes
 from ..space.modes import DIRECTIONS
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
