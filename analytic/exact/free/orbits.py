@@ -155,7 +155,9 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(of, ascending)
     found = _confirmed(of, found)
-    warn_of_resonances(list(found.values()), of.modes, of.mode, of.beam.frequency_scale)
+    warn_of_resonances(
+        list(found.values()), of.modes, of.mode, of.beam.frequency_scale, of.at_resonance
+    )
     kept = [found[a] for a in ascending[place].tolist() if a in found]
     orbits = _packed(of, kept, kind) if kept else None
     if orbits is None or refused:
@@ -214,7 +216,7 @@ def _why(of: ModePath, a: float) -> str:
     nearest = nearest_resonance(below, of.modes, of.mode)
     if below[-1] is nodes[-1]:
         return f"{nearest}; ask for smaller amplitudes"
-    return f"{nearest}; ask for amplitudes beyond it, or take backbone(...).branch to follow it"
+    return f"{nearest}; ask for amplitudes beyond it: {of.at_resonance}"
 
 
 def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits:
