@@ -61,7 +61,7 @@ GROUPS = (
         "Forced response",
         "The response of damped blades to loads, through folds.",
         analytic="forced_response ResponseNotReachedError",
-        analytic__exact__driven__forced_orbits="ForcedResponse SpaceForcedResponse",
+        analytic__exact__driven__forced_orbits="ForcedResponse",
     ),
     _group(
         "Spin-up",
