@@ -23,7 +23,7 @@ class State(NamedTuple):
     offset_m: FloatArray  # ρ, from the line to the center of mass
 
 
-class Motion(NamedTuple):
+class Rates(NamedTuple):
     """Rates and accelerations of the same."""
 
     turning: FloatArray  # R K̇
@@ -45,11 +45,11 @@ class Changes:
     Each line of the motion once more, with δφ = Φ_k and δr' = U_k' for a change of coordinate k.
     """
 
-    def __init__(self, model: Any, at: State, motion: Motion, W: Any, W_dot: Any) -> None:
+    def __init__(self, model: Any, at: State, motion: Rates, W: Any, W_dot: Any) -> None:
         own = model.strains
         # The same for all coordinates.
         at = State(*(field[..., None, :] for field in at))
-        motion = Motion(*(field[..., None, :] for field in motion))
+        motion = Rates(*(field[..., None, :] for field in motion))
         self._model, self._at, self._motion = model, at, motion
         self._W, self._W_dot = W[..., None], W_dot[..., None]
         self._integral: Callable[[FloatArray], FloatArray] = model.integrals.of

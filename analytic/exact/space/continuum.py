@@ -29,7 +29,7 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
 from .basis import StrainFunctions
-from .changes import Changes, Motion, State
+from .changes import Changes, Rates, State
 from .vectors import Frames, cross, turned, turned_back
 
 
@@ -102,7 +102,7 @@ class SpaceContinuum:
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray,
-    ) -> Motion:
+    ) -> Rates:
         integral = self.integrals.of
         stretch, bend = self._rates(at.K, q_dot)
         stretch_rate, bend_rate = self._rates(at.K, q_ddot)
@@ -130,7 +130,7 @@ class SpaceContinuum:
             + cross(total_rate, at.offset_m)
             + cross(total, cross(total, at.offset_m))
         )
-        return Motion(
+        return Rates(
             turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
             acceleration, twisting, speeding,
         )  # fmt: skip
@@ -140,7 +140,7 @@ class SpaceContinuum:
         return turned(at.frame_m, turned(self.masses.inertia, turned_back(at.frame_m, vector)))
 
     def _forces(
-        self, at: State, motion: Motion, push: FloatArray | None
+        self, at: State, motion: Rates, push: FloatArray | None
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return m A_c at the masses, and F and M on the grid, with weights."""
         body = 0.0 if push is None else push[1][..., :1]
@@ -246,6 +246,10 @@ class SpaceContinuum:
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
         return np.moveaxis(self.changes(q).slope @ self.weights, 0, 1)
+
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return the torsion along all of the blade, ∫(κ1 - κ01) dx [rad], (samples,)."""
+        return np.asarray(self._strains(q)[1][0] @ self.weights)
 
     @property
     def setting(self) -> float:
