@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 from analytic import AnyBlade
+from analytic.threads import one_thread
 
 from .cases import CASES, Asked, Case
 from .convergence import Convergence, Order, converged
@@ -120,10 +121,17 @@ class Judgement:
         return "\n".join(lines)
 
 
+Progress = Callable[[str, int, int], None]
+"""Called with the name of a case, how many were done before it, and their number."""
+
+
+@one_thread
 def judged(
     submission: Submission,
     *,
     cases: dict[str, Case] | None = None,
+    only: Collection[str] = (),
+    progress: Progress | None = None,
 ) -> Judgement:
     """Judge a submission by the limits to which it converges.
 
@@ -132,6 +140,10 @@ def judged(
     submission : Submission
     cases : dict, optional
         By name; those of the benchmark by default. Cases that were not submitted are left out.
+    only : collection of str, optional
+        Names of the cases to judge, all by default. Frequencies serve the shifts of the others.
+    progress : callable, optional
+        See `Progress`.
 
     Returns
     -------
@@ -159,10 +171,16 @@ def judged(
     linear: dict[float, Convergence] = {}
     blade: AnyBlade | None = None
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
-    for case in sorted(known.values(), key=lambda one: list(Asked).index(one.asked)):
+    chosen = [
+        case
+        for case in sorted(known.values(), key=lambda one: list(Asked).index(one.asked))
+        if submission.has(case)
+        and (not only or case.name in only or case.asked is Asked.FREQUENCIES)
+    ]
+    for done, case in enumerate(chosen):
         name = case.name
-        if not submission.has(case):
-            continue
+        if progress is not None:
+            progress(name, done, len(chosen))
         sources[name] = "none"
         try:
             truth = reference(case, submission.declaration.theory)
@@ -191,14 +209,15 @@ def judged(
                 case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
             )
             findings[name] = _of_histories(histories[name], own)
-    names = [name for name in known if name in findings]
+    asked = [name for name in known if not only or name in only]
+    names = [name for name in asked if name in findings]
     return Judgement(
         declaration=submission.declaration,
         findings={name: findings[name] for name in names},
         histories={name: histories[name] for name in names if name in histories},
         sources={name: sources[name] for name in names},
         remarks={name: remarks[name] for name in names if remarks.get(name)},
-        asked=tuple(known),
+        asked=tuple(asked),
     )
 
 

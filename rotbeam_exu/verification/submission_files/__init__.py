@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -35,13 +36,17 @@ from .tables import (
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
 
 
-def read_submission(folder: str | os.PathLike[str]) -> Submission:
+def read_submission(
+    folder: str | os.PathLike[str], *, only: Collection[str] = ()
+) -> Submission:
     r"""Read what an author hands in.
 
     Parameters
     ----------
     folder : path
         With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
+    only : collection of str, optional
+        Names of the cases whose histories are read, all by default. Histories are most of the work.
 
     Returns
     -------
@@ -74,7 +79,7 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     for file, case in _tables().items():
         if os.path.lexists(root / file):
             points[case.asked] = _points(root, file, case, faults)
-    histories = runs.runs_of(root, faults)
+    histories = runs.runs_of(root, faults, only)
     _strangers(root, faults)
     frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
     backbone = [row for row in backbone if "failure" not in row]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -90,8 +90,8 @@ def file_of(run: Run) -> str:
     return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{mantissa}e{power}.csv"
 
 
-def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
-    """Return the runs that runs.csv lists; failed runs have no history."""
+def runs_of(root: Path, faults: Faults, only: Collection[str] = ()) -> tuple[Run, ...]:
+    """Return the runs of some or all cases that runs.csv lists; failed runs have no history."""
     there = [
         f"{name}/{printable(path.name)}"
         for name, case in CASES.items()
@@ -102,6 +102,8 @@ def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
         return ()
     found, listed = [], list(_listed(root, faults))
     for row in listed:
+        if only and row["case"] not in only:
+            continue
         samples: dict[str, Any] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
             samples = history_of(
