@@ -12,9 +12,7 @@ import numpy as np
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
-from ..lazily import xr
-from ..runs.attributes import beam_attributes
-from ..runs.oscillation import SteadyOscillation, steady_oscillation
+from ..runs.oscillation import SteadyOscillation, oscillation_of
 from .cases import Case
 from .convergence import Convergence, converged
 from .outcomes import Finding, Outcome, found_of
@@ -172,11 +170,10 @@ class Histories:
         return found_of(runs, tolerance=tolerance, bound=bound, where=where, of_what=of_what)
 
     def _oscillation(self, time: FloatArray, q: FloatArray) -> SteadyOscillation | str:
-        driven = {"omega": self.case.rotation.omega, "ramp_time": self.case.ramp_time}
-        attrs = beam_attributes(self.case.blade) | driven
-        run = xr.Dataset({"q": ("time", q)}, {"time": time}, attrs)
+        case = self.case
         try:
-            return steady_oscillation(run)
+            first = self.reference.first_frequency(case.rotation.omega)
+            return oscillation_of(time, q / case.blade.length, case.ramp_time, first)
         except ValueError as error:
             return str(error)
 

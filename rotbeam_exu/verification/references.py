@@ -82,7 +82,11 @@ class Reference:
         here = None if data is None else data.first_frequency(self.case.blade, speed)
         if here is not None:
             return here
-        return float(linear_modes(self.case.blade, speed, 1, theory=self.theory).frequencies[0])
+        at = speed, 0.0
+        if at not in self._known:
+            found = linear_modes(self.case.blade, speed, 1, theory=self.theory)
+            self._known[at] = float(found.frequencies[0])
+        return self._known[at]
 
     def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
         """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.

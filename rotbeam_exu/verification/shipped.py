@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -15,7 +16,7 @@ from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
-from ..lazily import xr
+from ..lazily import h5py
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
 from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
@@ -78,51 +79,51 @@ class Shipped:
 
     Attributes
     ----------
-    data : Dataset
+    data : mapping of ndarray
         q over history and time, with bounds; shift over backbone and amplitude; first frequencies
-        over speed.
+        over speed. Read without xarray, whose import takes longer than a case.
+    attrs : mapping
+        The file's own attributes.
     """
 
-    data: xr.Dataset
+    data: Mapping[str, FloatArray]
+    attrs: Mapping[str, Any]
 
     @property
     def source(self) -> str:
         """One sentence: which file, made how and by which commit."""
-        attrs = self.data.attrs
         return (
-            f"shipped with benchmark {attrs['benchmark']}: {FILE.name} "
-            f"(SHA-256 {DIGEST[:12]}), {attrs['method']}, made at commit {attrs['commit']}"
+            f"shipped with benchmark {self.attrs['benchmark']}: {FILE.name} "
+            f"(SHA-256 {DIGEST[:12]}), {self.attrs['method']}, made at commit "
+            f"{self.attrs['commit']}"
         )
 
-    def _names(self, dimension: str) -> dict[str, str]:
-        """Return the names along a dimension by what each thing was made of."""
-        of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
-        return dict(zip(of.tolist(), names.tolist(), strict=True))
+    @cached_property
+    def _histories(self) -> dict[str, int]:
+        """Places of histories by what they were made of."""
+        return {of: k for k, of in enumerate(self.data["history_of"].tolist())}
 
     def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._names("history").get(said(key(case)))
-        if name is None or case.duration > DURATION:
+        k = self._histories.get(said(key(case)))
+        if k is None or case.duration > DURATION:
             return None
-        here = self.data.sel(history=name)
-        return spline(here["time"].to_numpy(), here["q"].to_numpy()), float(here["bound"])
+        return spline(self.data["time"], self.data["q"][k]), float(self.data["bound"][k])
 
     def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
         """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        column = self.data["first_frequency"]
-        here = column.to_numpy()[column["speed"].to_numpy() == speed]
+        here = self.data["first_frequency"][self.data["speed"] == speed]
         return float(here[0]) if here.size and blade == CASES["L"].blade else None
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
         """ω_n and the curvature over a², by the inputs of a backbone."""
-        a, found = self.data["amplitude"].to_numpy(), {}
-        for of, name in self._names("backbone").items():
-            here = self.data.sel(backbone=name)
-            curvature = here["curvature"].to_numpy()
+        a, found = self.data["amplitude"], {}
+        of_each = (self.data[name] for name in ("backbone_of", "omega_n", "curvature"))
+        for of, omega_n, curvature in zip(*of_each, strict=True):
             known = np.isfinite(curvature)
             over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
-            found[of] = float(here["omega_n"]), over_square
+            found[str(of)] = float(omega_n), over_square
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
@@ -135,7 +136,7 @@ class Shipped:
     @property
     def frequency_bound(self) -> float:
         """Relative error of all frequencies."""
-        return float(self.data.attrs["frequency_bound"])
+        return float(self.attrs["frequency_bound"].item())
 
 
 @lru_cache(maxsize=1)
@@ -150,11 +151,14 @@ def shipped() -> Shipped:
     if found != DIGEST:
         why = f"were damaged or changed (SHA-256 {found[:12]}, not {DIGEST[:12]})"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    data = xr.load_dataset(io.BytesIO(raw), engine="h5netcdf")
-    if data.attrs["benchmark"] != VERSION:
-        why = f"are of benchmark {data.attrs['benchmark']}, not {VERSION}"
+    with h5py.File(io.BytesIO(raw)) as file:
+        text = h5py.check_string_dtype
+        data = {name: (one.asstr() if text(one.dtype) else one)[()] for name, one in file.items()}
+        attrs = dict(file.attrs)
+    if attrs["benchmark"] != VERSION:
+        why = f"are of benchmark {attrs['benchmark']}, not {VERSION}"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    return Shipped(data=data)
+    return Shipped(data=data, attrs=attrs)
 
 
 def amplitudes() -> FloatArray:
