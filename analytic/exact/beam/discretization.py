@@ -18,9 +18,10 @@ def continuum(
     axial: int,
     blade: UnitBlade = UNIFORM,
     shear: float | None = None,
+    engesser: bool = False,
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, blade=blade, shear=shear)
+    return Continuum(slenderness, bending, axial, blade=blade, shear=shear, engesser=engesser)
 
 
 def finer_model(model: Continuum) -> Continuum:
@@ -38,6 +39,7 @@ def finer_model(model: Continuum) -> Continuum:
         more(model.axial) if model.slenderness > 0.0 else model.axial,
         model.blade,
         model.shear_ratio,
+        model.engesser,
     )
 
 
@@ -47,4 +49,5 @@ def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) ->
     unit = require_theory(theory).unit(beam)
     axial = axial if theory.extension else 1
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
-    return continuum(theory.slenderness(beam), bending, axial, unit, theory.shear)
+    mu = theory.slenderness(beam)
+    return continuum(mu, bending, axial, unit, theory.shear, theory.engesser)
