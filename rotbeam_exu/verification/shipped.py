@@ -14,6 +14,7 @@ import numpy as np
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
 from ..paper import RAMP_TIMES
@@ -22,7 +23,7 @@ from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
-DIGEST = "0ba10ced1247adbbac635b42d7b3fd46d6edf850deb1f073d763e09de5890e87"
+DIGEST = "7a34b5456f43c25c3f451f44cc187cedc4b0989500a9517d4312cefb4a66ae04"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
@@ -36,16 +37,31 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     return interpolate.make_interp_spline(time, q, k=5)
 
 
-def shipped_histories() -> dict[str, Case]:
-    """Return the cases whose histories are shipped: the paper's spin-ups, and the benchmark's."""
+def shipped_histories() -> dict[str, tuple[Case, Theory]]:
+    """Return whose histories are shipped: the paper's spin-ups, and the benchmark's cases."""
     spin_ups = [SpinUp(omega=omega, ramp_time=time) for omega in SPUN_UP for time in RAMP_TIMES]
     found = [
         spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
         for one in spin_ups
     ]
-    known = {key(case) for case in found}
-    own = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    return {case.name: case for case in (*found, *(one for one in own if key(one) not in known))}
+    known = {key(case, BERNOULLI_EULER) for case in found}
+    own = [one for one in _by_theory() if one[0].asked is Asked.HISTORY and key(*one) not in known]
+    return {_named(*one): one for one in [*((case, BERNOULLI_EULER) for case in found), *own]}
+
+
+def shipped_tables() -> dict[str, tuple[Case, Theory]]:
+    """Return whose frequencies and steady states are shipped."""
+    asked = Asked.FREQUENCIES, Asked.STEADY
+    return {_named(*one): one for one in _by_theory() if one[0].asked in asked}
+
+
+def _by_theory() -> list[tuple[Case, Theory]]:
+    return [(case, theory) for case in CASES.values() for theory in case.theories]
+
+
+def _named(case: Case, theory: Theory) -> str:
+    number = case.theories.index(theory)
+    return f"{case.name} {number}" if number else case.name
 
 
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
@@ -57,9 +73,16 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def key(case: Case) -> tuple[Any, ...]:
-    """Return what makes a history."""
-    return case.blade, case.motion, case.loads, case.amplitudes
+def column(case: Case, name: str, component: int) -> str:
+    """Return the name of a component of a history; that of the first is the history's."""
+    return f"{name} {case.columns[component]}" if component else name
+
+
+def key(case: Case, theory: Theory) -> tuple[Any, ...]:
+    """Return what makes a history, or a table."""
+    asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
 
 def said(value: Any) -> str:
@@ -79,8 +102,8 @@ class Shipped:
     Attributes
     ----------
     data : Dataset
-        q over history and time, with bounds; shift over backbone and amplitude; first frequencies
-        over speed.
+        q over history and time, with bounds, in space each component a history; shift over backbone
+        and amplitude; rows of frequencies and steady states over table, place and number.
     """
 
     data: xr.Dataset
@@ -99,19 +122,41 @@ class Shipped:
         of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
         return dict(zip(of.tolist(), names.tolist(), strict=True))
 
-    def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
+    def history(self, case: Case, theory: Theory) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._names("history").get(said(key(case)))
+        name = self._names("history").get(said(key(case, theory)))
         if name is None or case.duration > DURATION:
             return None
-        here = self.data.sel(history=name)
-        return spline(here["time"].to_numpy(), here["q"].to_numpy()), float(here["bound"])
+        names = [column(case, name, k) for k in range(len(case.columns))]
+        here = self.data.sel(history=names)
+        q = here["q"].to_numpy().T
+        q = q if case.in_space else q[:, 0]
+        return spline(here["time"].to_numpy(), q), float(here["bound"].max())
 
-    def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
-        """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        column = self.data["first_frequency"]
-        here = column.to_numpy()[column["speed"].to_numpy() == speed]
-        return float(here[0]) if here.size and blade == CASES["L"].blade else None
+    @cached_property
+    def _tables(self) -> dict[str, str]:
+        return self._names("table")
+
+    def row(self, case: Case, theory: Theory, speed: float) -> FloatArray | None:
+        """Return the numbers of a table at a speed [rad/s]; None if they are not here.
+
+        Of a history or a backbone the frequencies of a table of the same blade.
+        """
+        asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
+        for own in CASES.values():
+            alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            name = self._tables.get(said(key(own, theory)))
+            if alike and name and speed in own.speeds and case.count <= own.count:
+                here = self.data["row"].sel(table=name).to_numpy()[own.speeds.index(speed)]
+                return np.asarray(here[np.isfinite(here)])
+        return None
+
+    def bound(self, case: Case, theory: Theory) -> float | None:
+        """Return the relative error of a table's numbers or of backbones; None if not here."""
+        if case == CASES["B"] and theory == BERNOULLI_EULER:
+            return self.frequency_bound
+        name = self._tables.get(said(key(case, theory)))
+        return None if name is None else float(self.data["table_bound"].sel(table=name))
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
