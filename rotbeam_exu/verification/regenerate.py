@@ -79,7 +79,7 @@ def dataset(commit: str) -> xr.Dataset:
             "table_of": ("table", [_of(*one) for one in of_tables]),
         },
         {
-            "history": [shipped.column(cases[name][0], name, k) for name, k in columns],
+            "history": [f"{name} {k}" if k else name for name, k in columns],
             "time": first.time, "backbone": list(curves), "amplitude": shipped.amplitudes(),
             "table": list(tables), "place": np.arange(widest[0]), "number": np.arange(widest[1]),
         },

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -16,7 +17,7 @@ from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from ..lazily import xr
+from ..lazily import h5py
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
 from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
@@ -73,11 +74,6 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def column(case: Case, name: str, component: int) -> str:
-    """Return the name of a component of a history; that of the first is the history's."""
-    return f"{name} {case.columns[component]}" if component else name
-
-
 def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
@@ -101,41 +97,44 @@ class Shipped:
 
     Attributes
     ----------
-    data : Dataset
+    data : mapping of ndarray
         q over history and time, with bounds, in space each component a history; shift over backbone
-        and amplitude; rows of frequencies and steady states over table, place and number.
+        and amplitude; rows of frequencies and steady states over table, place and number. Read
+        without xarray, whose import takes longer than a case.
+    attrs : mapping
+        The file's own attributes.
     """
 
-    data: xr.Dataset
+    data: Mapping[str, FloatArray]
+    attrs: Mapping[str, Any]
 
     @property
     def source(self) -> str:
         """One sentence: which file, made how and by which commit."""
-        attrs = self.data.attrs
         return (
-            f"shipped with benchmark {attrs['benchmark']}: {FILE.name} "
-            f"(SHA-256 {DIGEST[:12]}), {attrs['method']}, made at commit {attrs['commit']}"
+            f"shipped with benchmark {self.attrs['benchmark']}: {FILE.name} "
+            f"(SHA-256 {DIGEST[:12]}), {self.attrs['method']}, made at commit "
+            f"{self.attrs['commit']}"
         )
 
-    def _names(self, dimension: str) -> dict[str, str]:
-        """Return the names along a dimension by what each thing was made of."""
-        of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
-        return dict(zip(of.tolist(), names.tolist(), strict=True))
-
-    def history(self, case: Case, theory: Theory) -> tuple[interpolate.BSpline, float] | None:
-        """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._names("history").get(said(key(case, theory)))
-        if name is None or case.duration > DURATION:
-            return None
-        names = [column(case, name, k) for k in range(len(case.columns))]
-        here = self.data.sel(history=names)
-        q = here["q"].to_numpy().T
-        q = q if case.in_space else q[:, 0]
-        return spline(here["time"].to_numpy(), q), float(here["bound"].max())
-
     @cached_property
-    def _tables(self) -> dict[str, str]:
-        return self._names("table")
+    def _of(self) -> dict[str, dict[str, int]]:
+        """Places of histories and tables by what they were made of."""
+        return {
+            name: {of: k for k, of in enumerate(self.data[f"{name}_of"].tolist())}
+            for name in ("history", "table")
+        }
+
+    def history(
+        self, case: Case, theory: Theory = BERNOULLI_EULER
+    ) -> tuple[interpolate.BSpline, float] | None:
+        """Return q over time and its bound over max|q|; None if it is not here, or too short."""
+        k = self._of["history"].get(said(key(case, theory)))
+        if k is None or case.duration > DURATION:
+            return None
+        q = self.data["q"][k : k + len(case.columns)].T
+        q = q if case.in_space else q[:, 0]
+        return spline(self.data["time"], q), float(self.data["bound"][k])
 
     def row(self, case: Case, theory: Theory, speed: float) -> FloatArray | None:
         """Return the numbers of a table at a speed [rad/s]; None if they are not here.
@@ -145,9 +144,11 @@ class Shipped:
         asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
         for own in CASES.values():
             alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
-            name = self._tables.get(said(key(own, theory)))
-            if alike and name and speed in own.speeds and case.count <= own.count:
-                here = self.data["row"].sel(table=name).to_numpy()[own.speeds.index(speed)]
+            if not alike or speed not in own.speeds or case.count > own.count:
+                continue
+            k = self._of["table"].get(said(key(own, theory)))
+            if k is not None:
+                here = self.data["row"][k, own.speeds.index(speed)]
                 return np.asarray(here[np.isfinite(here)])
         return None
 
@@ -155,19 +156,18 @@ class Shipped:
         """Return the relative error of a table's numbers or of backbones; None if not here."""
         if case == CASES["B"] and theory == BERNOULLI_EULER:
             return self.frequency_bound
-        name = self._tables.get(said(key(case, theory)))
-        return None if name is None else float(self.data["table_bound"].sel(table=name))
+        k = self._of["table"].get(said(key(case, theory)))
+        return None if k is None else float(self.data["table_bound"][k])
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
         """ω_n and the curvature over a², by the inputs of a backbone."""
-        a, found = self.data["amplitude"].to_numpy(), {}
-        for of, name in self._names("backbone").items():
-            here = self.data.sel(backbone=name)
-            curvature = here["curvature"].to_numpy()
+        a, found = self.data["amplitude"], {}
+        of_each = (self.data[name] for name in ("backbone_of", "omega_n", "curvature"))
+        for of, omega_n, curvature in zip(*of_each, strict=True):
             known = np.isfinite(curvature)
             over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
-            found[of] = float(here["omega_n"]), over_square
+            found[str(of)] = float(omega_n), over_square
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
@@ -180,7 +180,7 @@ class Shipped:
     @property
     def frequency_bound(self) -> float:
         """Relative error of all frequencies."""
-        return float(self.data.attrs["frequency_bound"])
+        return float(self.attrs["frequency_bound"].item())
 
 
 @lru_cache(maxsize=1)
@@ -195,11 +195,14 @@ def shipped() -> Shipped:
     if found != DIGEST:
         why = f"were damaged or changed (SHA-256 {found[:12]}, not {DIGEST[:12]})"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    data = xr.load_dataset(io.BytesIO(raw), engine="h5netcdf")
-    if data.attrs["benchmark"] != VERSION:
-        why = f"are of benchmark {data.attrs['benchmark']}, not {VERSION}"
+    with h5py.File(io.BytesIO(raw)) as file:
+        text = h5py.check_string_dtype
+        data = {name: (one.asstr() if text(one.dtype) else one)[()] for name, one in file.items()}
+        attrs = dict(file.attrs)
+    if attrs["benchmark"] != VERSION:
+        why = f"are of benchmark {attrs['benchmark']}, not {VERSION}"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    return Shipped(data=data)
+    return Shipped(data=data, attrs=attrs)
 
 
 def amplitudes() -> FloatArray:

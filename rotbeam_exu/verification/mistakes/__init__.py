@@ -10,9 +10,10 @@ import warnings
 from collections.abc import Collection
 
 from analytic.input_checks import RotbeamWarning
+from analytic.threads import one_thread
 
 from ..cases import CASES, Asked
-from ..judgement import Judgement
+from ..judgement import Judgement, Progress
 from ..references import reference
 from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history
@@ -22,14 +23,19 @@ from .tables import mistake_in_backbone, mistake_in_frequencies
 __all__ = ["Mistake", "mistakes_in"]
 
 
-def mistakes_in(submission: Submission, judgement: Judgement) -> list[Mistake]:
+@one_thread
+def mistakes_in(
+    submission: Submission, judgement: Judgement, progress: Progress | None = None
+) -> list[Mistake]:
     """Return the mistakes that explain large errors of a submission, one a case at most."""
     found: list[Mistake] = []
     ramps: Collection[str] = RAMPS
     with warnings.catch_warnings():
         # Of a speed that looks like rpm, which is what is tried.
         warnings.simplefilter("ignore", RotbeamWarning)
-        for name in judgement.findings:
+        for done, name in enumerate(judgement.findings):
+            if progress is not None:
+                progress(name, done, len(judgement.findings))
             seen = judgement.histories.get(name)
             try:
                 if seen is None:
