@@ -106,7 +106,7 @@ class Case:
         beam of Reissner and Simo, or of Kirchhoff without shear.
         """
         if not self.in_space:
-            return declared
+            return replace(declared, trapeze=True)  # which the plane does not know
         return replace(declared, rotary_inertia=True, trapeze=False, engesser=False)
 
     @property

@@ -78,6 +78,7 @@ def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
     inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
 

@@ -70,6 +70,10 @@ def test_cases_can_be_made_again_from_their_rows(folder):
         blade = Blade(
             length=row["L"], section=section, hub_radius=row["hub_radius"], point_masses=masses
         )
+        if row["EI_flap/EI"] is not None:
+            blade = blade.with_section_out_of_plane(row["EI_flap/EI"], row["GJ/EI"])
+        if row["twist"]:
+            blade = blade.with_twist(row["twist"]).with_precone(row["precone"])
         own = case.blade.blade
         assert blade == own.with_damping(blade.damping)
         assert row["bending_damping"] == own.damping.bending

@@ -196,7 +196,7 @@ def test_an_orbit_of_a_beam_that_shears_is_slower():
 
 
 def test_what_is_not_asked_is_refused():
-    with pytest.raises(ValueError, match="case L asks for no history, but for first natural"):
+    with pytest.raises(ValueError, match="case L asks for no history, but for natural freq"):
         reference(CASES["L"]).history([0.0])
     with pytest.raises(ValueError, match=r"goes from 0 to 15 s, got 30 s: leave out"):
         reference(CASES["S1"]).history([1.0, 30.0])

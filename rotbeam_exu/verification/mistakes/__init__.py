@@ -16,9 +16,9 @@ from ..cases import CASES, Asked
 from ..judgement import Judgement, Progress
 from ..references import reference
 from ..submission import Submission
-from .histories import RAMPS, SMALL, mistake_in_history
+from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
 from .mistake import Mistake, largest
-from .tables import mistake_in_backbone, mistake_in_frequencies
+from .tables import mistake_in_backbone, mistake_in_rows
 
 __all__ = ["Mistake", "mistakes_in"]
 
@@ -42,14 +42,17 @@ def mistakes_in(
                     one = _in_table(name, submission)
                 else:
                     run, true = seen.finest, seen.reference.history
-                    one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
+                    if seen.case.in_space:
+                        one = mistake_in_space(seen.case, run.time, run.q, true)
+                    else:
+                        one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
             if one is not None:
                 found.append(one)
             if one is not None and one.name in RAMPS:
                 ramps = (one.name,)  # a code has one ramp in all cases
-            elif one is None and seen is not None and seen.case.is_spun_up:
+            elif one is None and seen and seen.case.is_spun_up and not seen.case.in_space:
                 off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found
@@ -60,6 +63,6 @@ def _in_table(name: str, submission: Submission) -> Mistake | None:
     if case is None or case.asked is Asked.HISTORY:
         return None
     truth = reference(case, submission.declaration.theory)
-    if case.asked is Asked.FREQUENCIES:
-        return mistake_in_frequencies(case, submission.frequencies, truth)
-    return mistake_in_backbone(case, submission.backbone, truth)
+    if case.asked is Asked.BACKBONE:
+        return mistake_in_backbone(case, submission.backbone, truth)
+    return mistake_in_rows(case, (*submission.frequencies, *submission.steady), truth)

@@ -114,6 +114,37 @@ def mistake_in_history(
     return _ramp(seen, ramps)
 
 
+_TURNED = {
+    "sign of the twist": (1.0, -1.0, -1.0),
+    "sign of lag": (-1.0, 1.0, 1.0),
+    "sign of flap": (1.0, -1.0, 1.0),
+    "sign of twist": (1.0, 1.0, -1.0),
+}
+_SIGNS = "{} is the other way round: lag is along the rotation, flap up, twist from lag to flap"
+
+
+def mistake_in_space(
+    case: Case, time: FloatArray, q: FloatArray, reference: Callable[[FloatArray], FloatArray]
+) -> Mistake | None:
+    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None.
+
+    A blade that is twisted the other way moves as in a mirror.
+    """
+    true = reference(time)
+    scale = np.abs(true).max(axis=0)
+    before = largest((q - true) / scale)
+    if not before > SMALL:
+        return None
+    tried = [
+        (name, _SIGNS.format(name.removeprefix("sign of ")), largest((q - turned * true) / scale))
+        for name, turned in _TURNED.items()
+    ]
+    degrees = (1.0, 1.0, _UNITS["degrees"][1])
+    left = largest((q - degrees * true) / (degrees * scale))
+    tried.append(("degrees", "the twist is in degrees: hand it in in rad", left))
+    return explaining(case.name, before, tried)
+
+
 def _factors(seen: _Seen) -> _Suspects:
     """Yield the best of all factors on q, by its name if it has one."""
     factor = float(seen.q @ seen.true / (seen.true @ seen.true))

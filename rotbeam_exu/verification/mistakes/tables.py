@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 
-from analytic import linear_modes, periodic_orbits
+from analytic import AnyBlade, periodic_orbits
 from analytic.arrays import FloatArray
 
-from ..cases import Case
-from ..references import Reference
-from ..submission import BackbonePoint, Frequency
+from ..cases import Asked, Case
+from ..references import Reference, row_of
+from ..submission import BackbonePoint, Frequency, SteadyTip
 from .mistake import Mistake, explaining, largest
 
-Row = TypeVar("Row", Frequency, BackbonePoint)
+Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the frequencies that a right code hands in with the mistake."""
 
@@ -38,24 +39,41 @@ _SPEED_UNITS = {
 }
 
 
-def mistake_in_frequencies(
-    case: Case, rows: Sequence[Frequency], reference: Reference
+def mistake_in_rows(
+    case: Case, rows: Sequence[Frequency | SteadyTip], reference: Reference
 ) -> Mistake | None:
-    """Return the mistake that explains the error of the finest mesh's linear frequencies."""
-    finest = [one for one in _finest(rows) if not one.failure]
-    if not finest:
+    """Return the mistake that explains the errors of the finest mesh's frequencies or tips."""
+    done = [one for one in rows if one.case == case.name and not one.failure]
+    finest = _finest(done) if done else []
+    places = [(one.speed, place, value) for one in finest for place, (value, _) in one.values.items()]
+    if not places:
         return None
-    speeds = np.array([one.speed for one in finest])
-    true = np.array([reference.first_frequency(speed) for speed in speeds])
+    found = np.array([value for *_, value in places])
+
+    def of(blade: AnyBlade, factor: float = 1.0) -> FloatArray:
+        other, known = replace(case, blade=blade), dict[float, FloatArray]()
+        for speed in {speed for speed, *_ in places}:
+            known[speed] = row_of(other, reference.theory, factor * speed)[0]
+        return np.array([known[speed][place] for speed, place, _ in places])
 
     def suspects() -> _Suspects:
-        yield from _other_units(true)
-        yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
-        for name, (said, factor) in _SPEED_UNITS.items() if speeds.any() else ():
-            at = [linear_modes(case.blade, factor * w, 1).frequencies[0] for w in speeds]
-            yield name, said, np.array(at)
+        blade, line = case.blade, case.blade.blade.line
+        if case.asked is Asked.FREQUENCIES:
+            yield from _other_units(true)
+            yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
+            for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
+                yield name, said, of(blade, factor)
+        if line.precone:
+            said = "the precone is the other way round: it lifts the tip along the axis of rotation"
+            other = replace(line, precone=-line.precone)
+            yield "sign of the precone", said, of(replace(blade.blade, line=other))
+        if isinstance(line.twist, tuple):
+            said = "the twist is the other way round: it turns the chord from lag towards flap"
+            other = replace(line, twist=tuple(-c for c in line.twist))
+            yield "sign of the twist", said, of(replace(blade.blade, line=other))
 
-    return _explaining(case, finest, true, np.ones(true.size), SMALL, suspects())
+    true = np.array([reference.row(speed)[place] for speed, place, _ in places])
+    return _explaining(case, found, true, np.ones(true.size), SMALL, suspects())
 
 
 def mistake_in_backbone(
@@ -76,19 +94,19 @@ def mistake_in_backbone(
         said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
         yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
 
-    return _explaining(case, points, true, scale, SMALL_OF_SHIFT, suspects())
+    found = np.array([one.frequency for one in points])
+    return _explaining(case, found, true, scale, SMALL_OF_SHIFT, suspects())
 
 
 def _explaining(
     case: Case,
-    rows: Sequence[Row],
+    found: FloatArray,
     true: FloatArray,
     scale: FloatArray,
     small: float,
     suspects: _Suspects,
 ) -> Mistake | None:
     """Return the mistake that explains what frequencies are off by, relative to `scale`."""
-    found = np.array([one.frequency for one in rows])
     before = largest((found / true - 1.0) / scale)
     if not before > small:
         return None
