@@ -79,7 +79,7 @@ def dataset(commit: str) -> xr.Dataset:
             "table_of": ("table", [_of(*one) for one in of_tables]),
         },
         {
-            "history": [f"{name} {k}" if k else name for name, k in columns],
+            "history": [_component(cases[name][0], name, k) for name, k in columns],
             "time": first.time, "backbone": list(curves), "amplitude": shipped.amplitudes(),
             "table": list(tables), "place": np.arange(widest[0]), "number": np.arange(widest[1]),
         },
@@ -98,8 +98,11 @@ def dataset(commit: str) -> xr.Dataset:
 
 def _of(case: Case, theory: Theory, component: int = 0) -> str:
     """Return what a history or a table was made of; components after the first are told apart."""
-    what = shipped.said(shipped.key(case, theory))
-    return f"{what} {case.columns[component]}" if component else what
+    return _component(case, shipped.said(shipped.key(case, theory)), component)
+
+
+def _component(case: Case, name: str, component: int) -> str:
+    return f"{name} {case.columns[component]}" if component else name
 
 
 def table(case: Case, theory: Theory) -> tuple[FloatArray, float]:

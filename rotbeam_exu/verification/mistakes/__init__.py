@@ -18,7 +18,7 @@ from ..references import reference
 from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
 from .mistake import Mistake, largest
-from .tables import mistake_in_backbone, mistake_in_rows
+from .tables import mistake_in_backbone, mistake_in_frequencies
 
 __all__ = ["Mistake", "mistakes_in"]
 
@@ -65,4 +65,4 @@ def _in_table(name: str, submission: Submission) -> Mistake | None:
     truth = reference(case, submission.declaration.theory)
     if case.asked is Asked.BACKBONE:
         return mistake_in_backbone(case, submission.backbone, truth)
-    return mistake_in_rows(case, (*submission.frequencies, *submission.steady), truth)
+    return mistake_in_frequencies(case, (*submission.frequencies, *submission.steady), truth)

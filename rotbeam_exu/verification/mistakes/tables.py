@@ -39,7 +39,7 @@ _SPEED_UNITS = {
 }
 
 
-def mistake_in_rows(
+def mistake_in_frequencies(
     case: Case, rows: Sequence[Frequency | SteadyTip], reference: Reference
 ) -> Mistake | None:
     """Return the mistake that explains the errors of the finest mesh's frequencies or tips."""
