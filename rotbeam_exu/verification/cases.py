@@ -114,7 +114,7 @@ class Case:
         """Quantities that are judged of it."""
         if self.asked is Asked.HISTORY:
             return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
-        return (_QUANTITIES[self.asked],)
+        return ("frequencies",) if self.count > 1 else (_QUANTITIES[self.asked],)
 
     @property
     def is_spun_up(self) -> bool:

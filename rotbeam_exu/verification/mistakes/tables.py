@@ -13,6 +13,7 @@ from analytic import AnyBlade, periodic_orbits
 from analytic.arrays import FloatArray
 
 from ..cases import Asked, Case
+from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
 from ..submission import BackbonePoint, Frequency, SteadyTip
 from .mistake import Mistake, explaining, largest
@@ -20,9 +21,6 @@ from .mistake import Mistake, explaining, largest
 Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the frequencies that a right code hands in with the mistake."""
-
-SMALL = 2e-4
-"""Relative error of a frequency below which no mistake is looked for: what passes."""
 
 SMALL_OF_SHIFT = 1e-2
 """The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
@@ -51,10 +49,9 @@ def mistake_in_frequencies(
     found = np.array([value for *_, value in places])
 
     def of(blade: AnyBlade, factor: float = 1.0) -> FloatArray:
-        other, known = replace(case, blade=blade), dict[float, FloatArray]()
-        for speed in {speed for speed, *_ in places}:
-            known[speed] = row_of(other, reference.theory, factor * speed)[0]
-        return np.array([known[speed][place] for speed, place, _ in places])
+        other, speeds = replace(case, blade=blade), {factor * speed for speed, *_ in places}
+        known = {speed: row_of(other, reference.theory, speed)[0] for speed in speeds}
+        return np.array([known[factor * speed][place] for speed, place, _ in places])
 
     def suspects() -> _Suspects:
         blade, line = case.blade, case.blade.blade.line
@@ -62,7 +59,8 @@ def mistake_in_frequencies(
             yield from _other_units(true)
             yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
             for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
-                yield name, said, of(blade, factor)
+                if not case.in_space or not factor:  # whose modes take a tenth of a second
+                    yield name, said, of(blade, factor)
         if line.precone:
             said = "the precone is the other way round: it lifts the tip along the axis of rotation"
             other = replace(line, precone=-line.precone)
@@ -73,7 +71,8 @@ def mistake_in_frequencies(
             yield "sign of the twist", said, of(replace(blade.blade, line=other))
 
     true = np.array([reference.row(speed)[place] for speed, place, _ in places])
-    return _explaining(case, found, true, np.ones(true.size), SMALL, suspects())
+    (quantity,) = case.quantities
+    return _explaining(case, found, true, np.ones(true.size), THRESHOLDS[quantity], suspects())
 
 
 def mistake_in_backbone(
