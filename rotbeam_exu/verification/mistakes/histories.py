@@ -114,34 +114,32 @@ def mistake_in_history(
     return _ramp(seen, ramps)
 
 
-_TURNED = {
-    "sign of the twist": (1.0, -1.0, -1.0),
-    "sign of lag": (-1.0, 1.0, 1.0),
-    "sign of flap": (1.0, -1.0, 1.0),
-    "sign of twist": (1.0, 1.0, -1.0),
+TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
+_OTHER = "is the other way round: lag grows along the rotation, flap up, twist from lag to flap"
+SIGNS = {
+    "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
+    "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
+    "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
+    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, _UNITS["degrees"][1])),
 }
-_SIGNS = "{} is the other way round: lag is along the rotation, flap up, twist from lag to flap"
+"""Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
 
 
 def mistake_in_space(
     case: Case, time: FloatArray, q: FloatArray, reference: Callable[[FloatArray], FloatArray]
 ) -> Mistake | None:
-    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None.
-
-    A blade that is twisted the other way moves as in a mirror.
-    """
+    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None."""
     true = reference(time)
     scale = np.abs(true).max(axis=0)
     before = largest((q - true) / scale)
     if not before > SMALL:
         return None
+    # A blade that is twisted the other way moves as in a mirror.
+    mirror = {"sign of the blade's twist": (f"the blade's {TWISTED}", (1.0, -1.0, -1.0))}
     tried = [
-        (name, _SIGNS.format(name.removeprefix("sign of ")), largest((q - turned * true) / scale))
-        for name, turned in _TURNED.items()
+        (name, said, largest((q / factors - true) / scale))
+        for name, (said, factors) in {**SIGNS, **mirror}.items()
     ]
-    degrees = (1.0, 1.0, _UNITS["degrees"][1])
-    left = largest((q - degrees * true) / (degrees * scale))
-    tried.append(("degrees", "the twist is in degrees: hand it in in rad", left))
     return explaining(case.name, before, tried)
 
 

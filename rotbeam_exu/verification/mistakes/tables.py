@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 
-from analytic import AnyBlade, periodic_orbits
+from analytic import periodic_orbits
 from analytic.arrays import FloatArray
 
 from ..cases import Asked, Case
 from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
 from ..submission import BackbonePoint, Frequency, SteadyTip
+from .histories import SIGNS, TWISTED
 from .mistake import Mistake, explaining, largest
 
 Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
@@ -37,6 +37,13 @@ _SPEED_UNITS = {
 }
 
 
+_STEADY_SIGNS = {
+    "sign of the precone": ("the precone tilts the blade down: it lifts it", (-1.0, -1.0, 1.0)),
+    "sign of the blade's twist": (f"the blade's {TWISTED}", (-1.0, 1.0, -1.0)),
+}
+"""What a half turn about the blade, and a mirror, make of a steady tip."""
+
+
 def mistake_in_frequencies(
     case: Case, rows: Sequence[Frequency | SteadyTip], reference: Reference
 ) -> Mistake | None:
@@ -48,27 +55,21 @@ def mistake_in_frequencies(
         return None
     found = np.array([value for *_, value in places])
 
-    def of(blade: AnyBlade, factor: float = 1.0) -> FloatArray:
-        other, speeds = replace(case, blade=blade), {factor * speed for speed, *_ in places}
-        known = {speed: row_of(other, reference.theory, speed)[0] for speed in speeds}
+    def of(factor: float) -> FloatArray:
+        speeds = {factor * speed for speed, *_ in places}
+        known = {speed: row_of(case, reference.theory, speed)[0] for speed in speeds}
         return np.array([known[factor * speed][place] for speed, place, _ in places])
 
     def suspects() -> _Suspects:
-        blade, line = case.blade, case.blade.blade.line
-        if case.asked is Asked.FREQUENCIES:
-            yield from _other_units(true)
-            yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
-            for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
-                if not case.in_space or not factor:  # whose modes take a tenth of a second
-                    yield name, said, of(blade, factor)
-        if line.precone:
-            said = "the precone is the other way round: it lifts the tip along the axis of rotation"
-            other = replace(line, precone=-line.precone)
-            yield "sign of the precone", said, of(replace(blade.blade, line=other))
-        if isinstance(line.twist, tuple):
-            said = "the twist is the other way round: it turns the chord from lag towards flap"
-            other = replace(line, twist=tuple(-c for c in line.twist))
-            yield "sign of the twist", said, of(replace(blade.blade, line=other))
+        if case.asked is Asked.STEADY:
+            for name, (said, factors) in {**SIGNS, **_STEADY_SIGNS}.items():
+                yield name, said, true * [factors[place] for _, place, _ in places]
+            return
+        yield from _other_units(true)
+        yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
+        for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
+            if not case.in_space or not factor:  # whose modes take a tenth of a second
+                yield name, said, of(factor)
 
     true = np.array([reference.row(speed)[place] for speed, place, _ in places])
     (quantity,) = case.quantities
