@@ -14,11 +14,11 @@ from analytic import (
     Damping,
     Ellipse,
     Gravity,
-    Orbits,
     SpinUp,
     SteadyRotation,
     periodic_orbits,
 )
+from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 from analytic.theory import BERNOULLI_EULER, Theory
 

@@ -32,8 +32,8 @@ THRESHOLDS = {
 rad/s. Theories of small strain and thin beams differ by less, shear by 8e-5 here. The history q(t),
 over max|q|: a frequency that is off by 2e-4 drifts by 1e-2 in twelve seconds, 45 rad. The nonlinear
 shift and backbones: the best third-order model is off by 6 % at a = 0.4. Frequencies of
-a blade in space by number: shear is worth twice as much in the sixth. In a steady deflection nothing
-drifts: a tenth of q(t)'s.
+a blade in space by number: shear is worth twice as much in the sixth. In a steady deflection
+nothing drifts: a tenth of q(t)'s.
 """
 
 FLOOR = 1e-7

@@ -199,8 +199,8 @@ class Sampled:
     time, q : ndarray (samples,)
         [s], [m]; in space lag, flap and twist (samples, 3).
     error : float
-        Over max|q|, of the worst component: of the samples by the next coarser computation, and of the spline by the
-        computation halfway between them.
+        Over max|q|, of the worst component: of the samples by the next coarser computation, and of
+        the spline by the computation halfway between them.
     """
 
     time: FloatArray

@@ -58,9 +58,7 @@ def submitted(names, theory=EULER, declared=None, change=lambda row: row):
         else:
             into = steady if case.asked is Asked.STEADY else frequencies
             into += rows_of(case, truth, change)
-    declaration = Declaration(
-        code="mine", theory=declared or theory, order=2.0, order_in_step=2.0
-    )
+    declaration = Declaration(code="mine", theory=declared or theory, order=2.0, order_in_step=2.0)
     return Submission(
         declaration=declaration, frequencies=tuple(frequencies), steady=tuple(steady),
         runs=tuple(runs),

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.theory import BERNOULLI_EULER, Theory
+from analytic.theory import Theory
 from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case

@@ -50,7 +50,9 @@ def mistake_in_frequencies(
     """Return the mistake that explains the errors of the finest mesh's frequencies or tips."""
     done = [one for one in rows if one.case == case.name and not one.failure]
     finest = _finest(done) if done else []
-    places = [(one.speed, place, value) for one in finest for place, (value, _) in one.values.items()]
+    places = [
+        (one.speed, place, value) for one in finest for place, (value, _) in one.values.items()
+    ]
     if not places:
         return None
     found = np.array([value for *_, value in places])

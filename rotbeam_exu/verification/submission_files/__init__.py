@@ -36,9 +36,7 @@ from .tables import (
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
 
 
-def read_submission(
-    folder: str | os.PathLike[str], *, only: Collection[str] = ()
-) -> Submission:
+def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = ()) -> Submission:
     r"""Read what an author hands in.
 
     Parameters
