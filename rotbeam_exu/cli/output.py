@@ -226,7 +226,8 @@ def _encodable(text: str, console: Console) -> str:
 class Drawn(Protocol):
     """A bar, called with the work done, all of it, and perhaps another title."""
 
-    def __call__(self, done: float, whole: float, title: str | None = None, /) -> None: ...
+    def __call__(self, done: float, whole: float, title: str | None = None, /) -> None:  # noqa: D102
+        ...
 
 
 @contextmanager

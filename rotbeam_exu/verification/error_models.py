@@ -33,7 +33,7 @@ _ALIKE = 0.5
 tells nothing about the mesh."""
 
 _NOISES = {0.0: 0.6, 0.3: 0.1, 3.0: 0.15, 30.0: 0.15}  # of a run, over the finest's error
-_RATIOS = (3e-6, 1e-4, 3e-3, 0.1, 1.0, 10.0, 300.0, 1e4)  # D/C: of a ladder of steps on a coarse mesh small
+_RATIOS = (3e-6, 1e-4, 3e-3, 0.1, 1.0, 10.0, 300.0, 1e4)  # D/C: small of many steps on one mesh
 _OWN = 0.02  # of each run's error: no pair of runs is all there is to know
 _LEAST = 1e-4  # the same of what mesh or step has alone, so that sums of both can be told apart
 

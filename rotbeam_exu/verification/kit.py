@@ -182,8 +182,25 @@ def problem_numbers() -> str:
         "farthest": FARTHEST,
         "digits": DIGITS,
         "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
+        "space": _looked_at(),
     }
     return json.dumps(document)
+
+
+def _looked_at() -> list[dict[str, Any]]:
+    """Return numbers of the cases in space, to look at before the first judgement."""
+    found: list[dict[str, Any]] = []
+    for case in CASES.values():
+        if not case.in_space:
+            continue
+        truth = reference(case)
+        at = case.speeds[-1:] or (5.0, 10.0, 15.0)
+        rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
+        found += [
+            {"id": case.name, "at": x, "row": [f"{value:.4g}" for value in row.tolist()]}
+            for x, row in zip(at, rows, strict=True)
+        ]
+    return found
 
 
 def _besides(case: Case) -> list[str]:

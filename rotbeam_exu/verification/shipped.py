@@ -15,6 +15,7 @@ import numpy as np
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import h5py
 from ..paper import RAMP_TIMES
@@ -23,7 +24,7 @@ from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
-DIGEST = "0ba10ced1247adbbac635b42d7b3fd46d6edf850deb1f073d763e09de5890e87"
+DIGEST = "cdd9ea1bc8ea07d60dcb86148a922fcf908afd98218f6d94bd0bdb20b05ad2f6"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
@@ -37,16 +38,31 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     return interpolate.make_interp_spline(time, q, k=5)
 
 
-def shipped_histories() -> dict[str, Case]:
-    """Return the cases whose histories are shipped: the paper's spin-ups, and the benchmark's."""
+def shipped_histories() -> dict[str, tuple[Case, Theory]]:
+    """Return whose histories are shipped: the paper's spin-ups, and the benchmark's cases."""
     spin_ups = [SpinUp(omega=omega, ramp_time=time) for omega in SPUN_UP for time in RAMP_TIMES]
     found = [
         spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
         for one in spin_ups
     ]
-    known = {key(case) for case in found}
-    own = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    return {case.name: case for case in (*found, *(one for one in own if key(one) not in known))}
+    known = {key(case, BERNOULLI_EULER) for case in found}
+    own = [one for one in _by_theory() if one[0].asked is Asked.HISTORY and key(*one) not in known]
+    return {_named(*one): one for one in [*((case, BERNOULLI_EULER) for case in found), *own]}
+
+
+def shipped_tables() -> dict[str, tuple[Case, Theory]]:
+    """Return whose frequencies and steady states are shipped."""
+    asked = Asked.FREQUENCIES, Asked.STEADY
+    return {_named(*one): one for one in _by_theory() if one[0].asked in asked}
+
+
+def _by_theory() -> list[tuple[Case, Theory]]:
+    return [(case, theory) for case in CASES.values() for theory in case.theories]
+
+
+def _named(case: Case, theory: Theory) -> str:
+    number = case.theories.index(theory)
+    return f"{case.name} {number}" if number else case.name
 
 
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
@@ -58,9 +74,12 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def key(case: Case) -> tuple[Any, ...]:
-    """Return what makes a history."""
-    return case.blade, case.motion, case.loads, case.amplitudes
+def key(case: Case, theory: Theory) -> tuple[Any, ...]:
+    """Return what makes a history, or a table."""
+    asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    theory = case.theory_of(theory)
+    return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
 
 def said(value: Any) -> str:
@@ -80,8 +99,9 @@ class Shipped:
     Attributes
     ----------
     data : mapping of ndarray
-        q over history and time, with bounds; shift over backbone and amplitude; first frequencies
-        over speed. Read without xarray, whose import takes longer than a case.
+        q over history and time, with bounds, in space each component a history; shift over backbone
+        and amplitude; rows of frequencies and steady states over table, place and number. Read
+        without xarray, whose import takes longer than a case.
     attrs : mapping
         The file's own attributes.
     """
@@ -99,21 +119,46 @@ class Shipped:
         )
 
     @cached_property
-    def _histories(self) -> dict[str, int]:
-        """Places of histories by what they were made of."""
-        return {of: k for k, of in enumerate(self.data["history_of"].tolist())}
+    def _of(self) -> dict[str, dict[str, int]]:
+        """Places of histories and tables by what they were made of."""
+        return {
+            name: {of: k for k, of in enumerate(self.data[f"{name}_of"].tolist())}
+            for name in ("history", "table")
+        }
 
-    def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
+    def history(
+        self, case: Case, theory: Theory = BERNOULLI_EULER
+    ) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        k = self._histories.get(said(key(case)))
+        k = self._of["history"].get(said(key(case, theory)))
         if k is None or case.duration > DURATION:
             return None
-        return spline(self.data["time"], self.data["q"][k]), float(self.data["bound"][k])
+        q = self.data["q"][k : k + len(case.columns)].T
+        q = q if case.in_space else q[:, 0]
+        return spline(self.data["time"], q), float(self.data["bound"][k])
 
-    def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
-        """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        here = self.data["first_frequency"][self.data["speed"] == speed]
-        return float(here[0]) if here.size and blade == CASES["L"].blade else None
+    def row(self, case: Case, theory: Theory, speed: float) -> FloatArray | None:
+        """Return the numbers of a table at a speed [rad/s]; None if they are not here.
+
+        Of a history or a backbone the frequencies of a table of the same blade.
+        """
+        asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
+        for own in CASES.values():
+            alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            if not alike or speed not in own.speeds or case.count > own.count:
+                continue
+            k = self._of["table"].get(said(key(own, theory)))
+            if k is not None:
+                here = self.data["row"][k, own.speeds.index(speed)]
+                return np.asarray(here[np.isfinite(here)])
+        return None
+
+    def bound(self, case: Case, theory: Theory) -> float | None:
+        """Return the relative error of a table's numbers or of backbones; None if not here."""
+        if case == CASES["B"] and theory == BERNOULLI_EULER:
+            return self.frequency_bound
+        k = self._of["table"].get(said(key(case, theory)))
+        return None if k is None else float(self.data["table_bound"][k])
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:

@@ -145,7 +145,7 @@ def test_what_none_of_them_explains_is_left_alone(named, exact):
         (lambda w, speed: first(0.0), "no rotation"),
         (lambda w, speed: first(speed * np.pi / 30.0), "revolutions per minute"),
         (lambda w, speed: w * 1.01, None),
-        (lambda w, speed: np.hypot(w, speed), "out of the plane"),
+        (np.hypot, "out of the plane"),
         (lambda w, speed: w + speed, "seen at rest"),
         (lambda w, speed: np.rint(w / (2.0 * np.pi / 60.0)) * (2.0 * np.pi / 60.0), "bins"),
     ],

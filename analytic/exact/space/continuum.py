@@ -229,6 +229,14 @@ class SpaceContinuum:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
 
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return how far the load turns the tip's section out of its upright, (samples,)."""
+        one = np.array([1.0])
+        tip = Frames(self.functions.grid, one, self.blade.kinks)
+        R, unloaded = (tip.of(self._strains(x)[1])[1][..., 0] for x in (q, np.zeros_like(q[:1])))
+        turn = np.einsum("iks,jk->sij", R, unloaded[..., 0])
+        return np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
+
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the tip's velocity in the root frame, (samples, 3)."""
         at = self._state(q)

@@ -17,7 +17,7 @@ from ..cases import CASES, Asked
 from ..judgement import THRESHOLDS, Judgement, Progress
 from ..references import reference
 from ..submission import Submission
-from .histories import RAMPS, SMALL, mistake_in_history
+from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
 from .mistake import Mistake, largest, most_left
 from .tables import mistake_in_backbone, mistake_in_frequencies
 
@@ -45,14 +45,17 @@ def mistakes_in(
                     one = _in_table(name, submission, most)
                 else:
                     run, true = seen.finest, seen.reference.history
-                    one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
+                    if seen.case.in_space:
+                        one = mistake_in_space(seen.case, run.time, run.q, true, most)
+                    else:
+                        one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
             if one is not None:
                 found.append(one)
             if one is not None and one.name in RAMPS:
                 ramps = (one.name,)  # a code has one ramp in all cases
-            elif one is None and seen is not None and seen.case.is_spun_up:
+            elif one is None and seen and seen.case.is_spun_up and not seen.case.in_space:
                 off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found
@@ -63,6 +66,7 @@ def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
     if case is None or case.asked is Asked.HISTORY:
         return None
     truth = reference(case, submission.declaration.theory)
-    if case.asked is Asked.FREQUENCIES:
-        return mistake_in_frequencies(case, submission.frequencies, truth, most)
-    return mistake_in_backbone(case, submission.backbone, truth, most)
+    if case.asked is Asked.BACKBONE:
+        return mistake_in_backbone(case, submission.backbone, truth, most)
+    rows = *submission.frequencies, *submission.steady
+    return mistake_in_frequencies(case, rows, truth, most)

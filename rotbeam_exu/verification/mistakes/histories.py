@@ -144,6 +144,39 @@ def mistake_in_history(
     return _ramp(seen, ramps, most)
 
 
+TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
+_OTHER = "is the other way round: lag grows along the rotation, flap up, twist from lag to flap"
+SIGNS = {
+    "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
+    "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
+    "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
+    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, _UNITS["degrees"][1])),
+}
+"""Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
+
+
+def mistake_in_space(
+    case: Case,
+    time: FloatArray,
+    q: FloatArray,
+    reference: Callable[[FloatArray], FloatArray],
+    most: float = SMALL / 3.0,
+) -> Mistake | None:
+    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None."""
+    true = reference(time)
+    scale = np.abs(true).max(axis=0)
+    before = largest((q - true) / scale)
+    if not before > SMALL:
+        return None
+    # A blade that is twisted the other way moves as in a mirror.
+    mirror = {"sign of the blade's twist": (f"the blade's {TWISTED}", (1.0, -1.0, -1.0))}
+    tried = [
+        (name, said, largest((q / factors - true) / scale))
+        for name, (said, factors) in {**SIGNS, **mirror}.items()
+    ]
+    return explaining(case.name, before, most, tried)
+
+
 def _factors(seen: _Seen) -> _Suspects:
     """Yield the best of all factors on q, by its name if it has one."""
     factor = float(seen.q @ seen.true / (seen.true @ seen.true))
@@ -194,7 +227,7 @@ def _inertial(seen: _Seen) -> _Suspects:
 
 
 def _angle(seen: _Seen) -> _Suspects:
-    """Yield the angle of the tip from the clamp's line: in degrees, radians, or times the length."""
+    """Yield the tip's angle from the clamp's line: in degrees, radians, or times the length."""
     length = seen.case.blade.length
     for name, said, unit in (
         ("degrees", "q is the tip's angle in degrees", 180.0 / math.pi),
@@ -205,7 +238,8 @@ def _angle(seen: _Seen) -> _Suspects:
         def left(along: FloatArray, unit: float = unit) -> float:
             return largest(seen.q / unit - np.arctan2(seen.true, along)) * length
 
-        yield name, f"{said}: hand in the distance across the clamp's line, Eq. 16", seen.placed(left)
+        remedy = "hand in the distance across the clamp's line, Eq. 16"
+        yield name, f"{said}: {remedy}", seen.placed(left)
 
 
 SUSPECTS = _factors, _offset, _inertial, _angle

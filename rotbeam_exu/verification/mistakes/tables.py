@@ -8,20 +8,19 @@ from typing import TypeVar
 
 import numpy as np
 
-from analytic import linear_modes, periodic_orbits
+from analytic import periodic_orbits
 from analytic.arrays import FloatArray
 
-from ..cases import Case
-from ..references import Reference
-from ..submission import BackbonePoint, Frequency
+from ..cases import Asked, Case
+from ..judgement import THRESHOLDS
+from ..references import Reference, row_of
+from ..submission import BackbonePoint, Frequency, SteadyTip
+from .histories import SIGNS, TWISTED
 from .mistake import Mistake, explaining, largest
 
-Row = TypeVar("Row", Frequency, BackbonePoint)
+Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the frequencies that a right code hands in with the mistake."""
-
-SMALL = 2e-4
-"""Relative error of a frequency below which no mistake is looked for: what passes."""
 
 SMALL_OF_SHIFT = 1e-2
 """The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
@@ -41,27 +40,53 @@ _SPEED_UNITS = {
 }
 
 
+_STEADY_SIGNS = {
+    "sign of the precone": ("the precone tilts the blade down: it lifts it", (-1.0, -1.0, 1.0)),
+    "sign of the blade's twist": (f"the blade's {TWISTED}", (-1.0, 1.0, -1.0)),
+}
+"""What a half turn about the blade, and a mirror, make of a steady tip."""
+
+
 def mistake_in_frequencies(
-    case: Case, rows: Sequence[Frequency], reference: Reference, most: float = SMALL / 3.0
+    case: Case,
+    rows: Sequence[Frequency | SteadyTip],
+    reference: Reference,
+    most: float = THRESHOLDS["linear frequency"] / 3.0,
 ) -> Mistake | None:
-    """Return the mistake that explains the error of the finest mesh's linear frequencies."""
-    finest = [one for one in _finest(rows) if not one.failure]
-    if not finest:
+    """Return the mistake that explains the errors of the finest mesh's frequencies or tips."""
+    done = [one for one in rows if one.case == case.name and not one.failure]
+    finest = _finest(done) if done else []
+    places = [
+        (one.speed, place, value) for one in finest for place, (value, _) in one.values.items()
+    ]
+    if not places:
         return None
-    speeds = np.array([one.speed for one in finest])
-    true = np.array([reference.first_frequency(speed) for speed in speeds])
+    found = np.array([value for *_, value in places])
+
+    def of(factor: float) -> FloatArray:
+        speeds = {factor * speed for speed, *_ in places}
+        known = {speed: row_of(case, reference.theory, speed)[0] for speed in speeds}
+        return np.array([known[factor * speed][place] for speed, place, _ in places])
 
     def suspects() -> _Suspects:
+        if case.asked is Asked.STEADY:
+            for name, (said, factors) in {**SIGNS, **_STEADY_SIGNS}.items():
+                yield name, said, true * [factors[place] for _, place, _ in places]
+            return
         yield from _other_units(true)
         yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
-        if speeds.any():
-            yield from _other_motions(true, speeds, reference.first_frequency(0.0))
-        yield from _bins(np.array([one.frequency for one in finest]), true)
-        for name, (said, factor) in _SPEED_UNITS.items() if speeds.any() else ():
-            at = [linear_modes(case.blade, factor * w, 1).frequencies[0] for w in speeds]
-            yield name, said, np.array(at)
+        speeds = np.array([speed for speed, *_ in places])
+        if not case.in_space and any(case.speeds):
+            yield from _other_motions(true, speeds, float(of(0.0)[0]))
+        yield from _bins(found, true)
+        for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
+            if not case.in_space or not factor:  # whose modes take a tenth of a second
+                yield name, said, of(factor)
 
-    return _explaining(case, finest, true, np.ones(true.size), SMALL, most, suspects())
+    true = np.array([reference.row(speed)[place] for speed, place, _ in places])
+    (quantity,) = case.quantities
+    small = THRESHOLDS[quantity]
+    return _explaining(case, found, true, np.ones(true.size), small, most, suspects())
 
 
 def mistake_in_backbone(
@@ -82,12 +107,13 @@ def mistake_in_backbone(
         said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
         yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
 
-    return _explaining(case, points, true, scale, SMALL_OF_SHIFT, most, suspects())
+    found = np.array([one.frequency for one in points])
+    return _explaining(case, found, true, scale, SMALL_OF_SHIFT, most, suspects())
 
 
 def _explaining(
     case: Case,
-    rows: Sequence[Row],
+    found: FloatArray,
     true: FloatArray,
     scale: FloatArray,
     small: float,
@@ -95,7 +121,6 @@ def _explaining(
     suspects: _Suspects,
 ) -> Mistake | None:
     """Return the mistake that explains what frequencies are off by, relative to `scale`."""
-    found = np.array([one.frequency for one in rows])
     before = largest((found / true - 1.0) / scale)
     if not before > small:
         return None

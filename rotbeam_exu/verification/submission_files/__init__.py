@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...files.results import writable_folder
-from ..cases import CASES, Asked, Case
-from ..submission import BackbonePoint, Frequency, Submission
+from ..cases import CASES, TIP, Asked, Case
+from ..submission import BackbonePoint, Frequency, SteadyTip, Submission
 from . import entry, runs
 from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError, near, printable
@@ -36,9 +36,7 @@ from .tables import (
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
 
 
-def read_submission(
-    folder: str | os.PathLike[str], *, only: Collection[str] = ()
-) -> Submission:
+def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = ()) -> Submission:
     r"""Read what an author hands in.
 
     Parameters
@@ -75,15 +73,15 @@ def read_submission(
     if not root.is_dir():
         raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
     declaration = entry.declaration_of(root, faults)
-    points: dict[Asked, list[dict[str, Any]]] = {}
+    points: dict[Asked, list[dict[str, Any]]] = {asked: [] for asked in Asked}
     for file, case in _tables().items():
         if os.path.lexists(root / file):
-            points[case.asked] = _points(root, file, case, faults)
+            points[case.asked] += _points(root, file, case, faults)
     histories = runs.runs_of(root, faults, only)
     _strangers(root, faults)
-    frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
-    backbone = [row for row in backbone if "failure" not in row]
-    some = bool(frequencies or backbone or histories)
+    frequencies, steady = points[Asked.FREQUENCIES], points[Asked.STEADY]
+    backbone = [row for row in points[Asked.BACKBONE] if "failure" not in row]
+    some = bool(frequencies or steady or backbone or histories)
     if not (faults or some):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
         faults.add(entry.FILE, said)
@@ -92,6 +90,7 @@ def read_submission(
     made = Submission(
         declaration=declaration,
         frequencies=tuple(Frequency(**row) for row in frequencies),
+        steady=tuple(SteadyTip(**row) for row in steady),
         backbone=tuple(BackbonePoint(**row) for row in backbone),
         runs=histories,
     )
@@ -142,8 +141,10 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
     for table, case in _tables().items():
-        one = case.asked is Asked.FREQUENCIES
-        points = submission.frequencies if one else submission.backbone
+        rows = submission.frequencies, submission.steady
+        points = [one for of in rows for one in of if one.case == case.name]
+        if case.asked is Asked.BACKBONE:
+            points = list(submission.backbone)
         texts |= {table: written(_columns(case), points)} if points else {}
     texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
     for file, text in texts.items():
@@ -151,8 +152,9 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     for run in named:
         if run.failure:
             continue
-        held = [one.name for one in runs.HISTORY if getattr(run, one.name) is not None]
-        numbers = np.column_stack([getattr(run, name) for name in held])
+        held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
+        parts = (run.time, run.q, run.q_dot)
+        numbers = np.column_stack([part for part in parts if part is not None])
         (root / run.case).mkdir(exist_ok=True)
         with (root / run.file).open("w", encoding="utf-8", newline="\n") as out:
             # 17 digits of each number are enough in any spacing of the samples.
@@ -181,27 +183,37 @@ def _columns(case: Case) -> tuple[Column, ...]:
     places = [Column("elements", whole), Column("speed", asked(case.speeds), "rad/s")]
     if case.amplitudes:
         places.append(Column("amplitude", asked(case.amplitudes)))
+    if case.count > 1:
+        places.append(Column("number", asked(range(1, case.count + 1))))
+    if case.asked is Asked.STEADY:
+        return (*places, *(replace(one, measured=True) for one in runs.TIP_COLUMNS), FAILURE)
     return (*places, Column("frequency", _positive, "rad/s", measured=True), FAILURE)
 
 
 def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
     """Return the rows of a case's table by field; rows with a failure have no frequency."""
-    sheet = sheet_of(folder, file, _columns(case), faults)
+    columns = _columns(case)
+    sheet = sheet_of(folder, file, columns, faults)
+    names = [column.name for column in columns if column.measured]
+    of_case = {} if case.asked is Asked.BACKBONE else {"case": case.name}
     found: dict[tuple[float, ...], dict[str, Any]] = {}
-    most = [0]
+    most = dict.fromkeys(names, 0)
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
-        place = row["elements"], row["speed"], row.get("amplitude", 0.0)
+        place = row["elements"], row["speed"], row.get("amplitude", row.get("number", 0))
         if place in found:
             faults.add(file, "the same row stands above: keep one", line)
             continue
-        found[place] = row
-        most += [digits(cells["frequency"])] if "frequency" in row else []
-    measured = [row for row in found.values() if "frequency" in row]
-    if measured and max(most) < LEAST_DIGITS:
-        faults.add(file, f"frequencies are written to {max(most)} {TOO_FEW}")
+        found[place] = row | of_case
+        most |= {name: max(most[name], digits(cells[name])) for name in names if name in row}
+    measured = [row for row in found.values() if names[0] in row]
+    short = [name for name, count in most.items() if measured and count < LEAST_DIGITS]
+    if short:
+        named = {"frequency": "frequencies are"}.get(short[0], f"column {short[0]!r} is")
+        faults.add(file, f"{named} written to {most[short[0]]} {TOO_FEW}")
         return []
     for row in measured:
-        row["rounding"] = rounding(max(most), row["frequency"])
+        errors = tuple(rounding(most[name], abs(row[name])) for name in names)
+        row["rounding"] = errors if len(errors) > 1 else errors[0]
     return list(found.values())
 
 
