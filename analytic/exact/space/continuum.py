@@ -22,6 +22,7 @@ kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesni
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -229,12 +230,17 @@ class SpaceContinuum:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
 
+    @cached_property
+    def _tip_frame(self) -> Frames:
+        return Frames(self.functions.grid, np.array([1.0]), self.blade.kinks)
+
     def twist(self, q: FloatArray) -> FloatArray:
         """Return how far the load turns the tip's section out of its upright, (samples,)."""
-        one = np.array([1.0])
-        tip = Frames(self.functions.grid, one, self.blade.kinks)
-        R, unloaded = (tip.of(self._strains(x)[1])[1][..., 0] for x in (q, np.zeros_like(q[:1])))
-        turn = np.einsum("iks,jk->sij", R, unloaded[..., 0])
+        loaded, unloaded = (
+            self._tip_frame.of(self._strains(one)[1])[1][..., 0]
+            for one in (q, np.zeros((1, self.size)))
+        )
+        turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
         return np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
 
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
