@@ -7,8 +7,8 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.verification.cases import CASES
+from analytic.theory import BERNOULLI_EULER, Theory
+from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
@@ -228,3 +228,52 @@ def test_all_that_was_handed_in_is_searched(exact):
     assert "hand in rad/s" in str(found[0])
     assert found[1].before == pytest.approx(2.0, abs=1e-2)
     assert found[1].after < 1e-2
+
+
+REISSNER = Theory(shear=SHEAR, rotary_inertia=True)
+ENGESSER = Theory(shear=SHEAR, rotary_inertia=True, engesser=True)
+
+
+def of_theory(theory, declared):
+    """Results in the stout cases of a code that has one theory and declares another."""
+    linear, true = (reference(CASES[name], theory) for name in ("TL", "T"))
+    time = np.linspace(0.0, 15.0, 1501)
+    q = true.history(time)
+    rows = [
+        Frequency(
+            case="TL", elements=n, speed=w,
+            frequency=linear.first_frequency(w) * (1.0 + 1e-2 / n**2),
+        )
+        for n in (8, 16, 32)
+        for w in CASES["TL"].speeds
+    ]  # fmt: skip
+    runs = [
+        Run(case="T", elements=n, step=h, time=time, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))
+        for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (16, 5e-4), (16, 2e-3))
+    ]
+    declaration = Declaration(code="mine", order=2.0, order_in_step=2.0, theory=declared)
+    return Submission(declaration=declaration, frequencies=tuple(rows), runs=tuple(runs))
+
+
+@pytest.mark.parametrize(
+    ("theory", "declared", "said"),
+    [
+        (BERNOULLI_EULER, REISSNER, "those of Bernoulli-Euler, the tags say Timoshenko with"),
+        (REISSNER, BERNOULLI_EULER, "those of Timoshenko with rotary inertia, the tags say Bern"),
+        (ENGESSER, REISSNER, "those of Timoshenko, Engesser's law with rotary inertia, the tags"),
+        (REISSNER, ENGESSER, "the tags say Timoshenko, Engesser's law with rotary inertia: corr"),
+    ],
+)
+def test_tags_that_do_not_fit_are_named(theory, declared, said):
+    submission = of_theory(theory, declared)
+    found = mistakes_in(submission, judged(submission))
+    assert [(one.case, one.name) for one in found if one.case == "T"] == [("T", "tags")]
+    assert said in str(found[-1])
+
+
+@pytest.mark.parametrize("theory", [BERNOULLI_EULER, REISSNER, ENGESSER])
+def test_tags_that_fit_are_left_alone(theory):
+    submission = of_theory(theory, theory)
+    found = judged(submission)
+    assert found.passed
+    assert mistakes_in(submission, found) == []

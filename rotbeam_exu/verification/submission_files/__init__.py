@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ...files.results import writable_folder
+from ...files.results import whole_folder
 from ..cases import CASES, TIP, Asked, Case
-from ..submission import BackbonePoint, Frequency, SteadyTip, Submission
+from ..submission import BackbonePoint, Frequency, Run, SteadyTip, Submission
 from . import entry, runs
 from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError, near, printable
@@ -102,7 +102,7 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
     """Write the files of a submission, as `read_submission` takes them, and return the folder.
 
-    They read back the same to the last bit.
+    They read back the same to the last bit. All are written, or none.
 
     Parameters
     ----------
@@ -114,7 +114,9 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     Raises
     ------
     FileExistsError
-        If there is a submission.
+        If there is a submission, or a file of one.
+    OSError
+        If it cannot be written.
     ValueError
         If two runs have the same case, mesh and step.
 
@@ -131,9 +133,7 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     ...     print(sorted(path.name for path in written.iterdir()))
     ['L.csv', 'entry.toml']
     """
-    root = writable_folder(folder)
-    if (root / entry.FILE).exists():
-        raise FileExistsError(f"{root} holds a submission already: choose another folder")
+    root = Path(folder)
     named = [replace(run, file=runs.file_of(run)) for run in submission.runs]
     files = [run.file for run in named]
     twice = sorted({file for file in files if files.count(file) > 1})
@@ -147,19 +147,27 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
             points = list(submission.backbone)
         texts |= {table: written(_columns(case), points)} if points else {}
     texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
-    for file, text in texts.items():
-        (root / file).write_text(text, encoding="utf-8", newline="\n")
-    for run in named:
-        if run.failure:
-            continue
-        held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
-        parts = (run.time, run.q, run.q_dot)
-        numbers = np.column_stack([part for part in parts if part is not None])
-        (root / run.case).mkdir(exist_ok=True)
-        with (root / run.file).open("w", encoding="utf-8", newline="\n") as out:
-            # 17 digits of each number are enough in any spacing of the samples.
-            np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
+    for name in (*texts, *(run.case for run in named)):
+        if (root / name).exists():
+            raise FileExistsError(f"{root} holds {name} already: choose another folder")
+    with whole_folder(root) as made:
+        for file, text in texts.items():
+            (made / file).write_text(text, encoding="utf-8", newline="\n")
+        for run in named:
+            if not run.failure:
+                _write_history(run, made)
     return root
+
+
+def _write_history(run: Run, folder: Path) -> None:
+    """Write the history of a run into the folder of its case."""
+    held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
+    parts = (run.time, run.q, run.q_dot)
+    numbers = np.column_stack([part for part in parts if part is not None])
+    (folder / run.case).mkdir(exist_ok=True)
+    with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
+        # 17 digits of each number are enough in any spacing of the samples.
+        np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
