@@ -7,10 +7,12 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic.exact.beam.discretization import continuum
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
+from rotbeam_exu.verification.mistakes.forces import FORCES, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
 from rotbeam_exu.verification.references import reference
@@ -93,6 +95,37 @@ def test_another_ramp(named, name):
     q = spin_up_response(S1.blade, wrong, time, tolerance=1e-2).q
     assert named(q, time) == name
     assert named(q, time, ramps=()) is None
+
+
+@pytest.mark.parametrize("force", FORCES)
+def test_a_force_that_is_left_out(named, force):
+    assert named(without(force, S1, TIME)) == force
+
+
+def test_forces_that_are_left_out_are_those_of_a_turning_frame():
+    """With Euler's they are what the rotation adds to the slope's acceleration, r'' exp(-iθ)."""
+    rng = np.random.default_rng(1)
+    w, w_dot = 2.0, 0.7
+    models = {name: kind(1e-3, 6, 3) for name, (_, kind) in FORCES.items()}
+    q = 0.1 * rng.standard_normal((3, 1, next(iter(models.values())).size))
+    at = {rate: continuum(1e-3, 6, 3)._fields(*q, w * rate, w_dot * rate, None) for rate in (0, 1)}
+    added = (at[1].acceleration - at[0].acceleration) * at[1].turn
+    lacking = sum(model.lacking(at[1], np.array([[w]])) for model in models.values())
+    euler = 1j * w_dot * at[1].stretch * at[1].turn
+    assert added == pytest.approx(lacking + euler, rel=1e-12, abs=1e-12)
+
+
+def test_without_the_centrifugal_force_a_slow_ramp_bends_as_a_load_does():
+    """q = -(11/120) ρA θ̈ L⁵/EI at the middle of the ramp; stiffened a sixth less."""
+    slow = replace(S1, motion=SpinUp(omega=6.0, ramp_time=60.0), duration=30.0)
+    time = np.linspace(0.0, 30.0, 601)
+    q = without("no centrifugal force", slow, time)
+    beam = S1.blade
+    static = 11.0 / 120.0 * 0.2 * beam.mass_per_length * LENGTH**5 / beam.bending_stiffness
+    # The first mode swings by a tenth of a percent about it, and bends by 1 % of L.
+    assert q[-1] == pytest.approx(-static, rel=1e-2)
+    stiffened = spin_up_response(beam, slow.motion, time, tolerance=1e-3).q[-1]
+    assert abs(stiffened) < 0.9 * static
 
 
 @pytest.mark.parametrize("ramp", RAMPS.values())

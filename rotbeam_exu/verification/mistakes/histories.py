@@ -15,6 +15,7 @@ from analytic.lazily import optimize
 from analytic.motion import SpeedChange
 
 from ..cases import Case
+from .forces import FORCES, without
 from .mistake import LEFT, Mistake, explaining, largest
 
 SMALL = 1e-2
@@ -141,7 +142,8 @@ def mistake_in_history(
         return found
     for name, said, left in _unit_of_speed(seen):
         return Mistake(case=case.name, name=name, said=said, before=before, after=left / scale)
-    return _ramp(seen, ramps, most)
+    lacking = ((name, said, left / scale) for name, said, left in _forces(seen))
+    return explaining(case.name, before, most, lacking) or _ramp(seen, ramps, most)
 
 
 TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
@@ -268,6 +270,15 @@ def _unit_of_speed(seen: _Seen) -> _Suspects:
             if abs(factor / size - 1.0) < LEFT:
                 yield name, f"{said}: early on q is {factor:.3g} times the reference", left
                 return
+
+
+def _forces(seen: _Seen) -> _Suspects:
+    """Yield spin-ups without a force of the rotation."""
+    for name, (said, _) in FORCES.items():
+        try:
+            yield name, said, largest(seen.q - without(name, seen.case, seen.time))
+        except RuntimeError:
+            continue
 
 
 def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
