@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from analytic import spin_up_response
+from analytic import SpinUp, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import optimize
 from analytic.motion import SpeedChange
@@ -99,7 +99,7 @@ class _Seen:
 
         It is taken from the first mode, and where that explains much of a spin-up from theory.
         """
-        blade, rotation = self.case.blade, self.case.rotation
+        blade, rotation = self.case.blade, cast("SpinUp", self.case.rotation)
         hub = blade.unit.hub * blade.length
         rough = left(hub + blade.length - _SHORTENING * self.true**2 / blade.length)
         if rough > _ROUGH * largest(self.true) or not self.case.is_spun_up:
