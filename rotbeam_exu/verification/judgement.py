@@ -36,6 +36,9 @@ a blade in space by number: shear is worth twice as much in the sixth. In a stea
 nothing drifts: a tenth of q(t)'s.
 """
 
+HARDER = "nonlinear shift"
+"""Quantity that is judged behind q(t): order two wants 128 elements for it where 32 do for q(t)."""
+
 FLOOR = 1e-7
 """Relative round-off of a mesh's frequency: 1e-8 to 1e-7 of 64 to 128 elements, axial modes being
 10⁸ times stiffer."""
@@ -102,17 +105,28 @@ class Judgement:
 
     @property
     def outcome(self) -> str:
-        """One line: of all cases how many agree, and which are undecided or differ."""
+        """One line: of all cases how many agree, and which are undecided or differ.
+
+        An undecided nonlinear shift, the harder demand, is told behind the cases.
+        """
         by_outcome: dict[bool | None, list[str]] = {True: [], None: [], False: []}
-        for case in self.findings:
-            by_outcome[self.outcome_of(case).passed].append(case)
+        shifts = []
+        for case, of in self.findings.items():
+            passed = self.outcome_of(case).passed
+            others = [one for name, one in of.items() if name != HARDER]
+            if passed is None and worst_of(others).outcome.passed:
+                passed = True
+                shifts.append(case)
+            by_outcome[passed].append(case)
         right, missing = len(by_outcome[True]), len(self.asked) - len(self.findings)
         said = [f"{right} of {len(self.asked)} {'agrees' if right == 1 else 'agree'}"]
         for passed, word in ((None, "undecided"), (False, "differ")):
             if cases := by_outcome[passed]:
                 verb = "differs" if passed is False and len(cases) == 1 else word
                 said.append(f"{len(cases)} {verb} ({', '.join(cases)})")
-        return ", ".join(said + [f"{missing} not submitted"] * bool(missing))
+        said += [f"{missing} not submitted"] * bool(missing)
+        behind = f"; the shift is undecided in {', '.join(shifts)}" if shifts else ""
+        return ", ".join(said) + behind
 
     def __str__(self) -> str:
         lines = [f"{self.declaration.code}: {self.outcome}"]

@@ -363,6 +363,12 @@ def test_the_headline_counts_all_cases():
     )
     assert coarse.outcome == "1 of 18 agrees, 1 undecided (O), 16 not submitted"
     assert coarse.passed is None
+    # An undecided shift, the harder demand, is told behind q(t), and does not pass either.
+    right = found.findings["S1"]["history"]
+    hard = {"history": right, "nonlinear shift": Finding(outcome=Outcome.UNDECIDED)}
+    behind = replace(found, findings={**found.findings, "S4": hard})
+    said = "2 of 12 agree, 10 not submitted; the shift is undecided in S4"
+    assert (behind.outcome, behind.passed) == (said, None)
     wrong = {"history": Finding(outcome=Outcome.DIFFERS)}
     both = replace(coarse, findings={**coarse.findings, "S2": wrong})
     assert both.outcome == "1 of 18 agrees, 1 undecided (O), 1 differs (S2), 15 not submitted"

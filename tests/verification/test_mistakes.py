@@ -64,6 +64,15 @@ def test_factors(named, exact):
     assert named(1.3 * exact.q) == "factor"
 
 
+def test_an_angle_for_the_deflection(named, exact):
+    """Of the tip's place from the clamp: a factor alone would leave 5e-2 of it."""
+    turned = (exact.tip @ [1.0, 1j]) * np.exp(-1j * S1.motion.angle(TIME))
+    angle = np.angle(turned)
+    assert named(np.degrees(angle)) == "degrees"
+    assert named(angle) == "radians"
+    assert named(LENGTH * angle) == "arc"
+
+
 @pytest.mark.parametrize("offset", [0.03, 0.5, -0.4])
 def test_an_offset_of_time(named, spline, offset):
     moved = TIME - offset
@@ -136,6 +145,9 @@ def test_what_none_of_them_explains_is_left_alone(named, exact):
         (lambda w, speed: first(0.0), "no rotation"),
         (lambda w, speed: first(speed * np.pi / 30.0), "revolutions per minute"),
         (lambda w, speed: w * 1.01, None),
+        (lambda w, speed: np.hypot(w, speed), "out of the plane"),
+        (lambda w, speed: w + speed, "seen at rest"),
+        (lambda w, speed: np.rint(w / (2.0 * np.pi / 60.0)) * (2.0 * np.pi / 60.0), "bins"),
     ],
 )
 def test_linear_frequencies(change, name):
@@ -148,6 +160,17 @@ def test_linear_frequencies(change, name):
     ]
     found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
     assert (found and found.name) == name
+
+
+def test_frequencies_without_centrifugal_stiffening():
+    """At low speeds; faster ones have no frequency at all."""
+    rows = [
+        Frequency(elements=n, speed=w, frequency=np.sqrt(first(0.0) ** 2 - w**2))
+        for n in (8, 16)
+        for w in (0.0, 2.0)
+    ]
+    found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
+    assert found.name == "no centrifugal stiffening"
 
 
 def first(speed):

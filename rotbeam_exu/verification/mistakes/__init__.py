@@ -1,7 +1,8 @@
 """The usual mistakes: before a large error is held against a code, what explains it is looked for.
 
-A mistake explains an error if the reference with this mistake leaves at most a fifth of it. A
-new one is a line or a function in the lists of `histories` or `tables`.
+A mistake explains an error if the reference with this mistake leaves at most a fifth of it, and a
+third of what passes beyond the finest run's own error. A new one is a line or a function in the
+lists of `histories` or `tables`.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from analytic.input_checks import RotbeamWarning
 from analytic.threads import one_thread
 
 from ..cases import CASES, Asked
-from ..judgement import Judgement, Progress
+from ..judgement import THRESHOLDS, Judgement, Progress
 from ..references import reference
 from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
-from .mistake import Mistake, largest
+from .mistake import Mistake, largest, most_left
 from .tables import mistake_in_backbone, mistake_in_frequencies
 
 __all__ = ["Mistake", "mistakes_in"]
@@ -37,15 +38,17 @@ def mistakes_in(
             if progress is not None:
                 progress(name, done, len(judgement.findings))
             seen = judgement.histories.get(name)
+            quantity, finding = next(iter(judgement.findings[name].items()))
+            most = most_left(THRESHOLDS[quantity], finding)
             try:
                 if seen is None:
-                    one = _in_table(name, submission)
+                    one = _in_table(name, submission, most)
                 else:
                     run, true = seen.finest, seen.reference.history
                     if seen.case.in_space:
-                        one = mistake_in_space(seen.case, run.time, run.q, true)
+                        one = mistake_in_space(seen.case, run.time, run.q, true, most)
                     else:
-                        one = mistake_in_history(seen.case, run.time, run.q, true, ramps)
+                        one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
             if one is not None:
@@ -58,11 +61,11 @@ def mistakes_in(
     return found
 
 
-def _in_table(name: str, submission: Submission) -> Mistake | None:
+def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
     case = CASES.get(name)
     if case is None or case.asked is Asked.HISTORY:
         return None
     truth = reference(case, submission.declaration.theory)
     if case.asked is Asked.BACKBONE:
-        return mistake_in_backbone(case, submission.backbone, truth)
-    return mistake_in_frequencies(case, (*submission.frequencies, *submission.steady), truth)
+        return mistake_in_backbone(case, submission.backbone, truth, most)
+    return mistake_in_frequencies(case, (*submission.frequencies, *submission.steady), truth, most)
