@@ -22,6 +22,9 @@ Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the frequencies that a right code hands in with the mistake."""
 
+SMALL = THRESHOLDS["linear frequency"]
+"""Relative error of a frequency below which no mistake is looked for: what passes."""
+
 SMALL_OF_SHIFT = 1e-2
 """The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
 
