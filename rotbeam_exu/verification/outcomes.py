@@ -100,7 +100,10 @@ def found_of(
     doubt, difference = runs.bar + bound, abs(runs.limit)
     finest, note = abs(float(runs.values[-1])), ""
     if math.isnan(difference):
-        outcome, note = Outcome.UNDECIDED, f"one mesh has no limit {where}: hand in three"
+        # The second tier, for codes whose mesh is fixed: nothing is extrapolated.
+        as_run = f"as run within {finest + bound:.0e} of the reference"
+        outcome = Outcome.UNDECIDED
+        note = f"{as_run}, but one mesh has no limit {where}: hand in three"
     elif runs.steps.any() and np.unique(runs.steps).size == 1:
         outcome = Outcome.UNDECIDED
         one = f"with one {runs.refined}"
