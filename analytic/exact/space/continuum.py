@@ -241,7 +241,7 @@ class SpaceContinuum:
             for one in (q, np.zeros((1, self.size)))
         )
         turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
-        return np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
+        return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
 
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the tip's velocity in the root frame, (samples, 3)."""

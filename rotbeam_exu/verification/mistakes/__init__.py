@@ -68,4 +68,4 @@ def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
     truth = reference(case, submission.declaration.theory)
     if case.asked is Asked.BACKBONE:
         return mistake_in_backbone(case, submission.backbone, truth, most)
-    return mistake_in_frequencies(case, (*submission.frequencies, *submission.steady), truth, most)
+    return mistake_in_frequencies(case, submission.rows, truth, most)
