@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from analytic import (
     AnyBlade,
@@ -18,9 +18,11 @@ from analytic import (
     SteadyRotation,
     periodic_orbits,
 )
-from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 from analytic.theory import BERNOULLI_EULER, Theory
+
+if TYPE_CHECKING:
+    from analytic.exact.free.orbits import Orbits
 
 VERSION = "1.0"
 """Version of the benchmark: of its cases, references and thresholds."""
