@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from analytic import (
     AnyBlade,
@@ -18,9 +18,11 @@ from analytic import (
     SteadyRotation,
     periodic_orbits,
 )
-from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 from analytic.theory import BERNOULLI_EULER, Theory
+
+if TYPE_CHECKING:
+    from analytic.exact.free.orbits import Orbits
 
 VERSION = "1.0"
 """Version of the benchmark: of its cases, references and thresholds."""
@@ -253,8 +255,8 @@ def _stout(beam: Beam) -> tuple[Case, ...]:
         length=length, axial_stiffness=EI * (slenderness / length) ** 2,
         bending_stiffness=EI, mass_per_length=beam.mass_per_length,
     )  # fmt: skip
-    laws = {}, {"shear": SHEAR}, {"shear": SHEAR, "engesser": True}
-    theories = tuple(Theory(rotary_inertia=turns, **law) for law in laws for turns in (False, True))
+    laws = Theory(), Theory(shear=SHEAR), Theory(shear=SHEAR, engesser=True)
+    theories = tuple(replace(law, rotary_inertia=turns) for law in laws for turns in (False, True))
     spun_up = spin_up_case(stout, SpinUp(omega=4.0, ramp_time=2.0), 15.0, "T", Level.BLADE)
     linear = replace(frequency_case(stout, (0.0, 2.0, 4.0, 6.0)), name="TL", level=Level.BLADE)
     return (

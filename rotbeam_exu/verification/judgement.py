@@ -260,7 +260,7 @@ def _of_table(
     """
     case = reference.case
     rows: dict[tuple[float, int], list[Frequency | SteadyTip]] = defaultdict(list)
-    for one in sorted((*submission.frequencies, *submission.steady), key=lambda one: one.elements):
+    for one in sorted(submission.rows, key=lambda one: one.elements):
         for place in one.values if one.case == case.name else ():
             rows[one.speed, place].append(one)
 

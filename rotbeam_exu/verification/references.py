@@ -6,15 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response, steady_state
 from analytic.arrays import FloatArray
-from analytic.exact.driven.response import SpaceResponse
-from analytic.exact.space.modes import space_modes
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
@@ -186,6 +184,9 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
         scales = np.abs(row) / (blade.length, blade.length, 1.0)
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
     if case.in_space:
+        # Of a straight blade too, whose `linear_modes` are those in its plane; loaded where needed.
+        from analytic.exact.space.modes import space_modes  # noqa: PLC0415
+
         return space_modes(blade, speed, case.count, theory).frequencies, COMPUTED_BOUND
     return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
 
@@ -222,11 +223,11 @@ def sampled_history(
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
-        found = spin_up_response(
+        found: Any = spin_up_response(
             blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
         )
         q, error = found.q, found.error
-        if isinstance(found, SpaceResponse):
+        if case.in_space:
             # Its error is over the largest of lag and flap, to which all components are small.
             q = np.stack((found.lag, found.flap, found.twist), axis=1)
             sizes = np.abs(q).max(axis=0) / (blade.length, blade.length, 1.0)

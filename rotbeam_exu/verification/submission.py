@@ -181,8 +181,14 @@ class Submission:
     backbone: tuple[BackbonePoint, ...] = ()
     runs: tuple[Run, ...] = ()
 
+    @property
+    def rows(self) -> tuple[Frequency | SteadyTip, ...]:
+        """Rows of all tables but backbones."""
+        return (*self.frequencies, *self.steady)
+
     def has(self, case: Case) -> bool:
         """Return whether something of a case was submitted."""
         if case.asked is Asked.BACKBONE:
             return bool(self.backbone)
-        return any(one.case == case.name for one in (*self.runs, *self.frequencies, *self.steady))
+        names = {run.case for run in self.runs} | {row.case for row in self.rows}
+        return case.name in names

@@ -114,7 +114,7 @@ def test_the_matrix_has_all_cases_and_what_is_missing(pages, right):
     outcomes = pages["right"].split("<h2>Outcomes</h2>")[1].split("</table>")[0]
     rows = re.findall("<tr><td>(.*?)</td>", outcomes)
     assert rows == list(right.judgement.asked)
-    assert outcomes.count("not submitted") == 10
+    assert outcomes.count("not submitted") == 16
 
 
 def test_a_page_of_twelve_cases_is_less_than_a_megabyte(pages):
@@ -150,6 +150,7 @@ def test_the_document_is_json_and_says_all(right):
     assert again["declaration"]["theory"] == {
         "extension": True,
         "shear": None,
+        "engesser": False,
         "rotary_inertia": False,
         "trapeze": True,
     }

@@ -30,7 +30,7 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
 from .basis import StrainFunctions
-from .changes import Changes, Motion, State
+from .changes import Changes, Rates, State
 from .vectors import Frames, cross, turned, turned_back
 
 
@@ -102,7 +102,7 @@ class SpaceContinuum:
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray,
-    ) -> Motion:
+    ) -> Rates:
         inner, outer = self.inner.T, self.outer.T
         stretch, bend = self._rates(at.K, q_dot)
         stretch_rate, bend_rate = self._rates(at.K, q_ddot)
@@ -129,7 +129,7 @@ class SpaceContinuum:
             + cross(total_rate, at.offset_m)
             + cross(total, cross(total, at.offset_m))
         )
-        return Motion(
+        return Rates(
             turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
             acceleration, twisting, speeding,
         )  # fmt: skip
@@ -142,7 +142,7 @@ class SpaceContinuum:
         return turned(frame, turned(J, turned_back(frame, vector)))
 
     def _forces(
-        self, at: State, motion: Motion, push: FloatArray | None
+        self, at: State, motion: Rates, push: FloatArray | None
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return m A_c at the masses, and F and M on the grid, with weights."""
         body = 0.0 if push is None else push[1][..., :1]
@@ -241,7 +241,7 @@ class SpaceContinuum:
             for one in (q, np.zeros((1, self.size)))
         )
         turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
-        return np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
+        return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
 
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the tip's velocity in the root frame, (samples, 3)."""

@@ -141,10 +141,8 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
     for table, case in _tables().items():
-        rows = submission.frequencies, submission.steady
-        points = [one for of in rows for one in of if one.case == case.name]
-        if case.asked is Asked.BACKBONE:
-            points = list(submission.backbone)
+        points: list[Any] = [row for row in submission.rows if row.case == case.name]
+        points += submission.backbone if case.asked is Asked.BACKBONE else ()
         texts |= {table: written(_columns(case), points)} if points else {}
     texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
     for name in (*texts, *(run.case for run in named)):
