@@ -19,7 +19,7 @@ from ..cases import CASES, Asked
 from ..judgement import THRESHOLDS, Judgement, Progress, judged
 from ..outcomes import Outcome
 from ..references import reference
-from ..submission import Frequency, SteadyTip, Submission
+from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
 from .mistake import Mistake, largest, most_left
 from .tables import mistake_in_backbone, mistake_in_frequencies
@@ -72,8 +72,7 @@ def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
     truth = reference(case, submission.declaration.theory)
     if case.asked is Asked.BACKBONE:
         return mistake_in_backbone(case, submission.backbone, truth, most)
-    rows: list[Frequency | SteadyTip] = [*submission.frequencies, *submission.steady]
-    return mistake_in_frequencies(case, rows, truth, most)
+    return mistake_in_frequencies(case, submission.rows, truth, most)
 
 
 def _in_tags(name: str, submission: Submission, judgement: Judgement) -> Mistake | None:
