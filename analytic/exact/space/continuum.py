@@ -22,6 +22,7 @@ kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesni
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -231,6 +232,19 @@ class SpaceContinuum:
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
+
+    @cached_property
+    def _tip_frame(self) -> Frames:
+        return Frames(self.functions.grid, np.array([1.0]), self.blade.kinks)
+
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return how far the load turns the tip's section out of its upright, (samples,)."""
+        loaded, unloaded = (
+            self._tip_frame.of(self._strains(one)[1])[1][..., 0]
+            for one in (q, np.zeros((1, self.size)))
+        )
+        turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
+        return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
 
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the tip's velocity in the root frame, (samples, 3)."""
