@@ -79,7 +79,7 @@ def integrated(
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot, twist = np.zeros_like(z), np.repeat(model.twist(q[None]), time.size)
+    z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     previous, factors = 0.0, None
     ahead = list(pairwise(grid))[::-1]
@@ -116,7 +116,7 @@ def integrated(
             positions = q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration)
             z[inside] = model.tip(positions)
             z_dot[inside] = model.tip_rate(positions, velocities)
-            twist[inside] = model.twist(positions)
+            twist[inside] = model.tip_turn(positions)
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]

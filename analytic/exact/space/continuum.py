@@ -237,7 +237,7 @@ class SpaceContinuum:
     def _tip_frame(self) -> Frames:
         return Frames(self.blade.running(self.functions.grid, np.ones(1)), self.blade.kinks)
 
-    def twist(self, q: FloatArray) -> FloatArray:
+    def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return how far the load turns the tip's section out of its upright, (samples,)."""
         loaded, unloaded = (
             self._tip_frame.of(self._strains(one)[1])[..., -1]
@@ -260,6 +260,10 @@ class SpaceContinuum:
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
         return np.moveaxis(self.changes(q).slope @ self.weights, 0, 1)
+
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return the torsion along all of the blade, ∫(κ1 - κ01) dx [rad], (samples,)."""
+        return np.asarray(self._strains(q)[1][0] @ self.weights)
 
     @property
     def setting(self) -> float:
