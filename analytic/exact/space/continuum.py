@@ -261,10 +261,6 @@ class SpaceContinuum:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
         return np.moveaxis(self.changes(q).slope @ self.weights, 0, 1)
 
-    def twist(self, q: FloatArray) -> FloatArray:
-        """Return the torsion along all of the blade, ∫(κ1 - κ01) dx [rad], (samples,)."""
-        return np.asarray(self._strains(q)[1][0] @ self.weights)
-
     @property
     def setting(self) -> float:
         """1: loads in the plane of rotation act in it, however the blade is set."""
