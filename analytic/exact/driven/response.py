@@ -25,6 +25,7 @@ from .transient import BladeMotion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_MANY_CELLS = 16
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
@@ -98,6 +99,7 @@ class SpinUpResponse:
         }
 
 
+@dataclass(frozen=True, kw_only=True)
 class SpaceResponse(SpinUpResponse):
     """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
 
@@ -110,9 +112,16 @@ class SpaceResponse(SpinUpResponse):
         Place of the tip from the clamp [m].
     axis : ndarray (times, points, 3)
         Places of the points asked for from the clamp [m].
+    twist : ndarray (times,)
+        How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
+        rotation T from the unloaded section to the loaded one, in the axes of `tip`.
+    error : float
+        Of the twist as well, in radians over the largest deflection over the length.
     functions : int
         Functions for each curvature.
     """
+
+    twist: FloatArray = field(repr=False)
 
     @property
     def lag(self) -> FloatArray:
@@ -130,7 +139,14 @@ class SpaceResponse(SpinUpResponse):
     ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
         tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
-        return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}
+        axis = beam.length * motion.axis
+        return {
+            "q": tip[:, 1],
+            "q_dot": rate[:, 1],
+            "tip": tip,
+            "axis": axis,
+            "twist": motion.twist,
+        }
 
 
 @one_thread
@@ -194,9 +210,11 @@ def spin_up_response(
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
+    fewest = math.ceil(_A_DIGIT * digits)
+    # The kinks of a table leave an algebraic tail.
+    more = fewest // 2 if beam.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
     for level in range(_REFINEMENTS):
-        functions = math.ceil(_A_DIGIT * digits)
-        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        functions = fewest + max(more, beam.unit.panel_count) * level
         model: Any = (
             space_continuum(beam, theory, functions) if space
             else blade_continuum(beam, theory, functions, functions // 2)
@@ -213,7 +231,8 @@ def spin_up_response(
             continue
         if coarser is not None:
             size = float(np.abs(model.deflection(finer.tip)).max())
-            error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
+            changes = finer.tip - coarser.tip, finer.twist - coarser.twist
+            error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:
                 return kind(
                     beam=beam,
