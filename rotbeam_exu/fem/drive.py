@@ -31,6 +31,9 @@ from .elements.formulation import Chain, Formulation
 from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
+Torque = Callable[[Any, float], float]
+"""Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""
+
 
 def set_state(
     mbs: exudyn.MainSystem,
@@ -62,7 +65,7 @@ def clamp_to_body(
     element: Formulation,
     marker: exudyn.MarkerIndex,
     azimuth: float,
-) -> tuple[list[exudyn.ObjectIndex], exudyn.SensorIndex]:
+) -> tuple[list[exudyn.ObjectIndex], Torque]:
     """Join the root to the body of `marker`, at the axis; return the joint and its torque.
 
     The blade starts with the body's place and velocity, as a part of it.
@@ -111,17 +114,17 @@ def clamp_to_body(
         moment = mbs.GetObjectOutput(joint, kind.TorqueLocal)[2]
         return float(moment - radius * mbs.GetObjectOutput(joint, kind.ForceLocal)[1])
 
-    return [joint], _torque_sensor(mbs, torque)
+    return [joint], torque
 
 
-def torque_sensor(
+def torque_of(
     mbs: exudyn.MainSystem,
     chain: Chain,
     element: Formulation,
     constraints: Sequence[exudyn.ObjectIndex],
     angle: Callable[[float], float],
-) -> exudyn.SensorIndex:
-    """Add a sensor of the torque that the constraints of the root, at `angle`, take to turn it."""
+) -> Torque:
+    """Return the torque by which the constraints of the root, at `angle`, turn it."""
     root, kind = chain.reference(mbs)[0], exudyn.OutputVariableType
     place = np.eye(element.dimensions, root.size)
 
@@ -131,18 +134,7 @@ def torque_sensor(
         multipliers = [np.atleast_1d(mbs.GetObjectOutput(one, kind.Force)) for one in constraints]
         return -float(np.concatenate(multipliers) @ rows @ element.spun(along))
 
-    return _torque_sensor(mbs, torque)
-
-
-def _torque_sensor(
-    mbs: exudyn.MainSystem, torque: Callable[[Any, float], float]
-) -> exudyn.SensorIndex:
-    def read(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
-        return [torque(mbs, t)]
-
-    return mbs.AddSensor(
-        items.SensorUserFunction(sensorUserFunction=read, storeInternal=True, writeToFile=False)
-    )
+    return torque
 
 
 def hold_root(

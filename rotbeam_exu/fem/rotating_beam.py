@@ -52,9 +52,10 @@ class RotatingBeam:
         Positions, to which forces and other bodies can be attached.
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
-    torque_sensor : SensorIndex
-        Torque [N m] that the clamp exerts on the blade, about the normal of the plane in which it
-        bends and the axis of rotation, stored in the sensor itself.
+    torque : callable
+        Torque [N m] that the clamp exerts on the blade about the axis of rotation, or with a
+        setting angle about the normal of the plane of bending: ``torque(mbs, t)`` in your own user
+        functions. `add_torque_sensor` stores it.
     clamp : tuple
         Constraints of the root, whose forces are what the blade exerts on the clamp.
     mass : csr_array
@@ -74,7 +75,7 @@ class RotatingBeam:
     root_marker: exudyn.MarkerIndex
     tip_marker: exudyn.MarkerIndex
     tip_sensor: exudyn.SensorIndex
-    torque_sensor: exudyn.SensorIndex
+    torque: drive.Torque
     clamp: tuple[exudyn.ObjectIndex, ...]
     mass: sparse.csr_array
     loading: Loading
@@ -88,6 +89,16 @@ class RotatingBeam:
     def bodies(self) -> tuple[exudyn.ObjectIndex, ...]:
         """The elements, where they are Exudyn's."""
         return self.chain.bodies
+
+    def add_torque_sensor(self, mbs: exudyn.MainSystem) -> exudyn.SensorIndex:
+        """Add a sensor of the clamp's torque, stored in the sensor itself."""
+
+        def read(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
+            return [self.torque(mbs, t)]
+
+        return mbs.AddSensor(
+            items.SensorUserFunction(sensorUserFunction=read, storeInternal=True, writeToFile=False)
+        )
 
     def solver_settings(
         self, *, duration: float, step: float, every: int = 1
@@ -190,7 +201,7 @@ def add_rotating_beam(
             drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
             model.add_spin_forces(mbs, chain, beam, rotation)
         seen = rotation.angle if frame == "inertial" else lambda t: 0.0
-        torque = drive.torque_sensor(mbs, chain, model, constraints, seen)
+        torque = drive.torque_of(mbs, chain, model, constraints, seen)
         if loading:
             loading.add(mbs, chain, rotation, frame)
     root, tip = (
@@ -206,6 +217,6 @@ def add_rotating_beam(
     )
     return RotatingBeam(
         model=model, beam=beam, elements=elements, frame=frame, chain=chain, root_marker=root,
-        tip_marker=tip, tip_sensor=sensor, torque_sensor=torque, clamp=tuple(constraints),
+        tip_marker=tip, tip_sensor=sensor, torque=torque, clamp=tuple(constraints),
         mass=mass, loading=loading,
     )  # fmt: skip

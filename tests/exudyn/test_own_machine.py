@@ -79,19 +79,20 @@ def test_driven_blades_do_not_feel_each_other(beam):
     blade = beam.with_hub_radius(0.5)
     with exudyn_system() as mbs:
         alone = add_rotating_beam(mbs, blade, SPIN_UP, elements=6)
+        sensor = alone.add_torque_sensor(mbs)
         solve(mbs, alone)
-        tip, torque = stored(mbs, alone.tip_sensor), stored(mbs, alone.torque_sensor)
+        tip, torque = stored(mbs, alone.tip_sensor), stored(mbs, sensor)
     with exudyn_system() as mbs:
         azimuths = 2.0 * np.pi / 3.0 * np.arange(3)
         blades = [add_rotating_beam(mbs, blade, SPIN_UP, azimuth=a, elements=6) for a in azimuths]
+        sensors = [one.add_torque_sensor(mbs) for one in blades]
         solve(mbs, blades[0])
-        for azimuth, one in zip(azimuths, blades, strict=True):
+        for azimuth, one, sensor in zip(azimuths, blades, sensors, strict=True):
             x, y, _ = stored(mbs, one.tip_sensor).T
             back = (x + 1j * y) * np.exp(-1j * azimuth)
             # Newton stops at a force of 1e-9 EI/L², and a step earlier or later than alone.
             assert back == pytest.approx(tip[:, 0] + 1j * tip[:, 1], abs=1e-9 * beam.length)
-            other = stored(mbs, one.torque_sensor)
-            assert other == pytest.approx(torque, abs=1e-8 * abs(torque).max())
+            assert stored(mbs, sensor) == pytest.approx(torque, abs=1e-8 * abs(torque).max())
 
 
 def test_a_rotation_may_begin_at_an_angle(beam):
@@ -133,8 +134,9 @@ def test_a_driven_hub_is_a_prescribed_rotation(beam, element):
             for body in one.bodies if own and loads else ():
                 onto = mbs.AddMarker(eii.MarkerBodyMass(bodyNumber=body))
                 mbs.AddLoad(eii.LoadMassProportional(markerNumber=onto, loadVector=[0, -2.0, 0]))
+            sensors = one.tip_sensor, one.add_torque_sensor(mbs)
             solve(mbs, one, duration=1.0, step=4e-3, every=5)
-            found.append([stored(mbs, s) for s in (one.tip_sensor, one.torque_sensor)])
+            found.append([stored(mbs, sensor) for sensor in sensors])
     (tip, torque), (own_tip, own_torque) = found
     # Newton stops at 1e-9 EI/L² in either, and constraint forces amplify that.
     assert own_tip == pytest.approx(tip, abs=1e-9 * beam.length)
@@ -163,10 +165,11 @@ def test_a_free_hub_and_its_blades_keep_angular_momentum(beam, element):
         ends = 0.5 + beam.length, 0.5
         straight = beam.mass_per_length * (ends[0] ** 3 - ends[1] ** 3) / 3.0 + 0.2
         assert before == pytest.approx(2.0 * 2.0 * straight, rel=1e-3)
+        sensors = [one.add_torque_sensor(mbs) for one in blades]
         solve(mbs, blades[0], duration=0.8, step=2e-3, every=1)
         gain = sum(momentum(mbs, one) for one in blades) - before
         rate = mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)[2]
-        given = sum(trapezoid(stored(mbs, b.torque_sensor)[:, 0], dx=2e-3) for b in blades)
+        given = sum(trapezoid(stored(mbs, sensor)[:, 0], dx=2e-3) for sensor in sensors)
     # The blades start unstretched, and the waves that this makes cost 2e-5 at this step.
     assert inertia * (rate - 2.0) + gain == pytest.approx(impulse, abs=5e-5 * impulse)
     assert given == pytest.approx(gain, rel=5e-5)
