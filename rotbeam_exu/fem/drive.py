@@ -77,18 +77,21 @@ def clamp_to_body(
             "add one to your hub, at its axis"
         )
     reference = chain.reference(mbs)
-    radius, c, s = reference[0, 0], math.cos(azimuth), math.sin(azimuth)
-    seat = np.eye(4)
-    seat[:2, [0, 1, 3]] = [[c, -s, radius * c], [s, c, radius * s]]
+    c, s, sections = math.cos(azimuth), math.sin(azimuth), element.sections(reference)
+    about, seat = np.eye(4), np.eye(4)
+    about[:2, :2] = [[c, -s], [s, c]]
+    seat[: element.dimensions, 3] = reference[0, : element.dimensions]
+    if sections is not None:
+        seat[:3, :3] = sections[0]
     ends = (
         items.MarkerBodyRigid(
-            bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ seat
+            bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ about @ seat
         ),
         items.MarkerNodeRigid(nodeNumber=chain.nodes[0]),
     )
     joint = mbs.AddObject(
         items.ObjectJointGeneric(
-            markerNumbers=[mbs.AddMarker(end) for end in ends], constrainedAxes=[1, 1, 0, 0, 0, 1]
+            markerNumbers=[mbs.AddMarker(end) for end in ends], constrainedAxes=element.joint
         )
     )
     add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
@@ -100,19 +103,22 @@ def clamp_to_body(
     )
     if turn[8] < 1.0 - 1e-9:
         raise ValueError(
-            "the blade bends in the global x-y plane, and the z axis of its marker is "
+            "the blade begins in the global x-y plane, and the z axis of its marker is "
             f"{turn[2::3].round(6)}: turn the marker by its localHT"
         )
     set_state(
         mbs, chain, element, reference, np.zeros_like(reference),
         angle=azimuth + math.atan2(turn[3], turn[0]), rate=float(spin[2]),
-        place=place[:2], velocity=velocity[:2],
+        place=place[: element.dimensions], velocity=velocity[: element.dimensions],
     )  # fmt: skip
 
     def torque(mbs: Any, t: float) -> float:
-        # Exudyn reports the moment on the blade, and the force on the body.
-        moment = mbs.GetObjectOutput(joint, kind.TorqueLocal)[2]
-        return float(moment - radius * mbs.GetObjectOutput(joint, kind.ForceLocal)[1])
+        # Exudyn reports multipliers: the moment on the blade but for a sign, the force on the body.
+        moment = seat[:3, :3] @ (
+            [-1.0, 1.0, 1.0] * np.array(mbs.GetObjectOutput(joint, kind.TorqueLocal))
+        )
+        force = seat[:3, :3] @ mbs.GetObjectOutput(joint, kind.ForceLocal)
+        return float((moment - np.cross(seat[:3, 3], force))[2])
 
     return [joint], torque
 

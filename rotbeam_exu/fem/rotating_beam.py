@@ -19,24 +19,7 @@ from .frame import Frame
 from .lazily import exudyn, items
 from .loading import Loading
 from .solver import mass_matrix, newton_tolerance, solver_settings
-from .units import Units
-
-
-@dataclass(frozen=True)
-class _From:
-    """A rotation that begins at an azimuth [rad]."""
-
-    rotation: Rotation
-    azimuth: float
-
-    def angle(self, t: Any) -> Any:
-        return self.azimuth + self.rotation.angle(t)
-
-    def rate(self, t: Any) -> Any:
-        return self.rotation.rate(t)
-
-    def acceleration(self, t: Any) -> Any:
-        return self.rotation.acceleration(t)
+from .units import Restated, Units
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +40,7 @@ class RotatingBeam:
         setting angle about the normal of the plane of bending: ``torque(mbs, t)`` in your own user
         functions. `add_torque_sensor` stores it.
     clamp : tuple
-        Constraints of the root, whose forces are what the blade exerts on the clamp.
+        Constraints of the root, or its joint with the body.
     mass : csr_array
         Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
         chain's turning nodes.
@@ -155,7 +138,7 @@ def add_rotating_beam(
         Angle of the clamp's line [rad] before it turns; from the x axis of a marker.
     element, elements, frame, loads
         As in `simulate`; loads in the units of the system. At a marker the frame is inertial, and
-        loads and external damping are Exudyn's: forces on `bodies`.
+        loads and external damping are Exudyn's own, on `bodies` or `nodes`.
 
     Raises
     ------
@@ -174,6 +157,7 @@ def add_rotating_beam(
     >>> len(numbers.nodes), len(numbers.bodies), numbers.tip_marker
     (9, 8, 3)
     >>> mbs.SolveDynamic(numbers.solver_settings(duration=0.5, step=5e-3))
+    True
     """
     model, elements = formulation(element), whole_number("elements", elements)
     require_modeled(beam, model, frame)
@@ -184,8 +168,8 @@ def add_rotating_beam(
         if loads or beam.damping.external or frame != "inertial":
             raise ValueError(
                 "at a marker the angle of the clamp is not known beforehand: take "
-                "frame='inertial', a blade without external damping, and forces of Exudyn's on "
-                "bodies for loads"
+                "frame='inertial', a blade without external damping, and for loads Exudyn's own "
+                "on bodies or nodes"
             )
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
@@ -193,7 +177,7 @@ def add_rotating_beam(
     if on_body:
         constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
     else:
-        rotation = _From(rippled(clamp, loads), azimuth)
+        rotation = Restated(rippled(clamp, loads), azimuth=azimuth)
         if frame == "inertial":
             constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
         else:

@@ -90,9 +90,9 @@ def solver_settings(
 ) -> exudyn.SimulationSettings:
     """Return settings of fixed steps, in which Newton stops at a force `tolerance`.
 
-    In the rotating frame each iteration calls back into Python, and a new
-    Jacobian for each step saves iterations; so it does where an element asks for `new_jacobians`.
-    An element may also ask for another `spectral_radius` in the inertial frame.
+    In the rotating frame each iteration calls back into Python, and a new Jacobian for each step
+    saves iterations; so it does where an element asks for `new_jacobians`. An element may also ask
+    for another `spectral_radius` in the inertial frame.
     """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration

@@ -108,10 +108,10 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
 
 def require_joint(model: Formulation) -> None:
     """Refuse a formulation whose root no joint of Exudyn's holds."""
-    if not model.joins_bodies:
+    if not model.joint:
         raise ValueError(
             f"no joint clamps element {model.name!r} to the marker of a body: take "
-            f"{_any_of(lambda cls: cls.joins_bodies)}, or a prescribed rotation"
+            f"{_any_of(lambda cls: bool(cls.joint))}, or a prescribed rotation"
         )
 
 

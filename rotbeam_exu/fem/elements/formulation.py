@@ -101,8 +101,8 @@ class Formulation(Described, abstract=True):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
-    joins_bodies: ClassVar[bool] = False
-    """Whether a joint of Exudyn's holds its root on a rigid body."""
+    joint: ClassVar[tuple[int, ...]] = ()
+    """Axes that a GenericJoint of the root with a rigid body holds; none if it has no frame."""
 
     @property
     def order(self) -> float | None:
