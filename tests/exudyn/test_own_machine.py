@@ -146,6 +146,34 @@ def test_a_driven_hub_is_a_prescribed_rotation(beam, element):
     assert own_torque == pytest.approx(torque, abs=1e-8 * abs(torque).max())
 
 
+@pytest.mark.parametrize("element", ["cable", "exact", "space_exact"])
+def test_a_blade_starts_as_a_part_of_its_body(beam, element):
+    """Wherever the body is, however it moves, and wherever the marker is on it."""
+    blade, azimuth, kind = beam.with_hub_radius(0.5), 0.7, exudyn.OutputVariableType
+    if element == "space_exact":
+        blade = beam.with_shape(Rectangle()).with_hub_radius(0.5)
+    seat = np.eye(4)
+    seat[:2, [0, 1, 3]] = [[0.8, -0.6, 0.2], [0.6, 0.8, -0.1]]
+    along = (0.5 + beam.length) * np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    with exudyn_system() as mbs:
+        node = mbs.AddNode(
+            eii.NodeRigidBody2D(
+                referenceCoordinates=[1.0, 2.0, 0.3], initialCoordinates=[0.1, 0.2, 0.4],
+                initialVelocities=[3.0, -1.0, 2.0],
+            )
+        )  # fmt: skip
+        body = mbs.AddObject(eii.ObjectRigidBody2D(mass=1.0, inertia=1.0, nodeNumber=node))
+        marker = mbs.AddMarker(eii.MarkerBodyRigid(bodyNumber=body, localHT=seat))
+        end = seat[:3, :3] @ along + seat[:3, 3]
+        there = mbs.AddMarker(eii.MarkerBodyRigid(bodyNumber=body, localPosition=end))
+        one = add_rotating_beam(mbs, blade, marker, azimuth=azimuth, element=element, elements=2)
+        mbs.Assemble()
+        for variable in (kind.Position, kind.Velocity):
+            found, expected = (mbs.GetMarkerOutput(m, variable) for m in (one.tip_marker, there))
+            assert found == pytest.approx(expected, abs=1e-12 * beam.length)
+            assert np.linalg.norm(expected) > 1.0
+
+
 @pytest.mark.parametrize("element", ["ancf3", "space_cable", "space_exact"])
 def test_the_torque_is_what_changes_the_momentum(beam, element):
     """Of elements that no joint clamps, too; from an azimuth, on a hub, with a precone."""
