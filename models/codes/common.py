@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import hashlib
 import os
 import subprocess
 import sys
 import tempfile
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -51,9 +50,14 @@ def called(entry: Entry) -> Callable[[Case, int, float], FloatArray]:
 
     def history(case: Case, elements: int, step: float) -> FloatArray:
         run = entry.simulate(case, elements=elements, step=step)
-        return np.asarray(CubicSpline(run["time"].to_numpy(), run["q"].to_numpy())(times(case)))
+        return sampled(case, run["time"].to_numpy(), run["q"].to_numpy())
 
     return history
+
+
+def sampled(case: Case, time: FloatArray, q: FloatArray) -> FloatArray:
+    """Return q at `times` from a code's own samples, (samples,), a hundred a period or more."""
+    return np.asarray(CubicSpline(time, q)(times(case)))
 
 
 def cpu() -> float:
@@ -133,7 +137,7 @@ def _run(
 
 def record(folder: Path, seconds: float) -> None:
     """Write record.toml beside a submission: its outcomes, their files, and `calibration` [s]."""
-    found, today = judged(read_submission(folder)), datetime.date.today()
+    found, today = judged(read_submission(folder)), dt.date.today()
     lines = [
         f"date = {today}", f"calibration_s = {seconds:.3g}", f'digest = "{digest(folder)}"', "",
         "[outcomes]",
@@ -141,11 +145,6 @@ def record(folder: Path, seconds: float) -> None:
     ]  # fmt: skip
     (folder.parent / "record.toml").write_text("\n".join(lines) + "\n")
     print(found)
-
-
-def recorded(name: str) -> dict[str, object]:
-    """Return the record of a folder."""
-    return tomllib.loads((HERE / name / "record.toml").read_text())
 
 
 def outcomes(found: Judgement) -> dict[str, str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import SPACING, compiled, take_part
+from common import compiled, sampled, take_part
 
 from rotbeam_exu.verification.cases import Case
 from rotbeam_exu.verification.kit import STATIC, write_kit
@@ -34,9 +34,9 @@ def table(case: Case, n: int, step: str, name: str):
 
 
 def history(case: Case, n: int, h: float):
-    """Take the samples that are asked for from those that it writes, 10 ms apart or a step."""
+    """Start at rest, or on the orbit of the case."""
     time, q, _ = table(case, n, f"{h}", f"{case.name}/m{n:03d}_h{h}.csv").T
-    return q[:: round(SPACING / time[1])]
+    return sampled(case, time, q)
 
 
 @cache

@@ -15,7 +15,9 @@ from rotbeam_exu.verification.case_rows import row_of
 from rotbeam_exu.verification.cases import Case
 from rotbeam_exu.verification.submission import Declaration
 
-NUMBERS = "L EA EI rhoA hub_radius tip_mass bending_damping gravity omega T".split()
+NUMBERS = (
+    "L", "EA", "EI", "rhoA", "hub_radius", "tip_mass", "bending_damping", "gravity", "omega", "T",
+)  # fmt: skip
 
 
 @cache
@@ -41,8 +43,9 @@ def history(case: Case, n: int, h: float):
     if not case.is_spun_up:
         x = np.linspace(0.0, case.blade.length, n + 1)
         s = case.orbit.state(0, x)
-        state = [x + s.u, s.v, 1 + s.u_slope, s.v_slope, s.u_dot, s.v_dot, s.u_slope_dot, s.v_slope_dot]
-        start = "\n".join(map(str, np.column_stack(state).ravel().tolist()))
+        places = [x + s.u, s.v, 1.0 + s.u_slope, s.v_slope]
+        rates = [s.u_dot, s.v_dot, s.u_slope_dot, s.v_slope_dot]
+        start = "\n".join(map(str, np.column_stack(places + rates).ravel().tolist()))
     of = "orbit" if start else "history"
     return rod(case, n, of, h, round(SPACING / h), round(case.duration / h), start=start)
 
