@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -23,7 +24,7 @@ _SYMBOLS = {
     "nonlinear shift": "$ω_{NL}/ω_n - 1$", "backbone": "$ω_{NL}/ω_n - 1$",
 }  # fmt: skip
 _MARKERS = "osD^v"
-_MOST_POINTS = 3000  # of a curve: more are not seen
+_MOST_POINTS = 1000  # of a curve: more are not seen
 
 
 def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]:
@@ -62,15 +63,21 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
 
 
 def svg(axes: Axes) -> str:
-    """Return the figure of `axes` as the text of an SVG, letters as curves, and close it."""
+    """Return the figure of `axes` as an SVG element for a page, small, and close it."""
     import matplotlib.pyplot as plt  # noqa: PLC0415
 
     figure: Any = axes.get_figure(root=True)
     text = io.StringIO()
-    with mpl.rc_context({**STYLE, "svg.fonttype": "path", "svg.hashsalt": "rotbeam"}):
+    # Letters as text, in one font: curves of letters, or all fonts' names, are most of a file.
+    letters: Any = {"svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans", "Arial"]}
+    with mpl.rc_context({**STYLE, **letters}):
         figure.savefig(text, format="svg", metadata={"Date": None})
     plt.close(figure)
-    return text.getvalue()
+    element = text.getvalue()[text.getvalue().index("<svg") :]
+    small = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", element, flags=re.DOTALL)
+    # Hundredths of a point are not seen; only markers and clips are referred to.
+    small = re.sub(r'(?<=[ "(]|-)(\d+\.\d\d)\d+', r"\1", re.sub(r"\s*\n\s*", " ", small))
+    return re.sub(r' id="[\w.]+_\d+"', "", small)
 
 
 def _history(histories: Histories) -> Axes:
@@ -175,4 +182,4 @@ def _whole_decades(ax: Axes) -> None:
     """Let the axis of errors begin and end at powers of ten, and label these alone."""
     low, high = ax.get_ylim()
     ax.set_ylim(10.0 ** math.floor(math.log10(low)), 10.0 ** math.ceil(math.log10(high)))
-    ax.yaxis.set_minor_formatter(mpl.ticker.NullFormatter())
+    ax.yaxis.set_minor_locator(mpl.ticker.NullLocator())

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from rotbeam_exu.report.document import SCHEMA, Record, document
+from rotbeam_exu.report.latex import latex_table
 from rotbeam_exu.report.page import TITLE, report_page
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
@@ -107,6 +108,28 @@ def test_what_an_author_writes_is_text(pages, wrong):
     assert "A usual mistake?" in text
     assert "q has the wrong sign" in text
     assert "differs" in text
+
+
+def test_the_matrix_has_all_cases_and_what_is_missing(pages, right):
+    outcomes = pages["right"].split("<h2>Outcomes</h2>")[1].split("</table>")[0]
+    rows = re.findall("<tr><td>(.*?)</td>", outcomes)
+    assert rows == list(right.judgement.asked)
+    assert outcomes.count("not submitted") == 10
+
+
+def test_a_page_of_twelve_cases_is_less_than_a_megabyte(pages):
+    """Two cases here, one of them with two figures."""
+    assert len(pages["right"].encode()) < 1e6 / 6
+
+
+def test_the_table_for_a_paper_has_a_row_for_each_case(right, wrong):
+    rows = [line for line in latex_table(right).splitlines() if line.endswith("\\\\")]
+    assert [row.split("&")[0].strip() for row in rows] == ["Case", "L", "S1"]
+    limit = right.judgement.findings["S1"]["history"].runs
+    mantissa, power = f"{limit.bar:.1e}".split("e")
+    assert f"$\\pm$ ${mantissa} \\cdot 10^{{{int(power)}}}$" in rows[2]
+    assert "2.0 \\pm" in rows[2]
+    assert r"""<script>alert('ω \& "x"')</script> \$d \{e\}""" in latex_table(wrong)
 
 
 def test_the_document_is_json_and_says_all(right):
