@@ -79,4 +79,4 @@ if __name__ == "__main__":
         order=2.0, order_in_step=2.0,
     )  # fmt: skip
     runs = [(32, "2e-3"), (64, "2e-3"), (32, "4e-3"), (32, "1e-3"), (128, "2e-3")]
-    take_part(__file__, told, history, {"S1": runs}, frequency, (32, 64, 128))
+    take_part(__file__, told, history, {"S1": runs}, frequency, (64, 128, 256))
