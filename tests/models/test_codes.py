@@ -1,4 +1,4 @@
-"""Other codes: today's judge says of their folders what their records say, and nobody wrote in them."""
+"""Other codes: today's judge says of their folders what their records say."""
 
 import shutil
 import sys
@@ -54,7 +54,7 @@ def test_a_changed_file_is_noticed(tmp_path):
 
 def test_times_at_equal_error_are_read_between_the_best_runs():
     class Stub(overview.Code):
-        runs = [(1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3)]
+        runs = ((1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3))
 
     code = Stub(None, 1.0)
     assert code.front == [(1.0, 1e-1), (4.0, 1e-3)]
