@@ -72,6 +72,7 @@ def take_part(
     runs: Mapping[str, Sequence[tuple[int, str]]],
     frequency: Callable[[Case, int, float], float] | None = None,
     meshes: Sequence[int] = (),
+    speeds: Sequence[float] = CASES["L"].speeds,
 ) -> None:
     """Write a submission beside a script, and record it. Runs that it has already are kept.
 
@@ -87,7 +88,7 @@ def take_part(
         By name of the case, meshes and steps as their files are named.
     frequency : callable, optional
         (case, elements, speed [rad/s]) -> first natural frequency [rad/s].
-    meshes : sequence of int
+    meshes, speeds : sequence
         Of the frequencies.
     """
     folder = Path(script).parent / "submission"
@@ -99,7 +100,7 @@ def take_part(
         rows = [
             f"{elements},{speed:g},{frequency(CASES['L'], elements, speed):.12g}\n"
             for elements in meshes
-            for speed in CASES["L"].speeds
+            for speed in speeds
         ]
         (folder / "L.csv").write_text("elements,speed,frequency\n" + "".join(rows))
     table = folder / "runs.csv"

@@ -20,6 +20,7 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order
 from rotbeam_exu.verification.judgement import Judgement, judged
 from rotbeam_exu.verification.outcomes import worst_of
+from rotbeam_exu.verification.submission import Submission
 from rotbeam_exu.verification.submission_files import read_submission
 
 CASE, ERRORS = "S1", (1e-2, 1e-3)
@@ -30,6 +31,7 @@ CASE, ERRORS = "S1", (1e-2, 1e-3)
 class Code:
     """A folder, judged today; `unit` is the CPU time of the kit's starter there [s]."""
 
+    handed: Submission
     found: Judgement
     unit: float
 
@@ -41,7 +43,12 @@ class Code:
     def verdict(self, case: str) -> str:
         """Return the worst outcome of a case; nothing of one that was not submitted."""
         findings = list(self.found.findings.get(case, {}).values())
-        return worst_of(findings).said.replace(" to the reference", "") if findings else ""
+        if not findings:
+            return ""
+        said = worst_of(findings).said.replace(" to the reference", "")
+        speeds = sorted({one.speed for one in self.handed.frequencies})
+        whole = case != "L" or len(speeds) == len(CASES["L"].speeds)
+        return said if whole else f"{said} (only at {', '.join(map('{:g}'.format, speeds))} rad/s)"
 
     @property
     def runs(self) -> list[tuple[float, float]]:
@@ -70,7 +77,8 @@ def codes() -> list[Code]:
     made = []
     for record in sorted(HERE.glob("*/record.toml")):
         unit = float(tomllib.loads(record.read_text())["calibration_s"])
-        made.append(Code(judged(read_submission(record.parent / "submission")), unit))
+        handed = read_submission(record.parent / "submission")
+        made.append(Code(handed, judged(handed), unit))
     return sorted(made, key=lambda one: one.name.lower())
 
 

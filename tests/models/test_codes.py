@@ -56,7 +56,7 @@ def test_times_at_equal_error_are_read_between_the_best_runs():
     class Stub(overview.Code):
         runs = ((1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3))
 
-    code = Stub(None, 1.0)
+    code = Stub(None, None, 1.0)
     assert code.front == [(1.0, 1e-1), (4.0, 1e-3)]
     # Half of the way in logarithms.
     assert code.cost(1e-2) == "2"

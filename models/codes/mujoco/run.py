@@ -51,8 +51,8 @@ def history(case: Case, n: int, h: float):
             data.qpos[0] = angle[k + 1]
             mujoco.mj_kinematics(model, data)
             tip.append(complex(*data.site("tip").xpos[:2]))
-    if any(warning.number for warning in data.warning):
-        raise RuntimeError("unstable: MuJoCo warns of large accelerations")
+            if any(warning.number for warning in data.warning):
+                raise RuntimeError(f"unstable at {t[k]:.3g} s: MuJoCo warns of large accelerations")
     return across(case, tip)
 
 
