@@ -54,6 +54,6 @@ if __name__ == "__main__":
     )  # fmt: skip
     plain = [(32, "4e-3"), (64, "4e-3"), (128, "4e-3"), (64, "1e-2"), (64, "2e-3")]
     finer = [(64, "2e-3"), (128, "2e-3"), (256, "2e-3"), (128, "4e-3"), (128, "1e-3")]
-    runs = {"S1": plain, "S2": plain, "O": plain, "S4": finer}
+    runs = {"S1": [*plain, (256, "2e-3"), (512, "2e-3")], "S2": plain, "O": plain, "S4": finer}
     meshes = (64, 128, 256)
     take_part(__file__, told, history, runs, lambda *of: frequencies(*of[:2])[of[2]], meshes)

@@ -29,5 +29,5 @@ if __name__ == "__main__":
     )  # fmt: skip
     plain = [(8, "2e-3"), (16, "2e-3"), (32, "2e-3"), (16, "4e-3"), (16, "1e-3")]
     finer = [(16, "1e-3"), (32, "1e-3"), (64, "1e-3"), (32, "2e-3"), (32, "5e-4")]
-    runs = {"S1": plain, "S2": plain, "O": plain, "S4": finer}
+    runs = {"S1": [*plain, (8, "4e-3")], "S2": plain, "O": plain, "S4": finer}
     take_part(__file__, told, history, runs, frequency, (8, 16, 32))
