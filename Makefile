@@ -4,6 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 OLDEST := .venv-oldest
+CODES := .codes
 # Linear algebra here is small: threads would only get in each other's way.
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
@@ -27,10 +28,10 @@ references: $(VENV)/.kit  ## the benchmark's reference data and its problem stat
 	$(BIN)/python -m rotbeam_exu.verification.regenerate
 	$(BIN)/python -m rotbeam_exu.verification.kit
 
-codes: .codes/.made  ## other codes run the benchmark anew, in an hour; wants g++ and CalculiX's ccx
+codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++ and CalculiX's ccx
 	for script in models/codes/*/run.py; do \
-	  rm -rf $$(dirname $$script)/submission; .codes/bin/python $$script || exit 1; done
-	.codes/bin/python models/codes/overview.py
+	  rm -rf $$(dirname $$script)/submission; $(CODES)/bin/python $$script || exit 1; done
+	$(CODES)/bin/python models/codes/overview.py
 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
@@ -92,10 +93,10 @@ $(VENV)/.peers: $(VENV)/.dev
 	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev
 	touch $@
 
-.codes/.made: pyproject.toml constraints.txt
-	$(PYTHON) -m venv .codes
-	.codes/bin/python -m pip install -q "pip>=25.1"
-	.codes/bin/python -m pip install -q -c constraints.txt -e ".[peers]" --group codes
+$(CODES)/.made: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(CODES)
+	$(CODES)/bin/python -m pip install -q "pip>=25.1"
+	$(CODES)/bin/python -m pip install -q -c constraints.txt -e ".[peers]" --group codes
 	touch $@
 
 $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
@@ -105,4 +106,4 @@ $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) .codes results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(CODES) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
