@@ -129,13 +129,8 @@ def settled_functions(
         If the most functions still change them by more than 1e-5.
     """
     sizes = basis_sizes(blade, w_bar)
-    _, found, change = settled(solve, iter(sizes), tolerance, of)
-    if change > max(tolerance, _KINKED):
-        raise ValueError(
-            f"{name} has not settled with {sizes[-1]} functions: the last third of them changes it "
-            f"by {change:.1e}; rotate slower, or smooth the section"
-        )
-    return found
+    remedy = "rotate slower, or smooth the section"
+    return settled(solve, iter(sizes), tolerance, of, name, remedy, left=_KINKED)[1]
 
 
 @lru_cache(maxsize=16)

@@ -18,18 +18,29 @@ def settled(
     sizes: Iterator[SizeT],
     tolerance: float,
     of: Callable[[FoundT], ArrayLike],
+    what: str,
+    remedy: str,
+    *,
+    left: float = 0.0,
 ) -> tuple[FoundT, FoundT, float]:
     """Return a result, the finer result that confirms it, and the largest change.
 
-    They are the first two in a row whose numbers `of` a result agree to the tolerance, or the last
-    two of all sizes: then the caller refuses. Logarithms give relative changes.
+    They are the first two in a row whose numbers `of` a result agree to the tolerance; logarithms
+    give relative changes. Of all sizes the last two may differ by what is `left`.
+
+    Raises
+    ------
+    ValueError
+        If they differ by more: the sentence says in `what`, and ends on the remedy.
     """
     found, change = solve(next(sizes)), math.inf
     for size in sizes:
         before, found = found, solve(size)
         change = float(np.max(np.abs(np.subtract(of(found), of(before)))))
         if change <= tolerance:
-            break
+            return before, found, change
+    if change > left:
+        raise ValueError(f"the finest two solutions differ by {change:.1e} in {what}; {remedy}")
     return before, found, change
 
 

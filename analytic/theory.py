@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from .beam import AnyBlade
 from .input_checks import flag, positive, shown
-from .profiles import evaluated, in_units
-from .unit_blade import UnitBlade
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,41 +66,6 @@ class Theory:
         if self.shear is not None:
             return "Timoshenko"
         return "with rotary inertia" if self.rotary_inertia else "Bernoulli-Euler"
-
-    def slenderness(self, beam: AnyBlade) -> float:
-        """Return μ = I/(AL²) of a blade, zero for a blade that does not stretch."""
-        return beam.slenderness if self.extension else 0.0
-
-    def require_shear(self, beam: AnyBlade) -> None:
-        """Refuse a number for sections that tell their shear stiffness, and True for others."""
-        if self.shear is not None and (self.shear is True) != beam.section.at_stations:
-            raise ValueError(
-                f"shear = {self.shear} does not fit the blade: a blade from stations tells its "
-                "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
-                "Theory(shear=0.32)"
-            )
-
-    def unit(self, beam: AnyBlade) -> UnitBlade:
-        """Return a blade without dimensions, with the rotary inertia of its slices.
-
-        Raises
-        ------
-        ValueError
-            If the section tells no rotary inertia, and has no one ρ/E to take it from.
-        """
-        self.require_shear(beam)
-        blade = beam.unit
-        told = beam.section.rotary_inertia is not None
-        if told or not self.rotary_inertia:
-            return blade
-        x = np.linspace(0.0, 1.0, 257)
-        if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
-            raise ValueError(
-                "mass and axial stiffness of the blade do not vary alike, so that its sections "
-                "have no one ρ/E to take their rotary inertia from: give "
-                "Section(rotary_inertia=...) in kg m"
-            )
-        return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
 
 
 BERNOULLI_EULER = Theory()

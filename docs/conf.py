@@ -41,7 +41,7 @@ extensions = [
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
 suppress_warnings = [
     "config.cache",  # the gallery's sort keys do not pickle
-    "ref.python",  # a name that several modules have, as Case, is no broken link
+    "ref.python",  # a name that several modules have is no broken link
 ]
 
 # Links: all of ours have to resolve. Types of other projects do not, for nothing is fetched.

@@ -3,7 +3,7 @@ A real blade: NREL's 5 MW
 =========================
 
 Its 49 stations have twist, offsets of the centers of mass and a cone, so that flap, lag and torsion
-come together. The first and third mode are mostly flap, the others lag, which hardly stiffens.
+come together. The first and third mode are mostly flap, the second lag, which hardly stiffens.
 """
 
 from pathlib import Path
@@ -18,7 +18,7 @@ from rotbeam_exu.files.beam_file import load_beam
 plt.style.use(figures.STYLE)
 blade = load_beam(Path(figures.__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml")
 rated, theory = 1.267, Theory(extension=False)  # 12.1 rpm
-diagram = campbell(blade, np.linspace(0.0, 1.6, 5), count=4, orders=3)
+diagram = campbell(blade, np.linspace(0.0, 1.6, 5), count=3, orders=3)
 orbits = periodic_orbits(blade, rated, [0.05], gauge="flap", theory=theory, functions=6)
 motion, times = SpinUp(omega=rated, ramp_time=4.0), np.linspace(0.0, 6.0, 121)
 start = spin_up_response(blade, motion, times, tolerance=1e-3, theory=theory)

@@ -13,13 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from analytic import (
-    AmplitudeNotReachedError,
-    AnyBlade,
-    ForcedResponse,
-    Orbits,
-)
+from analytic import AmplitudeNotReachedError, AnyBlade
+from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
+from analytic.exact.free.orbits import Orbits
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.loads import Load, rippled

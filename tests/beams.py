@@ -1,5 +1,9 @@
 """Beams and blades that tests in several folders share."""
 
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.linalg import eigsh
+
 from analytic import Beam, Blade, Section
 from analytic.quadrature import gauss_points, transverse_basis
 
@@ -35,3 +39,30 @@ def deflection_matrices(w_bar, count):
     M = phi.T * weights @ phi
     stiffening = 0.5 * w_bar**2 * slope.T * (weights * (1.0 - x**2)) @ slope
     return curvature.T * weights @ curvature + stiffening - w_bar**2 * M, M
+
+
+def finite_elements(nodes, frames, stiffness, mass, count):
+    """Lowest frequencies [rad/s] of a clamped line of linear shear-flexible elements at rest.
+
+    Of nodes (n + 1, 3), and at the middles sections' axes in columns, (n, 3, 3), with 6x6 matrices
+    (n, 6, 6) in these: strains r' + t x turn and turn', in the middle alone, which does not lock.
+    """
+    step = np.diff(nodes, axis=0)
+    h = np.linalg.norm(step, axis=1)[:, None, None]
+    n = len(step)
+    turn = np.zeros((n, 6, 6))
+    turn[:, :3, :3] = turn[:, 3:, 3:] = np.swapaxes(frames, 1, 2)
+    strain = np.concatenate([-np.tile(np.eye(6), (n, 1, 1)) / h, np.eye(6) / h], axis=2)
+    across = np.cross(np.eye(3), -(step[:, None] / h)).swapaxes(1, 2)
+    strain[:, :3, 3:6] += 0.5 * across
+    strain[:, :3, 9:] += 0.5 * across
+    strain = turn @ strain
+    K = h * (strain.swapaxes(1, 2) @ stiffness @ strain)
+    M = h * (turn.swapaxes(1, 2) @ mass @ turn)
+    M = np.concatenate([np.tile(M, (1, 1, 2)), np.tile(M, (1, 1, 2))], axis=1) / 6.0
+    M[:, :6, :6] *= 2.0
+    M[:, 6:, 6:] *= 2.0
+    at = 6 * np.arange(n)[:, None] + np.arange(12)
+    places = np.repeat(at, 12, axis=1).ravel(), np.tile(at, (1, 12)).ravel()
+    K, M = (coo_array((one.ravel(), places)).tocsc()[6:, 6:] for one in (K, M))
+    return np.sort(np.sqrt(eigsh(K, count, M, sigma=0.0, return_eigenvectors=False)))

@@ -25,8 +25,9 @@ GROUPS = (
     _group(
         "Beam and blade",
         "The rotating body: its lengths, sections, masses and damping.",
-        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Circle Tube OutOfPlane "
+        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Circle Tube "
         "AnyBlade Theory",
+        analytic__section="OutOfPlane",
     ),
     _group(
         "Motion and loads",
@@ -47,7 +48,9 @@ GROUPS = (
     _group(
         "Backbone",
         "Exact frequency over amplitude: single orbits, a series, branches beyond folds.",
-        analytic="periodic_orbits Orbits AmplitudeNotReachedError backbone Backbone backbone_curve",
+        analytic="periodic_orbits AmplitudeNotReachedError backbone backbone_curve",
+        analytic__exact__free__orbits="Orbits",
+        analytic__exact__free__backbone="Backbone",
         analytic__exact__beam__state="BeamState",
         analytic__exact__free__curve="BackboneCurve",
         analytic__exact__free__branches="BackboneBranch",
@@ -57,7 +60,8 @@ GROUPS = (
     _group(
         "Forced response",
         "The response of damped blades to loads, through folds.",
-        analytic="forced_response ForcedResponse ResponseNotReachedError",
+        analytic="forced_response ResponseNotReachedError",
+        analytic__exact__driven__forced_orbits="ForcedResponse",
     ),
     _group(
         "Spin-up",
@@ -77,7 +81,8 @@ GROUPS = (
     _group(
         "Reduced models",
         "The models of the paper, and improved ones.",
-        analytic="reduced_model ReducedModel VARIANTS Variant paper_table",
+        analytic="reduced_model VARIANTS Variant paper_table",
+        analytic__reduced__model="ReducedModel",
         analytic__reduced__speeds="softening_speed divergence_speed",
     ),
     _group(

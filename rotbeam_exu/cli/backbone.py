@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
@@ -18,6 +18,10 @@ from analytic.warning import warn
 from .motion import Config, Omega, configured, omega_of
 from .options import Amplitudes, Flag, VariantName, Whole
 from .output import Format, print_columns, print_note
+
+if TYPE_CHECKING:
+    from analytic.exact.free.orbits import Orbits
+    from analytic.reduced.model import ReducedModel
 
 Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
@@ -112,7 +116,7 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 def _exact(
     beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
-) -> tuple[analytic.Orbits, str]:
+) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
@@ -123,7 +127,7 @@ def _exact(
 
 
 def _frequencies(
-    models: list[analytic.ReducedModel], amplitude: list[float], refused: list[Refusal]
+    models: list[ReducedModel], amplitude: list[float], refused: list[Refusal]
 ) -> dict[str, list[Any]]:
     """Return the columns of the models, and add to `refused` why some have no number."""
     if not models:
@@ -159,9 +163,7 @@ def _each(
     return found
 
 
-def _exact_columns(
-    orbits: analytic.Orbits, amplitude: list[float], times: int
-) -> dict[str, list[float]]:
+def _exact_columns(orbits: Orbits, amplitude: list[float], times: int) -> dict[str, list[float]]:
     found = [
         orbits.frequency[near[0]] if near.size else math.nan
         for a in amplitude
@@ -173,9 +175,7 @@ def _exact_columns(
     return columns
 
 
-def _print_coefficients(
-    models: list[analytic.ReducedModel], orbits: analytic.Orbits | None, omega: float
-) -> None:
+def _print_coefficients(models: list[ReducedModel], orbits: Orbits | None, omega: float) -> None:
     """Print one row of coefficients for each model, and one for the exact beam."""
     columns: dict[str, list[str]] = {"variant": [model.variant.name for model in models]}
     for title, name, form in (

@@ -16,7 +16,14 @@ from ..files.results import writable_folder
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import refuse_to_replace, saved
-from .motion import Motion, chosen_motion, chosen_speeds, chosen_times, configured, grid_motion
+from .motion import (
+    ChosenMotion,
+    chosen_motion,
+    chosen_speeds,
+    chosen_times,
+    configured,
+    grid_motion,
+)
 from .options import RESULTS, WORKERS, Results, Workers
 from .output import formatted, print_columns, print_note, print_written
 
@@ -91,7 +98,7 @@ def _uniform(beam: AnyBlade) -> Beam:
     return known
 
 
-def _even(motion: Motion) -> Motion:
+def _even(motion: ChosenMotion) -> ChosenMotion:
     """Return the motion with an even number of steps, for twice the step has to fit as well."""
     steps = round(motion.duration / motion.step)
     return replace(motion, step=motion.duration / (steps + 1)) if steps % 2 else motion

@@ -53,7 +53,7 @@ _STEADY_PERIODS = 5.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Motion:
+class ChosenMotion:
     """A spin-up, its end and the integrator's step [s]."""
 
     spin_up: SpinUp
@@ -87,7 +87,7 @@ def chosen_motion(
     ramp_time: float | None = None,
     duration: float | None = None,
     step: float | None = None,
-) -> Motion:
+) -> ChosenMotion:
     """Return the motion given, completed with the paper's values scaled by ω_0.
 
     Speeds go with ω_0 and times with 1/ω_0, to two digits. The step is the next of 1, 2, 5 times a
@@ -113,7 +113,7 @@ def chosen_motion(
         fitted = duration / _whole_steps(duration, fine)
         # The number as printed, where round-off is all that sets them apart.
         step = fine if math.isclose(fitted, fine, rel_tol=1e-12) else fitted
-    return Motion(spin_up=spin_up, duration=duration, step=step)
+    return ChosenMotion(spin_up=spin_up, duration=duration, step=step)
 
 
 def configured(config: Path | None) -> RunFile:
@@ -131,7 +131,7 @@ def omega_of(file: RunFile, omega: float | None) -> float:
     return known
 
 
-def motion_of(file: RunFile, **options: float | None) -> Motion:
+def motion_of(file: RunFile, **options: float | None) -> ChosenMotion:
     """Return `chosen_motion` of the options given, then of the file's [motion]."""
     given = {name: value for name, value in options.items() if value is not None}
     return chosen_motion(file.beam, **{**file.motion, **given})
@@ -144,7 +144,7 @@ def grid_motion(
     *,
     duration: float | None = None,
     step: float | None = None,
-) -> Motion:
+) -> ChosenMotion:
     """Return duration and step for a whole grid: of the longest ramp and of the shortest."""
     for omega in omegas:
         SpinUp(omega=omega, ramp_time=1.0)

@@ -18,11 +18,11 @@ from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
 from .job import telling_what_is_kept
-from .motion import Motion
+from .motion import ChosenMotion
 from .output import counter
 
 if TYPE_CHECKING:
-    from ..fem.case import Case
+    from ..fem.case import RunCase
 
 
 def whole(_: Any, tokens: Sequence[Token]) -> int:
@@ -147,13 +147,13 @@ class Discretization:
         """Formulation and options for a reader."""
         return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
 
-    def case(self, beam: AnyBlade, motion: Motion) -> Case:
+    def case(self, beam: AnyBlade, motion: ChosenMotion) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
-        from ..fem.case import Case
+        from ..fem.case import RunCase
         from ..fem.elements import formulation
 
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
-        return Case(
+        return RunCase(
             beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
             element=formulation(f"{self.element}", self.options), **mesh,
         )  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields, make_dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
@@ -20,6 +20,9 @@ from .job import Job, UnfinishedError
 from .motion import Config, configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
 from .output import formatted, print_columns
+
+if TYPE_CHECKING:
+    from analytic.exact.driven.forced_orbits import ForcedResponse
 
 
 def _option(kind: type[Load]) -> str:
@@ -181,7 +184,7 @@ def respond(
         "functions": functions,
     }  # fmt: skip
 
-    def computed() -> analytic.ForcedResponse:
+    def computed() -> ForcedResponse:
         theory = analytic.Theory(extension=not inextensible)
         how: Any = {"theory": theory, "functions": functions}
         try:

@@ -15,7 +15,7 @@ from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
 from .output import bar, print_line
 
 if TYPE_CHECKING:
-    from ..fem.case import Case
+    from ..fem.case import RunCase
     from ..runs.oscillation import SteadyOscillation
     from ..verification.assessment import Assessment
 
@@ -77,7 +77,7 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
-def _computed(case: Case) -> xr.Dataset:
+def _computed(case: RunCase) -> xr.Dataset:
     from ..fem.simulation import run_case
 
     try:
@@ -89,7 +89,7 @@ def _computed(case: Case) -> xr.Dataset:
         raise UnfinishedError(error.run, "computed") from error
 
 
-def _inputs(case: Case, element: str) -> list[tuple[str, str]]:
+def _inputs(case: RunCase, element: str) -> list[tuple[str, str]]:
     """Return the lines on the inputs of the run."""
     beam = case.beam
     return [

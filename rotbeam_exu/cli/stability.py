@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import analytic
-from analytic.exact.plane.planarity import LEAST_GROWTH
+from analytic.exact.plane.growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
 from ..runs.attributes import beam_attributes

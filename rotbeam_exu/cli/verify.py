@@ -16,7 +16,7 @@ from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
-from .motion import Config, Motion, configured, motion_of, slower_than_paper
+from .motion import ChosenMotion, Config, configured, motion_of, slower_than_paper
 from .options import Flag, element_names, spelled_as
 from .output import counter, print_columns, print_note, print_text
 
@@ -94,7 +94,9 @@ def _entry(name: str) -> Entry:
     return peer(name)
 
 
-def _print_verdicts(entries: tuple[Entry, ...], beam: AnyBlade | None, motion: Motion) -> None:
+def _print_verdicts(
+    entries: tuple[Entry, ...], beam: AnyBlade | None, motion: ChosenMotion
+) -> None:
     from ..verification.verify import verify as verification_of
 
     spin_up = None if beam is None else motion.spin_up
@@ -105,7 +107,9 @@ def _print_verdicts(entries: tuple[Entry, ...], beam: AnyBlade | None, motion: M
     print_judgements(found, "the paper's beam" if beam is None else _named(motion))
 
 
-def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: Motion) -> None:
+def _print_costs(
+    entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: ChosenMotion
+) -> None:
     from ..verification.verify import LADDER, cost_at_error
 
     columns: dict[str, list[str]] = {"code": [entry.name for entry in entries]}
@@ -128,7 +132,7 @@ def _print_costs(entries: tuple[Entry, ...], error: float, beam: AnyBlade, motio
     )
 
 
-def _named(motion: Motion) -> str:
+def _named(motion: ChosenMotion) -> str:
     return f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
 
 

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Beam, Orbits, SpinUp, periodic_orbits, reduced_model
+from analytic import Beam, SpinUp, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
+from analytic.exact.free.orbits import Orbits
 from analytic.lazily import interpolate
 
 from ..datasets import OMEGA, dataset, labeled

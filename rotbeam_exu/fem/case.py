@@ -28,7 +28,7 @@ from .frame import Frame
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
+class RunCase:
     """One run of the beam: the only place where one is validated and its element looked up.
 
     Parameters
@@ -79,7 +79,7 @@ class Case:
         self.describe()  # refuses what no file can hold
 
     @classmethod
-    def described(cls, attrs: Mapping[Any, Any]) -> Case:
+    def described(cls, attrs: Mapping[Any, Any]) -> RunCase:
         """Return the case that the attributes of a run describe: `describe` inverted."""
         return cls(
             beam=beam_of(attrs),

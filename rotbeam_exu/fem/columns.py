@@ -9,14 +9,14 @@ from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from ..lazily import xr
-from .case import Case
+from .case import RunCase
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
 from .units import Units
 
 
 def columns(
-    case: Case, units: Units, beam: AnyBlade, built: RotatingBeam, trajectory: Trajectory
+    case: RunCase, units: Units, beam: AnyBlade, built: RotatingBeam, trajectory: Trajectory
 ) -> xr.Dataset:
     """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory."""
     model, setting, space = case.model, case.model.setting(beam), case.model.leaves_plane

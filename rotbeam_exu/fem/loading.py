@@ -24,8 +24,8 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
-from .elements import Chain, Formulation
 from .elements.energy_body import add_force, triplets
+from .elements.formulation import Chain, Formulation
 from .frame import Frame
 from .lazily import exudyn
 from .solver import mass_matrix

@@ -12,7 +12,8 @@ import numpy as np
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.beam import require_planar, warn_if_rpm
-from analytic.exact.beam.state import BeamState, stretched_state
+from analytic.exact.beam.state import BeamState
+from analytic.exact.beam.steady import stretched_state
 from analytic.exact.plane.planarity import planar_note
 from analytic.loads import Load
 from analytic.motion import SpeedChange
@@ -21,7 +22,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..runs.check import SimulationError, check_run, remedy
 from ..runs.versions import versions
-from .case import Case
+from .case import RunCase
 from .columns import columns
 from .elements import Formulation
 from .frame import Frame
@@ -115,7 +116,7 @@ def simulate(
     >>> print(f"{run.q.min().item():.3f} m, {run.attrs['verdict']}")
     -2.200 m, passed
     """
-    case = Case(
+    case = RunCase(
         beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
         step=step, frame=frame, loads=loads,
     )  # fmt: skip
@@ -123,7 +124,7 @@ def simulate(
 
 
 def run_case(
-    case: Case,
+    case: RunCase,
     *,
     initial_state: Callable[[FloatArray], BeamState] | None = None,
     progress: Callable[[float], None] | None = None,
@@ -174,7 +175,7 @@ def run_case(
 
 
 def _start(
-    case: Case,
+    case: RunCase,
     units: Units,
     reference: FloatArray,
     initial_state: Callable[[FloatArray], BeamState] | None,

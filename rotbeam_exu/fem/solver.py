@@ -13,7 +13,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from .elements import Chain, Formulation
+from .elements.formulation import Chain, Formulation
 from .frame import Frame
 from .lazily import exudyn, items
 

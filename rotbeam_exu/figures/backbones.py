@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..comparison import backbones as made
 from ..paper import MODEL_NAMES
 from .paper_figure import models, numerics, paper_figure, spin_ups
 from .style import column, columns, cycle, house_axes, label, model_line
@@ -20,6 +21,7 @@ _MESHES: dict[str, tuple[str, Any]] = {
 
 
 @paper_figure(
+    made.figure_5,
     shows=lambda data: (
         f"Frequency over amplitude of the finite element model, {spin_ups(data)}; a is half "
         "peak to peak of q/L. ω_n is that of the same mesh. Error bars of step, mesh and estimate "
@@ -55,6 +57,7 @@ def _points(ax: Axes, data: xr.Dataset, **look: Any) -> None:
 
 
 @paper_figure(
+    made.figure_14,
     shows=lambda data: (
         f"Backbones of {models(data)} and of the geometrically exact beam, black, with finite "
         f"element points, {spin_ups(data)}. {numerics(data)}"

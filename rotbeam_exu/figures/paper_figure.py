@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 import xarray as xr
 
-from .. import comparison
 from ..paper import MODEL_NAMES, MODELS
 from ..runs.attributes import beam_of
 
@@ -52,12 +51,15 @@ PAPER_FIGURES: dict[int, PaperFigure] = {}
 
 
 def paper_figure(
-    *, shows: Callable[[xr.Dataset], str], claim: str, sweeps: bool = False
+    data: Callable[..., xr.Dataset],
+    *,
+    shows: Callable[[xr.Dataset], str],
+    claim: str,
+    sweeps: bool = False,
 ) -> Callable[[DrawT], DrawT]:
-    """Decorate the drawing `figure_N` of data that `comparison.figure_N` makes: Figure N."""
+    """Decorate the drawing `figure_N` of the data that a function makes: Figure N."""
 
     def known(draw: DrawT) -> DrawT:
-        data = getattr(comparison, draw.__name__)
         PAPER_FIGURES[int(draw.__name__.removeprefix("figure_"))] = PaperFigure(
             data=data, draw=draw, shows=shows, claim=claim, sweeps=sweeps
         )

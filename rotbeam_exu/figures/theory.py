@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..comparison import theory as made
 from ..paper import MODEL_NAMES
 from ..runs.attributes import beam_of
 from .paper_figure import EXACT, listed, paper_figure
@@ -21,6 +22,7 @@ _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
 
 
 @paper_figure(
+    made.figure_8,
     shows=lambda data: (
         f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
         f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Left: the "
@@ -56,6 +58,7 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 @paper_figure(
+    made.figure_9,
     shows=lambda _: (
         f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}."
     ),
@@ -70,6 +73,7 @@ def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
 
 
 @paper_figure(
+    made.figure_10,
     shows=lambda _: (
         f"{_COEFFICIENTS} against ω, inextensible, by the cantilever's mode and by polynomials of "
         f"degree 3, 4 and 5; {EXACT}."
@@ -86,6 +90,7 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 
 
 @paper_figure(
+    made.figure_11,
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
         f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, "
@@ -133,6 +138,7 @@ def _shows_12(data: xr.Dataset) -> str:
 
 
 @paper_figure(
+    made.figure_12,
     shows=_shows_12,
     claim="The paper uses degree 36. At 8 rad/s the error is 2.1e-4 rad/s. Eq. 81 is corrected.",
 )
@@ -173,6 +179,7 @@ def _shows_13(data: xr.Dataset) -> str:
 
 
 @paper_figure(
+    made.figure_13,
     shows=_shows_13,
     claim="The paper states that the difference grows with speed. It does: tension straightens.",
 )

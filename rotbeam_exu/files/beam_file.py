@@ -10,10 +10,11 @@ from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from analytic import AnyBlade, Beam, Blade, Damping, OutOfPlane, PointMass, Section
+from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
 from analytic.line import Line
+from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
 _MATERIAL = tuple(field.name for field in fields(Beam))

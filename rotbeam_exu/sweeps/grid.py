@@ -16,7 +16,7 @@ from analytic import AnyBlade, SpinUp
 from analytic.input_checks import finite_values, flag, whole_number
 from analytic.warning import warn
 
-from ..fem.case import Case
+from ..fem.case import RunCase
 from ..fem.elements import Formulation, formulation
 from ..fem.frame import Frame
 from ..lazily import xr
@@ -102,7 +102,7 @@ def sweep(
     cases = _grid(
         finite_values("omegas", omegas, "rad/s").tolist(),
         finite_values("ramp_times", ramp_times, "s").tolist(),
-        lambda spin_up: Case(
+        lambda spin_up: RunCase(
             beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
             step=step, frame=frame,
         ),
@@ -159,8 +159,8 @@ def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
 
 
 def _grid(
-    omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], Case]
-) -> dict[tuple[float, float], Case]:
+    omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], RunCase]
+) -> dict[tuple[float, float], RunCase]:
     for name, values in (("omegas", omegas), ("ramp_times", ramp_times)):
         twice = [f"{value:g}" for value, count in Counter(values).items() if count > 1]
         if twice:
@@ -185,7 +185,7 @@ def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache 
 
 
 def _solved(
-    cases: dict[tuple[float, float], Case],
+    cases: dict[tuple[float, float], RunCase],
     store: Cache | None,
     executor: Executor | None,
     jobs: int | None,
@@ -226,7 +226,7 @@ def _solved(
                 future.cancel()
 
 
-def _kept(store: Cache | None, case: Case, result: xr.Dataset) -> xr.Dataset:
+def _kept(store: Cache | None, case: RunCase, result: xr.Dataset) -> xr.Dataset:
     if store:
         store.put(case.describe(), result)
     return result

@@ -12,7 +12,7 @@ import numpy as np
 from analytic import AnyBlade
 
 from ..datasets import OMEGA, dataset
-from ..fem.case import Case
+from ..fem.case import RunCase
 from ..fem.elements import Formulation
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
@@ -34,7 +34,7 @@ MEASURED = {
 """Quantities measured of a case, with their labels."""
 
 
-def solve(case: Case) -> xr.Dataset:
+def solve(case: RunCase) -> xr.Dataset:
     """Run one case and measure it: the unit of work, a pure function of the case.
 
     Returns
@@ -77,7 +77,7 @@ def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) 
 
 
 def collect(
-    cases: dict[tuple[float, float], Case],
+    cases: dict[tuple[float, float], RunCase],
     results: dict[tuple[float, float], xr.Dataset],
     history: bool,
 ) -> xr.Dataset:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import analytic
 
-from ..fem.case import Case
+from ..fem.case import RunCase
 from ..fem.elements import formulation
 from ..fem.linearization import natural_frequencies
 from ..runs.oscillation import SteadyOscillation
@@ -152,12 +152,12 @@ class Assessment:
         ]
 
 
-def assess(case: Case, steady: SteadyOscillation) -> Assessment:
+def assess(case: RunCase, steady: SteadyOscillation) -> Assessment:
     """Compare a run's ω_n and ω_NL with the exact beam's, the latter at the run's own amplitude.
 
     Parameters
     ----------
-    case : Case
+    case : RunCase
         The run's inputs.
     steady : SteadyOscillation
         Its oscillation.

@@ -8,16 +8,8 @@ from enum import StrEnum
 from functools import cached_property
 from typing import Any
 
-from analytic import (
-    AnyBlade,
-    Beam,
-    Damping,
-    Gravity,
-    Orbits,
-    SpinUp,
-    SteadyRotation,
-    periodic_orbits,
-)
+from analytic import AnyBlade, Beam, Damping, Gravity, SpinUp, SteadyRotation, periodic_orbits
+from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 
 VERSION = "1.0"

@@ -12,7 +12,6 @@ from analytic import (
     Blade,
     Damping,
     Gravity,
-    OutOfPlane,
     PointMass,
     Rectangle,
     RotbeamWarning,
@@ -35,6 +34,7 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )  # fmt: skip
+from analytic.section import OutOfPlane
 from rotbeam_exu import natural_frequencies, simulate, sweep
 
 BEAM = Beam.reference()

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Circle, Ellipse, OutOfPlane, Rectangle, Section, Tube
+from analytic import Beam, Blade, Circle, Ellipse, Rectangle, Section, Tube
 from analytic.description import describe, from_description
+from analytic.section import OutOfPlane
 from analytic.section_shapes import Gyration, SectionShape
 from rotbeam_exu.cli.options import SectionOptions
 

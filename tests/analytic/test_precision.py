@@ -13,7 +13,6 @@ from analytic import (
     DistributedForce,
     FourierRamp,
     Gravity,
-    OutOfPlane,
     PointMass,
     Rectangle,
     Section,
@@ -42,6 +41,7 @@ from analytic import (
 )
 from analytic.exact.linear.unstretched import unstretched_frequencies  # fmt: skip
 from analytic.exact.plane.planarity import planar_note
+from analytic.section import OutOfPlane
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())

@@ -58,7 +58,7 @@ def test_beyond_the_power_series_of_the_rotating_mode_frm_goes_on():
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 def test_a_mode_that_no_number_of_functions_settles():
     beam = unit_beam(1e-10)
-    assert "with 120 functions: the last third" in complaint(reduced_model, beam, 3e3, "FrM")
+    assert "differ by" in complaint(reduced_model, beam, 3e3, "FrM")
     assert reduced_model(beam, 1e3, "FrM").perturbation.h3 > 0.0  # rotate slower
 
 
@@ -126,7 +126,7 @@ def test_unsettled_frequencies():
     beam = unit_beam(1e-12)
     options = {"count": 1, "theory": Theory(extension=False), "functions": 150}
     assert complaint(linear_modes, beam, 2e4, **options).endswith("rotate slower")
-    assert "settled" not in complaint(linear_modes, beam, 2e3, **options)
+    assert "differ" not in complaint(linear_modes, beam, 2e3, **options)
 
 
 def test_amplitude_not_reached(beam, monkeypatch):

@@ -11,7 +11,6 @@ from scipy import optimize
 from analytic import (
     Beam,
     Blade,
-    OutOfPlane,
     Rectangle,
     Section,
     Theory,
@@ -29,6 +28,7 @@ from analytic.methods.floquet import _flow
 from analytic.methods.system import Tangent
 from analytic.profiles import evaluated
 from analytic.quadrature import axial_basis, gauss_points
+from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
 
 RIGID = math.inf

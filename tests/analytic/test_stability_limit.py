@@ -206,12 +206,6 @@ def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
     assert "this one has a = 0.45" in beyond
     assert planar_note(blade, 2.0, 0.3) == ""
     assert planar_note(beam, 2.0, 0.45) == "", "nothing is known of this section"
-    times = np.linspace(1.9, 6.0, 200)
-    found = spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.9), times, tolerance=1e-3)
-    assert np.ptp(found.q) > 2.0 * 0.3912 * beam.length
-    assert "does not stay in the plane: at 2 rad/s" in found.out_of_plane
-    ramp = spin_up_response(blade, SpinUp(omega=2.0, ramp_time=6.5), times, tolerance=1e-3)
-    assert ramp.out_of_plane == "", "these times end within the ramp"
     # Between two amplitudes that are looked at, the motion's own tells; the limit is 0.3912.
     assert planar_note(blade, 2.0, 0.39) == ""
     assert "planar orbit of a = 0.393 leaves it by" in planar_note(blade, 2.0, 0.393)
@@ -306,7 +300,7 @@ UNIT = Blade(
         ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
-            "at w_bar = 100 flap bends in a layer .* rotate slower",
+            "in the flap frequencies at w_bar = 100; rotate slower",
         ),
         (lambda: linear_modes(UNIT, 1.0, plane="pitch"), "plane must be 'lag', 'flap' or"),
         (lambda: campbell(UNIT, [1.0], planes=()), "name families once each"),

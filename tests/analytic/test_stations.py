@@ -24,8 +24,8 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
 )
-from analytic.exact.beam.steady import steady_rotation
-from analytic.exact.linear.modes import resolved_model, solve_modes
+from analytic.exact.beam.discretization import resolved_model
+from analytic.exact.beam.steady import solve_modes, steady_rotation
 from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam

@@ -8,7 +8,7 @@ import analytic
 from analytic import Beam
 from rotbeam_exu import comparison, explorer, paper
 from rotbeam_exu.cli import compare as compare_job
-from rotbeam_exu.cli.motion import Motion, grid_motion
+from rotbeam_exu.cli.motion import ChosenMotion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.verification import verify as room
 from tests.beams import BLADE_TOML, REED_TOML
@@ -77,7 +77,7 @@ def test_of_the_papers_beam_nothing_changes():
     motion = grid_motion(Beam.reference(), paper.SPEEDS, paper.RAMP_TIMES)
     assert (motion.duration, motion.step) == (15.0, 1e-3)
     assert compare_job._even(motion) == motion
-    odd = Motion(spin_up=motion.spin_up, duration=1.5, step=0.1)
+    odd = ChosenMotion(spin_up=motion.spin_up, duration=1.5, step=0.1)
     assert round(1.5 / compare_job._even(odd).step) == 16
 
 

@@ -10,7 +10,7 @@ SITE = Path(__file__).parents[2] / "docs" / "_build" / "html"
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 PAGES = (
     "index", "class/index", "theory/continuum", "theory/errata", "explorer", "search",
-    "reference/api/analytic.Orbits",
+    "reference/api/analytic.exact.free.orbits.Orbits",
 )  # fmt: skip
 pytestmark = [
     pytest.mark.site,
@@ -55,8 +55,11 @@ def test_the_reference_has_its_pages_and_pictures():
     api = SITE / "reference" / "api"
     assert (api / "analytic.periodic_orbits.html").exists()
     drawn = {path.stem for path in (SITE / "_images").glob("analytic.*.svg")}
-    campbell = "analytic.exact.linear.campbell.Campbell"
-    assert {"analytic.Orbits", campbell, "analytic.ForcedResponse"} <= drawn
+    exact = "analytic.exact."
+    assert {
+        f"{exact}free.orbits.Orbits", f"{exact}linear.campbell.Campbell",
+        f"{exact}driven.forced_orbits.ForcedResponse",
+    } <= drawn  # fmt: skip
     assert "warn_if_rpm" not in (SITE / "genindex.html").read_text(encoding="utf-8")
 
 

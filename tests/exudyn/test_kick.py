@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, OutOfPlane, Section, SteadyRotation, periodic_orbits
+from analytic import Beam, Blade, Section, SteadyRotation, periodic_orbits
+from analytic.section import OutOfPlane
 from rotbeam_exu import kicked, simulate
 from rotbeam_exu.runs.check import SimulationError
 

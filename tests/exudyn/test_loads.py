@@ -19,7 +19,7 @@ from analytic import (
 )
 from rotbeam_exu import SimulationError, load, save, simulate
 from rotbeam_exu.fem import add_rotating_beam
-from rotbeam_exu.fem.case import Case
+from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.runs.attributes import loads_of
@@ -163,7 +163,7 @@ def test_a_run_tells_its_loads(beam, tmp_path):
     assert json.loads(run.attrs["loads"])[0] == {"kind": "Gravity", "gravity": 2.0}
     # A cache is keyed by what a case says of itself.
     keys = [
-        json.dumps(Case(beam=beam, **options, loads=loads).describe())
+        json.dumps(RunCase(beam=beam, **options, loads=loads).describe())
         for loads in ((), ALL[:1], ALL[1:2], (replace(ALL[1], frequency=6.0),))
     ]
     assert len(set(keys)) == len(keys)
@@ -276,7 +276,7 @@ def test_energy_that_no_load_supplied_fails(beam):
 def test_bad_loads_are_one_sentence(beam, loads, error, sentence):
     for refused in (
         lambda: simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
-        lambda: Case(beam=beam, spin_up=SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
+        lambda: RunCase(beam=beam, spin_up=SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
     ):
         with pytest.raises(error, match=sentence):
             refused()

@@ -38,7 +38,7 @@ from rotbeam_exu import (
     save,
     simulate,
 )
-from rotbeam_exu.fem.case import Case
+from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Cable, SpaceCable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.runs.attributes import (
@@ -189,7 +189,7 @@ def test_a_run_in_space_says_so(tmp_path):
     tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
     run = simulate(tube, MOTION, element="space_cable", elements=2, duration=2.5, step=5e-3)
     path = save(run, tmp_path / "space.nc")
-    assert type(Case.described(load(path).attrs).model) is SpaceCable
+    assert type(RunCase.described(load(path).attrs).model) is SpaceCable
 
 
 @pytest.mark.slow  # a child; every load of ours is an option in the same way
@@ -214,7 +214,7 @@ def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
     model = SoftCable(share=0.25)
     run = simulate(beam, MOTION, element=model, elements=2, duration=2.5, step=5e-3, loads=[PULL])
     attrs = load(save(run, tmp_path / "run.nc")).attrs
-    again = Case.described(attrs)
+    again = RunCase.described(attrs)
     assert (again.spin_up, again.loads, again.model) == (MOTION, (PULL,), model)
     assert motion_of(attrs) == MOTION
     assert loads_of(attrs) == (PULL,)

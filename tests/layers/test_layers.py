@@ -18,14 +18,13 @@ FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
-        {"profiles", "motion", "damping"},
+        {"profiles", "motion", "damping", "theory"},
         {"line", "section"},
         {"point_mass", "station_section"},
         {"unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shapes"},
         {"blade", "blade_functions"},
         {"beam"},
-        {"theory"},
         {"reduced", "exact"},  # neither knows the other
         {"spin_up"},
     ],

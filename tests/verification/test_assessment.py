@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits
-from rotbeam_exu.fem.case import Case
+from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Ancf3, Exact
 from rotbeam_exu.verification.assessment import assess
 
@@ -15,7 +15,7 @@ OMEGA = 6.0
 
 def assessed(elements, frequency=3.7225, amplitude=0.32, element="cable"):
     spin_up = SpinUp(omega=OMEGA, ramp_time=3.0)
-    case = Case(beam=Beam.reference(), spin_up=spin_up, elements=elements, element=element)
+    case = RunCase(beam=Beam.reference(), spin_up=spin_up, elements=elements, element=element)
     return assess(case, SimpleNamespace(frequency=frequency, amplitude=amplitude))
 
 

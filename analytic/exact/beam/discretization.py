@@ -1,14 +1,26 @@
-"""Discretization of the exact blade: functions made once, refined, the same on every panel."""
+"""Discretization of the exact blade: functions made once, refined, the same on every panel.
+
+And what a blade must tell for it, in its plane and out of it.
+"""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
+import numpy as np
+
 from ...beam import AnyBlade, require_planar
+from ...input_checks import whole_number
+from ...profiles import evaluated, in_units
+from ...section import OutOfPlane
 from ...shape_functions import shape_functions
-from ...theory import Theory, require_theory
+from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...unit_blade import UNIFORM, UnitBlade
 from .continuum import Continuum
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
 
 
 @lru_cache(maxsize=32)
@@ -44,7 +56,81 @@ def finer_model(model: Continuum) -> Continuum:
 def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
     require_planar(beam)
-    unit = require_theory(theory).unit(beam)
-    axial = axial if theory.extension else 1
+    unit = _unit(beam, require_theory(theory))
+    slenderness, axial = (beam.slenderness, axial) if theory.extension else (0.0, 1)
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
-    return continuum(theory.slenderness(beam), bending, axial, unit, theory.shear)
+    return continuum(slenderness, bending, axial, unit, theory.shear)
+
+
+def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
+    """Return the discretization, refusing a mode that it does not resolve."""
+    functions = whole_number("functions", functions, least=4)
+    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
+        raise ValueError(
+            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
+            f"modes, got functions={functions} for mode {mode}: ask for less"
+        )
+    if mode > functions // 2:
+        raise ValueError(
+            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
+            f"ask for functions={2 * mode} or more"
+        )
+    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
+
+
+def require_shear(beam: AnyBlade, theory: Theory) -> None:
+    """Refuse a number for sections that tell their shear stiffness, and True for others."""
+    if theory.shear is not None and (theory.shear is True) != beam.section.at_stations:
+        raise ValueError(
+            f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
+            "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
+            "Theory(shear=0.32)"
+        )
+
+
+def require_out_of_plane(
+    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
+) -> OutOfPlane:
+    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_planar(blade)
+    if require_theory(theory).shear is not None:
+        raise ValueError(
+            "how slices shear out of the plane is unknown: take a theory without shear"
+        )
+    known = blade.section.out_of_plane
+    if known is None:
+        raise ValueError(
+            "how this blade bends and twists out of its plane is unknown: give its section by "
+            "blade.with_shape(Rectangle(height=..., width=...)) or "
+            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
+        )
+    if blade.unit.setting != 1.0:
+        raise ValueError(
+            f"motion out of the plane is known for a blade that bends in the plane of rotation, "
+            f"and this one is set at {blade.setting_angle:g} rad: take "
+            "blade.with_setting_angle(0.0)"
+        )
+    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
+        raise ValueError(
+            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
+            "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
+            "section that does not twist"
+        )
+    return known
+
+
+def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
+    """Return the blade without dimensions, with the rotary inertia of its slices."""
+    require_shear(beam, theory)
+    blade = beam.unit
+    told = beam.section.rotary_inertia is not None
+    if told or not theory.rotary_inertia:
+        return blade
+    x = np.linspace(0.0, 1.0, 257)
+    if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
+        raise ValueError(
+            "mass and axial stiffness of the blade do not vary alike, so that its sections "
+            "have no one ρ/E to take their rotary inertia from: give "
+            "Section(rotary_inertia=...) in kg m"
+        )
+    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))

@@ -1,20 +1,24 @@
-"""The exact beam in steady rotation: the system whose modes and orbits are sought."""
+"""The exact beam in steady rotation: the system whose orbits are sought, its modes and states."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_steady_state
+from ...input_checks import finite_number, points_of_beam
+from ...methods.gyroscopic import reciprocal_modes
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
+from ...theory import BERNOULLI_EULER
 from .continuum import Continuum
-from .discretization import finer_model
+from .discretization import blade_continuum, finer_model
+from .state import BeamState
 
 
 class Discretized:
@@ -129,3 +133,71 @@ def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBea
     if model.slenderness > 0.0:
         require_steady_state(beam, omega)
     return SteadyBeam(model, omega / beam.frequency_scale)
+
+
+class Modes(NamedTuple):
+    """Nondimensional frequencies (n,), coordinates (n, n) and slopes z' (n, points)."""
+
+    frequencies: FloatArray
+    coordinates: FloatArray
+    slopes: ComplexArray
+
+
+def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
+    """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
+
+    With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
+    """
+    model, at_rest = steady.model, np.zeros((1, steady.size))
+    at = steady.equilibrium if stretched else at_rest[0]
+    tangent = steady.tangent(at[None], at_rest, at_rest)
+    gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
+    gyroscopic += gyroscopic.T
+    inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
+    # The inextensible beam has no axial modes: they come out with ν = 0.
+    kept = inverse > 1e-12
+    coordinates = shapes.T[kept]
+    slopes = model.slope_rate(at, coordinates)
+    tips = slopes @ model.weights
+    scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
+    return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])
+
+
+def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
+    """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
+    steady = steady_rotation(beam, omega, blade_continuum(beam, BERNOULLI_EULER, 20, 10))
+    return _state(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
+
+
+def orbit_state(
+    beam: AnyBlade,
+    orbit: Orbit[Any],
+    x: ArrayLike,
+    phase: float,
+) -> BeamState:
+    """Return the state of an orbit of `beam` at the points `x` [m] and the `phase` [rad]."""
+    phases = np.array([finite_number("phase", phase, "rad")])
+    (q,), (q_dot,), _ = orbit.coordinates(phases)
+    return _state(beam, orbit.system.model, q, q_dot, x)
+
+
+def _state(
+    beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+) -> BeamState:
+    at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
+    slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
+    z = length * model.integrated(model.slope(q), at)
+    z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
+    shear, shear_rate = model.shear_angle(q, q_dot, at)
+    return BeamState(
+        u=z.real - length * at,
+        v=z.imag,
+        u_slope=slope.real - 1.0,
+        v_slope=slope.imag,
+        u_dot=z_dot.real,
+        v_dot=z_dot.imag,
+        u_slope_dot=slope_rate.real,
+        v_slope_dot=slope_rate.imag,
+        shear_angle=shear,
+        shear_angle_dot=per_second * shear_rate,
+    )

@@ -16,8 +16,9 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.discretization import resolved_model
 from ..beam.steady import steady_rotation
-from ..linear.modes import linear_modes, resolved_model
+from ..linear.modes import linear_modes
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .loading import DrivenBeam, unit_load
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -21,9 +20,8 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.steady import steady_rotation
-from ..plane.planarity import planar_note
 from ..space.steady import lives_in_space, space_continuum, space_rotation
-from .transient import Motion, grid_of, integrated
+from .transient import BladeMotion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
@@ -84,19 +82,10 @@ class SpinUpResponse:
     steps: int
     functions: int
 
-    @cached_property
-    def out_of_plane(self) -> str:
-        """One sentence if the beam ends on a motion that leaves the plane, "" if not.
-
-        By half of |q| from peak to peak after the ramp; "" too where the times do not reach that
-        far or the section out of the plane is unknown. Computed when first asked for.
-        """
-        late = self.q[self.time >= self.spin_up.ramp_time]
-        size = 0.5 * float(np.ptp(late)) / self.beam.length if late.size else 0.0
-        return planar_note(self.beam, self.spin_up.omega, size)
-
     @staticmethod
-    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    def in_units(
+        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
+    ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
         z, unit = beam.length * motion.tip, beam.unit
         # Out of the plane of rotation the deflection has a share that is not seen here.
@@ -136,7 +125,9 @@ class SpaceResponse(SpinUpResponse):
         return self.tip[:, 2]
 
     @staticmethod
-    def in_units(beam: AnyBlade, motion: Motion, turned: ComplexArray) -> dict[str, FloatArray]:
+    def in_units(
+        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
+    ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
         tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
         return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}

@@ -28,7 +28,7 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
 
 
-class Motion(NamedTuple):
+class BladeMotion(NamedTuple):
     """The tip's place and rate (times, ...), and places (times, points, ...); nondimensional.
 
     In the rotating frame: complex numbers in the plane, three components in space.
@@ -66,7 +66,7 @@ def integrated(
     time: FloatArray,
     points: FloatArray,
     q: FloatArray,
-) -> Motion | None:
+) -> BladeMotion | None:
     """Return the motion on the grid of steps, None if Newton's method fails.
 
     A step on which it does is halved first, as often as it takes. Before the first the blade does
@@ -116,4 +116,4 @@ def integrated(
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return Motion(z, z_dot, axis)
+    return BladeMotion(z, z_dot, axis)

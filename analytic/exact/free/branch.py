@@ -14,7 +14,8 @@ from ...beam import AnyBlade
 from ...input_checks import finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
-from ..beam.state import BeamState, orbit_state
+from ..beam.state import BeamState
+from ..beam.steady import orbit_state
 
 
 class AmplitudeNotReachedError(RuntimeError):

@@ -20,8 +20,7 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.steady import SteadyBeam, steady_rotation
-from ..linear.modes import solve_modes
+from ..beam.steady import SteadyBeam, solve_modes, steady_rotation
 from .branch import AmplitudeNotReachedError
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next

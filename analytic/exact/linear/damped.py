@@ -12,9 +12,10 @@ from ...input_checks import rotation_speed, whole_number
 from ...methods.gyroscopic import inverse_eigenvalues
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.discretization import MOST_FUNCTIONS
 from ..beam.steady import steady_rotation
 from ..space.steady import lives_in_space, space_rotation
-from .modes import MOST_FUNCTIONS, linear_modes
+from .modes import linear_modes
 
 _FUNCTIONS = 20
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it

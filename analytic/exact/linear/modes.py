@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, cast, get_args
+from typing import Literal, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,20 +13,16 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
-from ...methods.gyroscopic import reciprocal_modes
 from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
-from ..beam.discretization import blade_continuum
-from ..beam.space import require_out_of_plane
-from ..beam.steady import SteadyBeam, steady_rotation
+from ..beam.discretization import MOST_FUNCTIONS, require_out_of_plane, resolved_model
+from ..beam.steady import Modes, SteadyBeam, solve_modes, steady_rotation
 from ..space.modes import space_modes, torsion_modes
 from ..space.steady import lives_in_space
 
-MOST_FUNCTIONS = 256
-"""For θ; beyond, the eigenproblem takes seconds."""
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 
 
@@ -203,60 +199,12 @@ def settled_modes(
     thin, which takes ~√w̄ functions.
     """
     first = steady_rotation(beam, omega, model)
-    (steady, modes), _, change = settled(
+    (steady, modes), *_ = settled(
         lambda steady: (steady, solve_modes(steady, stretched=stretched)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
         lambda found: np.log(found[1].frequencies[:count]),
+        f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
+        "rotate slower",
     )
-    if change > _SETTLED:
-        raise ValueError(
-            f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = "
-            f"{steady.rate:.4g}, have not settled to {_SETTLED:g} with {steady.functions} "
-            f"functions: half as many again change them by {change:.1e}; rotate slower"
-        )
     return steady.model, modes
-
-
-def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
-    """Return the discretization, refusing a mode that it does not resolve."""
-    functions = whole_number("functions", functions, least=4)
-    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
-        raise ValueError(
-            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
-            f"modes, got functions={functions} for mode {mode}: ask for less"
-        )
-    if mode > functions // 2:
-        raise ValueError(
-            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
-            f"ask for functions={2 * mode} or more"
-        )
-    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
-
-
-class Modes(NamedTuple):
-    """Nondimensional frequencies (n,), coordinates (n, n) and slopes z' (n, points)."""
-
-    frequencies: FloatArray
-    coordinates: FloatArray
-    slopes: ComplexArray
-
-
-def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
-    """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
-
-    With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
-    """
-    model, at_rest = steady.model, np.zeros((1, steady.size))
-    at = steady.equilibrium if stretched else at_rest[0]
-    tangent = steady.tangent(at[None], at_rest, at_rest)
-    gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
-    gyroscopic += gyroscopic.T
-    inverse, shapes = reciprocal_modes(tangent.stiffness[0], gyroscopic, tangent.mass[0])
-    # The inextensible beam has no axial modes: they come out with ν = 0.
-    kept = inverse > 1e-12
-    coordinates = shapes.T[kept]
-    slopes = model.slope_rate(at, coordinates)
-    tips = slopes @ model.weights
-    scale = np.where(np.abs(tips.imag) >= np.abs(tips.real), tips.imag, tips.real)
-    return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])

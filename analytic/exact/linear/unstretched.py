@@ -19,7 +19,8 @@ from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import rotation_speed, whole_number
 from ...theory import BERNOULLI_EULER
 from ...threads import one_thread
-from .modes import resolved_model, settled_modes
+from ..beam.discretization import resolved_model
+from .modes import settled_modes
 
 _FEWEST = 20  # functions
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -13,12 +14,19 @@ from ...lazily import linalg
 from ...methods.floquet import normal_modes, reversible_monodromy
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
+from ..beam.discretization import resolved_model
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import BeamOrbit, SteadyBeam
+from ..free.path import ModePath
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
+LEAST_GROWTH = 0.01
+"""Growth per radian of the orbit that counts unless told."""
+SMALLEST = 0.01
+"""Peak |q|/L of the smallest orbits that are looked at."""
 STEPS = 24
+_FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 _SIZES = (12, 18, 27)  # functions
 _SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
@@ -130,14 +138,10 @@ def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> in
     def flap(space: Space) -> FloatArray:
         return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
 
-    space, _, change = settled(
-        lambda count: _space(blade, count, theory), iter(_SIZES), _SETTLED, flap
-    )
-    if change > _SETTLED:
-        raise ValueError(
-            f"at w_bar = {planar.rate:.4g} flap bends in a layer at the clamp that {_SIZES[-1]} "
-            "functions do not resolve: rotate slower"
-        )
+    space, *_ = settled(
+        lambda count: _space(blade, count, theory), iter(_SIZES), _SETTLED, flap,
+        f"the flap frequencies at w_bar = {planar.rate:.4g}", "rotate slower",
+    )  # fmt: skip
     return space.functions
 
 
@@ -167,3 +171,26 @@ def _shares(
     energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
     energy += np.abs(rows @ states[n:]) ** 2
     return frequencies, names, energy / energy.sum(axis=0)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlanarOrbits(ModePath):
+    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane."""
+
+    @cached_property
+    def functions(self) -> int:
+        """Number of functions that settles the flap modes."""
+        return settled_functions(self.beam, self.path.at(SMALLEST).system, self.theory)
+
+    def growth(self, amplitude: float, finer: int = 1) -> Growth:
+        """Return what grows about an orbit, at a multiple of the resolution."""
+        orbit = self.path.at(amplitude)
+        return grown(self.beam, orbit, finer * self.functions, finer * STEPS, self.theory)
+
+
+def planar_orbits(
+    blade: AnyBlade, omega: float, mode: int = 1, theory: Theory = BERNOULLI_EULER
+) -> PlanarOrbits:
+    """Return the planar orbits of a mode at ω [rad/s]."""
+    model = resolved_model(blade, mode, theory, _FUNCTIONS)
+    return PlanarOrbits(beam=blade, omega=omega, mode=mode, theory=theory, model=model)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,42 +14,12 @@ from ...input_checks import rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.space import require_out_of_plane
+from ..beam.discretization import require_out_of_plane
 from ..free.backbone import periodic_orbits
 from ..free.branch import AmplitudeNotReachedError
-from ..free.path import ModePath
-from ..linear.modes import resolved_model
-from .growth import STEPS, Growth, grown, grown_and_checked, settled_functions
+from .growth import LEAST_GROWTH, grown_and_checked, planar_orbits
 
-LEAST_GROWTH = 0.01
-"""Growth per radian of the orbit that counts unless told."""
-SMALLEST = 0.01
-"""Peak |q|/L of the smallest orbits that are looked at."""
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
-_FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PlanarOrbits(ModePath):
-    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane."""
-
-    @cached_property
-    def functions(self) -> int:
-        """Number of functions that settles the flap modes."""
-        return settled_functions(self.beam, self.path.at(SMALLEST).system, self.theory)
-
-    def growth(self, amplitude: float, finer: int = 1) -> Growth:
-        """Return what grows about an orbit, at a multiple of the resolution."""
-        orbit = self.path.at(amplitude)
-        return grown(self.beam, orbit, finer * self.functions, finer * STEPS, self.theory)
-
-
-def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int = 1, theory: Theory = BERNOULLI_EULER
-) -> PlanarOrbits:
-    """Return the planar orbits of a mode at ω [rad/s]."""
-    model = resolved_model(blade, mode, theory, _FUNCTIONS)
-    return PlanarOrbits(beam=blade, omega=omega, mode=mode, theory=theory, model=model)
 
 
 @one_thread

@@ -11,9 +11,8 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.space import require_out_of_plane
-from .growth import Growth
-from .planarity import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
+from ..beam.discretization import require_out_of_plane
+from .growth import LEAST_GROWTH, SMALLEST, Growth, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""

@@ -15,6 +15,7 @@ from ...beam import AnyBlade, require_blade, require_steady_state
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
+from ..beam.discretization import require_shear
 from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
@@ -38,7 +39,7 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
         If the stiffness out of the plane, or in torsion, is not known.
     """
     require_section(beam)
-    require_theory(theory).require_shear(beam)
+    require_shear(beam, require_theory(theory))
     unit = space_unit(beam)
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(

@@ -15,6 +15,7 @@ from analytic.exact.space.unit import space_unit
 from analytic.lazily import Lazily
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
+from analytic.theory import Theory
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
@@ -191,13 +192,11 @@ class _Row:
         EA, EI, self.mass = at.axial_stiffness, at.bending_stiffness, at.mass_per_length
         GA, bent = element.shear_share * EA, unit.flap * EI
         self.stiffness = np.stack((EA, GA, GA, unit.torsion * EI, bent, EI), axis=1)
-        # As in `analytic.exact.space`: a polar inertia that is told is parted as 1 to r.
-        solid, polar, own = self.mass * EI / EA, unit.polar, at.rotary_inertia
-        if polar is not None:
-            polar = polar / blade.slenderness
-            own = own if unit.told_rotary else polar / (1.0 + unit.flap) * solid
-        about = (1.0 + unit.flap) * own if polar is None else polar * solid
-        self.inertia = np.stack((about, unit.flap * own, own), axis=1)
+        inner, weights = gauss_points(8)
+        x = (np.arange(elements)[:, None] + inner).ravel() / elements
+        _, about = unit.inertia_about(x, Theory(rotary_inertia=True), blade.slenderness)
+        means = weights @ np.diagonal(about).reshape(elements, -1, 3)
+        self.inertia = blade.mass_per_length * blade.length**2 * means
         self._unloaded = self._screws(self.reference)
 
     def strains(self, coordinates: FloatArray) -> FloatArray:
