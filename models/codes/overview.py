@@ -9,6 +9,7 @@ import math
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,12 @@ class Code:
         speeds = sorted({one.speed for one in self.handed.frequencies})
         whole = case != "L" or len(speeds) == len(CASES["L"].speeds)
         return said if whole else f"{said} (only at {', '.join(map('{:g}'.format, speeds))} rad/s)"
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it has runs of CASE, with their CPU times."""
+        runs = self.found.histories[CASE].runs if CASE in self.found.histories else ()
+        return bool(runs) and all(run.cpu > 0.0 for run in runs)
 
     @property
     def runs(self) -> list[tuple[float, float]]:
@@ -94,9 +101,9 @@ def verdicts(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
 
 
 def costs(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the table of errors, orders and cost in CASE."""
+    """Return header and rows of the table of errors, orders and cost in CASE, of timed codes."""
     rows = []
-    for one in of:
+    for one in (one for one in of if one.is_timed):
         finding = one.found.findings[CASE]["history"]
         fit, finest = finding.runs, one.found.histories[CASE].finest
         cells = [
@@ -113,9 +120,9 @@ def costs(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
 
 
 def figure(of: Iterable[Code]) -> Axes:
-    """Draw errors of CASE over CPU time."""
+    """Draw errors of CASE over CPU time, of timed codes."""
     _, ax = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
-    for one, mark in zip(of, "os^vD<>PX*ph", strict=False):
+    for one, mark in zip((one for one in of if one.is_timed), cycle("os^vD<>PX*ph")):
         (line,) = ax.loglog(*zip(*one.front, strict=True), "-", lw=0.9)
         ax.loglog(*zip(*one.runs, strict=True), mark, ms=4, color=line.get_color(), label=one.name)
     ax.set(xlabel="CPU time over that of the starter", ylabel="error of q(t) over max|q|")

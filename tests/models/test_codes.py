@@ -3,6 +3,7 @@
 import shutil
 import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -62,6 +63,15 @@ def test_times_at_equal_error_are_read_between_the_best_runs():
     assert code.cost(1e-2) == "2"
     assert code.cost(0.5) == "< 1"
     assert code.cost(1e-4) == "> 4"
+
+
+def test_a_code_without_times_has_outcomes_only():
+    handed = read_submission(CODES / "rod" / "submission")
+    handed = replace(handed, runs=(), frequencies=handed.frequencies[:2])
+    code = overview.Code(handed, judged(handed), 1.0)
+    assert overview.costs([code])[1] == []
+    (row,) = overview.verdicts([code])[1]
+    assert row[-1] == "undecided (only at 0, 2 rad/s)"
 
 
 @pytest.mark.slow
