@@ -65,8 +65,8 @@ def frequency(case: Case, n: int, speed: float) -> float:
         mujoco.mj_forward(model, data)
         return data.qacc[1:].copy()
 
-    columns = [acceleration(1e-5 * e) - acceleration(-1e-5 * e) for e in np.eye(2 * n)]
-    system = np.vstack([np.eye(n, 2 * n, n), np.array(columns).T / 2e-5])
+    columns = [acceleration(1e-7 * e) - acceleration(-1e-7 * e) for e in np.eye(2 * n)]
+    system = np.vstack([np.eye(n, 2 * n, n), np.array(columns).T / 2e-7])
     return np.abs(np.linalg.eigvals(system).imag).min()
 
 
@@ -76,4 +76,4 @@ if __name__ == "__main__":
         element="rigid links, hinges with springs", inextensible=True, order=2.0, order_in_step=2.0,
     )  # fmt: skip
     runs = [(32, "2e-4"), (32, "1e-4"), (64, "1e-4"), (64, "5e-5"), (128, "2.5e-5")]
-    take_part(__file__, told, history, {"S1": runs}, frequency, (64, 128, 256))
+    take_part(__file__, told, history, {"S1": runs}, frequency, (32, 64, 128, 256))
