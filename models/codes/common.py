@@ -1,6 +1,7 @@
 """What scripts of other codes share: a submission is run, written, judged and recorded.
 
-``python models/codes/common.py NAME`` records a folder whose files came from elsewhere.
+``python models/codes/common.py NAME`` records a folder whose files came from elsewhere, or what the
+judge says anew; it keeps the `calibration` of a record that is there.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -188,4 +190,7 @@ def _machine() -> str:
 
 
 if __name__ == "__main__":
-    record(HERE / sys.argv[1] / "submission", calibration())
+    for name in sys.argv[1:]:
+        made = HERE / name / "record.toml"
+        unit = tomllib.loads(made.read_text())["calibration_s"] if made.exists() else calibration()
+        record(HERE / name / "submission", unit)
