@@ -83,5 +83,5 @@ if __name__ == "__main__":
         theory=Theory(shear=K_S / (2 * (1 + NU)), rotary_inertia=True),
         order=2.0, order_in_step=2.0,
     )  # fmt: skip
-    runs = [(16, "5e-6"), (32, "5e-6"), (64, "5e-6"), (16, "4e-6")]
+    runs = [(16, "5e-6"), (32, "5e-6"), (64, "5e-6"), (16, "4e-6"), (128, "5e-6")]
     take_part(__file__, told, history, {"S1": runs})
