@@ -61,3 +61,7 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     np.testing.assert_allclose(tip, exact.tip, atol=2e-3)
     np.testing.assert_allclose(run["q"].interp(time=at), exact.tip[:, 1], atol=2e-3)
     np.testing.assert_allclose(run["w"].interp(time=at), exact.tip[:, 2], atol=2e-3)
+    # Elements of constant torsion: 2 % of the largest twist.
+    most = np.abs(exact.twist).max()
+    assert most > 0.3
+    np.testing.assert_allclose(run["twist"].interp(time=at), exact.twist, atol=0.02 * most)

@@ -29,13 +29,14 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 
 
 class BladeMotion(NamedTuple):
-    """The tip's place and rate (times, ...), and places (times, points, ...); nondimensional.
+    """The tip's place, rate and twist (times, ...), and places (times, points, ...), without units.
 
     In the rotating frame: complex numbers in the plane, three components in space.
     """
 
     tip: Any
     tip_rate: Any
+    twist: FloatArray
     axis: Any
 
 
@@ -77,7 +78,7 @@ def integrated(
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot = np.zeros_like(z)
+    z_dot, twist = np.zeros_like(z), np.repeat(model.twist(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     previous = 0.0
     ahead = list(pairwise(grid))[::-1]
@@ -112,8 +113,9 @@ def integrated(
         )
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
+        twist[inside] = model.twist(positions)
         if points.size:
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return BladeMotion(z, z_dot, axis)
+    return BladeMotion(z, z_dot, twist, axis)
