@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analytic import Theory, linear_modes
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.submission_files import read_submission
@@ -44,6 +45,19 @@ def test_a_folder_is_whole(name):
     assert 3 <= len(readme) <= 8
     size = sum(path.stat().st_size for path in (CODES / name / "submission").rglob("*.csv"))
     assert size < 500_000
+
+
+def test_rigid_links_tend_to_the_inextensible_beam():
+    found = judged(read_submission(CODES / "mujoco" / "submission")).findings["L"]
+    beam = CASES["L"].blade
+    rigid, exact = (
+        linear_modes(beam, 8.0, 1, theory=Theory(extension=extends)).frequencies[0]
+        for extends in (False, True)
+    )
+    # The bar of the limit is 1e-5.
+    limit = found["linear frequency"].model_difference
+    assert limit == pytest.approx(rigid / exact - 1.0, abs=3e-5)
+    assert limit == pytest.approx(1.6e-4, abs=1e-5)
 
 
 def test_a_changed_file_is_noticed(tmp_path):
