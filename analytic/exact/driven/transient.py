@@ -31,15 +31,17 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 class BladeMotion(NamedTuple):
     """The tip's place and rate (times, ...), and places (times, points, ...); nondimensional.
 
-    In the rotating frame: complex numbers in the plane, three components in space.
+    In the rotating frame: complex numbers in the plane, three components in space. `state` has q,
+    q̇ and q̈, (3, times, n).
     """
 
     tip: Any
     tip_rate: Any
     axis: Any
+    state: FloatArray
 
 
-def _drive(
+def drive(
     beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
 ) -> Callable[[FloatArray], dict[str, Any]]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
@@ -73,12 +75,14 @@ def integrated(
     not swing, in the state `q` (n,).
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
-    drive = _drive(beam, rotation, loads, model)
+    driven_at = drive(beam, rotation, loads, model)
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
     z_dot = np.zeros_like(z)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
+    state = np.zeros((3, time.size, model.size))
+    state[0] = q
     previous = 0.0
     ahead = list(pairwise(grid))[::-1]
     while ahead:
@@ -88,7 +92,7 @@ def integrated(
         guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
-        found, driven = None, drive(stages)
+        found, driven = None, driven_at(stages)
         residual = partial(model.residual, **driven)
         tangent = partial(model.tangent, **driven)
         for guess in guesses:
@@ -103,6 +107,8 @@ def integrated(
             continue
         acceleration, previous = found, h
         inside = slice(*np.searchsorted(time, (begin, end), side="right"))
+        if begin == grid[0]:
+            inside = slice(0, inside.stop)
         at = (time[inside] - begin) / (end - begin)
         velocities = q_dot + h * method.integral(at) @ acceleration
         positions = (
@@ -110,10 +116,11 @@ def integrated(
             + h * at[:, None] * q_dot
             + h**2 * method.integral(at) @ method.velocity @ acceleration
         )
+        state[:, inside] = positions, velocities, method.values(at) @ acceleration
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
         if points.size:
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return BladeMotion(z, z_dot, axis)
+    return BladeMotion(z, z_dot, axis, state)
