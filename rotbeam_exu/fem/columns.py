@@ -66,6 +66,7 @@ def columns(
         ),
         "axial_strain": (strain, "1", "largest axial strain along the beam"),
     }  # fmt: skip
+    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], frame, setting)
     if case.exchanges_energy:
         t = time / units.time
         power = built.loading.power(t, angle, relative)
@@ -79,6 +80,7 @@ def columns(
         turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
         values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
+    scale |= {"N": units.energy / units.length, "N m": units.energy}
     run = xr.Dataset(
         {
             name: ("time", scale.get(unit, 1.0) * column, {"units": unit, "long_name": label})
@@ -96,6 +98,42 @@ def columns(
         label = "third axis of the sections, across their chord"
         run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
     return run.assign_coords(direction=["x", "y", "z"])
+
+
+def _clamp_loads(
+    case: RunCase,
+    trajectory: Trajectory,
+    angle: FloatArray,
+    root: FloatArray,
+    frame: FloatArray,
+    setting: float,
+) -> dict[str, tuple[FloatArray, str, str]]:
+    """Return what the blade exerts on the clamp, by the constraints' Lagrange multipliers.
+
+    `root` (samples, n) has the root's coordinates in the frame of the clamp, `frame` its axes.
+    """
+    model, count = case.model, case.model.dimensions
+    onto = np.zeros_like(root)
+    onto[:, :count] = trajectory.multipliers[:, :count]
+    if case.frame == "inertial":
+        onto = model.turned(onto[:, None], -angle)[:, 0]
+    onto += trajectory.multipliers[:, count:] @ model.held(trajectory.reference[0])
+    force, moment = onto[:, :count] @ frame, model.root_moment(root, onto)
+    if model.leaves_plane:
+        moment = moment @ frame
+    kinds = (
+        ("force", "N", "xyz"[:count], force),
+        ("moment", "N m", "xyz"[-moment.shape[1] :], moment),
+    )
+    values = {
+        f"root_{kind}_{axis}": (column, unit, f"{kind} of the blade on the clamp, {axis}")
+        for kind, unit, axes, along in kinds
+        for axis, column in zip(axes, along.T, strict=True)
+    }
+    if setting == 1.0:  # otherwise a force across the plane of bending has a share in it
+        torque = -np.sum(onto * model.spun(root), axis=1)
+        values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
+    return values
 
 
 def twist(turns: FloatArray) -> FloatArray:

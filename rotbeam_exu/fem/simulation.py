@@ -138,7 +138,7 @@ def run_case(
             mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
-        sensors = Sensors(mbs, built.chain)
+        sensors = Sensors(mbs, built.chain, built.clamp)
         coordinates, velocities = _start(case, units, built.chain.reference(mbs), initial_state)
         if case.frame == "inertial":
             velocities = velocities + built.rotation.rate(0.0) * model.spun(coordinates)
