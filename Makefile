@@ -7,6 +7,8 @@ OLDEST := .venv-oldest
 # Linear algebra here is small: threads would only get in each other's way.
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
+# Tests are compiled once, not again by each worker and child.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: run figures images golden references test test-all test-oldest coverage bench bench-peers lint docs docs-draft check-site check clean
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from analytic import Beam, SpinUp
+from analytic import Beam, Damping, SpeedRipple, SpinUp, forced_response
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.cli import main
 from rotbeam_exu.verification.cases import CASES
@@ -37,6 +37,14 @@ def beam():
 def spin_up():
     """The spin-up of the main job."""
     return SpinUp(omega=6.0, ramp_time=3.0)
+
+
+@pytest.fixture(scope="session")
+def folded():
+    """The beam's response to a ripple of the speed at 6 rad/s, from fold to fold and beyond."""
+    beam = Beam.reference()
+    damped = beam.with_damping(Damping.from_ratio(beam, ratio=8e-4))
+    return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.7, 3.76], functions=8)
 
 
 def observed_order(sizes, errors):

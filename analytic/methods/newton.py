@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
-from ..lazily import linalg
+from ..lazily import linalg, sparse
 
 Vector = Callable[[FloatArray], FloatArray]
 
@@ -166,24 +166,20 @@ def by_products(
 ) -> FloatArray | None:
     """Return the solution of product(x) = vector, preconditioned by factors; None if too far off.
 
-    Saad and Schultz's GMRES (1986); `left` is what it leaves, as a share of the solution.
+    By GMRES; `left` is what it leaves, as a share of the solution.
     """
     start = solved(factors, vector)
     if not np.all(np.isfinite(start)):
         return None
-    basis, images = [start / length(start)], np.zeros((_PRODUCTS + 1, _PRODUCTS))
-    for k in range(_PRODUCTS):
-        image = solved(factors, product(basis[k]))
-        for i, one in enumerate(basis):
-            images[i, k] = one @ image
-            image = image - images[i, k] * one
-        images[k + 1, k] = length(image)
-        onto = length(start) * np.eye(1, k + 2)[0]
-        shares = np.linalg.lstsq(images[: k + 2, : k + 1], onto)[0]
-        if length(images[: k + 2, : k + 1] @ shares - onto) <= left * length(start):
-            return np.asarray(shares @ np.array(basis))
-        basis.append(image / images[k + 1, k])
-    return None
+    near_one: Any = sparse.linalg.LinearOperator(
+        2 * (start.size,), matvec=lambda x: solved(factors, product(x)), dtype=float
+    )
+    norms = [0.0]  # by the recurrence: the last residual itself has noise of single precision
+    x, _ = sparse.linalg.gmres(
+        near_one, start, rtol=left, restart=_PRODUCTS, maxiter=1,
+        callback=norms.append, callback_type="pr_norm",
+    )  # fmt: skip
+    return np.asarray(x) if norms[-1] <= left else None
 
 
 def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:

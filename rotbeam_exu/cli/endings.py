@@ -8,7 +8,7 @@ import re
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 
@@ -50,6 +50,16 @@ def stopped_as_by_ctrl_c() -> Iterator[list[int]]:
     finally:
         for one in ours:
             signal.signal(one, signal.SIG_DFL)
+
+
+@contextmanager
+def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
+    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
 def output_is_lost() -> bool:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
+from .endings import telling_what_is_kept
 from .output import print_written
 
 R = TypeVar("R")
@@ -154,16 +154,6 @@ def require_writable(
     if target.exists() and not known and not force:
         remedy = "choose another name" + ("" if force is None else " with --out, or --force")
         raise FileExistsError(f"{target} is there, from unknown inputs: {remedy}")
-
-
-@contextmanager
-def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
-    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
-    try:
-        yield
-    except KeyboardInterrupt as interrupt:
-        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
-        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
 def _short(value: object) -> str:

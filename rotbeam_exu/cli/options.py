@@ -17,7 +17,7 @@ from analytic.description import kinds_of
 from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
-from .job import telling_what_is_kept
+from .endings import telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter
 

@@ -18,12 +18,7 @@ from ..runs.attributes import beam_attributes
 _W_BAR = "speed ω/√(EI/ρAL⁴)"
 
 
-def softening_map(
-    beam: AnyBlade | None = None,
-    *,
-    hub_ratios: Sequence[float] | None = None,
-    w_bars: Sequence[float] | None = None,
-) -> xr.Dataset:
+def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
     """Return λ_ω of FrM and ω_2/ω_n of a blade on hubs of many radii, at many speeds.
 
     Inextensible, by the closed form of `analytic.reduced.any_blade`. Near whole numbers of ω_2/ω_n
@@ -33,19 +28,15 @@ def softening_map(
     ----------
     beam : Beam or Blade, optional
         By default the paper's beam; its own hub radius is replaced.
-    hub_ratios : sequence of float, optional
-        R/L, by default 0 to 5.
-    w_bars : sequence of float, optional
-        w̄ = ω/√(EI/ρAL⁴), by default 0 to 10.
 
     Returns
     -------
     Dataset
-        `lambda_omega` and `ratio` = ω_2/ω_n over (hub_ratio, w_bar).
+        `lambda_omega` and `ratio` = ω_2/ω_n over R/L from 0 to 5 and w̄ = ω/√(EI/ρAL⁴) from 0 to
+        10, (hub_ratio, w_bar).
     """
     blade = Beam.reference() if beam is None else beam
-    hubs = np.linspace(0.0, 5.0, 21) if hub_ratios is None else np.asarray(hub_ratios)
-    speeds = np.linspace(0.0, 10.0, 31) if w_bars is None else np.asarray(w_bars)
+    hubs, speeds = np.linspace(0.0, 5.0, 21), np.linspace(0.0, 10.0, 31)
     coefficients, ratios = np.empty((2, hubs.size, speeds.size))
     for i, hub in enumerate(hubs.tolist()):
         unit = blade.with_hub_radius(hub * blade.length).unit
@@ -63,9 +54,7 @@ def softening_map(
     )
 
 
-def softening_by_plane(
-    beam: AnyBlade | None = None, *, w_bars: Sequence[float] | None = None
-) -> xr.Dataset:
+def softening_by_plane(beam: AnyBlade | None = None) -> xr.Dataset:
     """Return λ_ω of FrM of lag alone and of flap alone, over the speed.
 
     Flap alone is the blade set at a right angle: it bends out of the plane of rotation only, whose
@@ -77,16 +66,14 @@ def softening_by_plane(
     ----------
     beam : Beam or Blade, optional
         By default the paper's beam; its own setting angle is replaced.
-    w_bars : sequence of float, optional
-        w̄ = ω/√(EI/ρAL⁴), by default 0 to 10.
 
     Returns
     -------
     Dataset
-        `lambda_omega` over (plane, w_bar).
+        `lambda_omega` over (plane, w_bar), w̄ = ω/√(EI/ρAL⁴) from 0 to 10.
     """
     blade = Beam.reference() if beam is None else beam
-    speeds = np.linspace(0.0, 10.0, 101) if w_bars is None else np.asarray(w_bars)
+    speeds = np.linspace(0.0, 10.0, 101)
     planes = {"lag": 0.0, "flap": 0.5 * np.pi}
     coefficients = []
     for angle in planes.values():

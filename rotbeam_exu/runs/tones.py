@@ -46,6 +46,8 @@ class Fit:
         ω and the ν_j [rad per unit of time].
     coefficients : ndarray of shape (1 + 2 (HARMONICS + J),)
         c₀, the cosines of harmonics and tones, then their sines.
+    columns : ndarray of shape (samples, 1 + 2 (HARMONICS + J))
+        What they multiply, over time.
     """
 
     time: FloatArray
@@ -53,6 +55,7 @@ class Fit:
     weights: FloatArray
     rates: FloatArray
     coefficients: FloatArray
+    columns: FloatArray
 
     @property
     def fundamental(self) -> float:
@@ -80,7 +83,7 @@ class Fit:
     @cached_property
     def remainder(self) -> FloatArray:
         """Signal that neither series nor tones explain, over time."""
-        return np.asarray(self.x - _columns(self.time, self.rates) @ self.coefficients)
+        return np.asarray(self.x - self.columns @ self.coefficients)
 
     @property
     def misfit(self) -> float:
@@ -89,7 +92,7 @@ class Fit:
 
     def newton_step(self) -> FloatArray:
         """Return the change of the rates that the linearized model asks for, coefficients free."""
-        change = _solve(self._tangent(), self.remainder, self.weights)
+        change = _solve(self._tangent, self.remainder, self.weights)
         return change[self.coefficients.size :]
 
     def frequency(self) -> Known:
@@ -137,10 +140,8 @@ class Fit:
         |r̂| over the discrete frequencies, r with the least lucky phases. Near its own frequencies
         the fit has absorbed the error, so r̂ is the largest of its neighbors.
         """
-        tangent = self._tangent()
-        root = np.sqrt(self.weights)[:, None]
-        inverse = np.linalg.pinv(np.linalg.qr(root * tangent, mode="r"), rcond=1e-12)
-        influence = self.weights * (tangent @ (inverse @ (inverse.T @ gradient)))
+        inverse = self._inverse
+        influence = self.weights * (self._tangent @ (inverse @ (inverse.T @ gradient)))
         samples = 2 * self.x.size
         of_influence, of_remainder = (
             np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder)
@@ -150,11 +151,17 @@ class Fit:
         bound = 2.0 / samples * float(of_influence @ filled)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
 
+    @cached_property
     def _tangent(self) -> FloatArray:
-        """Return the derivatives of the model by coefficients, ω and ν, (samples, all)."""
-        columns = _columns(self.time, self.rates)
-        slopes = _slopes(self.time, columns, self.coefficients)
-        return np.hstack([columns, slopes])
+        """Derivatives of the model by coefficients, ω and ν, (samples, all)."""
+        slopes = _slopes(self.time, self.columns, self.coefficients)
+        return np.hstack([self.columns, slopes])
+
+    @cached_property
+    def _inverse(self) -> FloatArray:
+        """Inverse of the triangle of the weighted tangent, (all, all)."""
+        weighted = np.sqrt(self.weights)[:, None] * self._tangent
+        return np.asarray(np.linalg.pinv(np.linalg.qr(weighted, mode="r"), rcond=1e-12))
 
 
 _ORDERS = np.arange(1.0, HARMONICS + 1.0)
@@ -200,8 +207,11 @@ def _descend(
     """
 
     def at(rates: FloatArray) -> Fit:
-        coefficients = _solve(_columns(time, rates), x, weights)
-        return Fit(time=time, x=x, weights=weights, rates=rates, coefficients=coefficients)
+        columns = _columns(time, rates)
+        coefficients = _solve(columns, x, weights)
+        return Fit(
+            time=time, x=x, weights=weights, rates=rates, coefficients=coefficients, columns=columns
+        )  # fmt: skip
 
     fit = at(rates)
     for _ in range(most):

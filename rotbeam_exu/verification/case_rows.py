@@ -10,7 +10,7 @@ from .cases import CASES, Case, stated
 
 
 @dataclass(frozen=True)
-class Column:
+class CaseColumn:
     """A column of cases.csv: its name, its unit, and the cell of a case that has none.
 
     PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
@@ -22,23 +22,23 @@ class Column:
     besides: str = ""
 
 
-_TIP_MASS = Column("tip_mass", "kg", 0.0, "mass at the tip {} kg")
+_TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
 _ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
 _WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
-_OMEGA = Column("omega", "rad/s")
+_OMEGA = CaseColumn("omega", "rad/s")
 COLUMNS = {
-    "length": Column("L", "m"),
-    "section.axial_stiffness": Column("EA", "N"),
-    "section.bending_stiffness": Column("EI", "N m^2"),
-    "section.mass_per_length": Column("rhoA", "kg/m"),
-    "hub_radius": Column("hub_radius", "m", 0.0),
+    "length": CaseColumn("L", "m"),
+    "section.axial_stiffness": CaseColumn("EA", "N"),
+    "section.bending_stiffness": CaseColumn("EI", "N m^2"),
+    "section.mass_per_length": CaseColumn("rhoA", "kg/m"),
+    "hub_radius": CaseColumn("hub_radius", "m", 0.0),
     "point_masses.PointMass.mass": _TIP_MASS,
-    "point_masses.PointMass.position": Column("L", "m"),
-    "damping.bending": Column("bending_damping", "s", 0.0, _ETA),
-    "loads.Gravity.gravity": Column("gravity", "m/s^2", 0.0, _WEIGHT),
+    "point_masses.PointMass.position": CaseColumn("L", "m"),
+    "damping.bending": CaseColumn("bending_damping", "s", 0.0, _ETA),
+    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, _WEIGHT),
     "motion.SpinUp.omega": _OMEGA,
     "motion.SteadyRotation.omega": _OMEGA,
-    "motion.SpinUp.ramp_time": Column("T", "s"),
+    "motion.SpinUp.ramp_time": CaseColumn("T", "s"),
 }
 """Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
 

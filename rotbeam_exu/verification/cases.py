@@ -6,11 +6,13 @@ import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from analytic import AnyBlade, Beam, Damping, Gravity, SpinUp, SteadyRotation, periodic_orbits
-from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
+
+if TYPE_CHECKING:
+    from analytic.exact.free.orbits import Orbits
 
 VERSION = "1.0"
 """Version of the benchmark: of its cases, references and thresholds."""

@@ -69,13 +69,13 @@ def test_free_vibration_decays_at_the_damping_ratio(damping):
     omega = 4.0
     frequency = linear_modes(BEAM, omega).frequencies[0]
     ratio = damping_ratios(blade, omega)[0]
-    spin_up = SpinUp(omega=omega, ramp_time=10.0)
+    spin_up = SpinUp(omega=omega, ramp_time=8.0)
     period = 2.0 * np.pi / frequency
-    time = 14.0 + period * np.arange(600) / 100.0
-    q = spin_up_response(blade, spin_up, time, tolerance=1e-7).q
+    time = 10.0 + period * np.arange(400) / 100.0
+    q = spin_up_response(blade, spin_up, time, tolerance=1e-6).q
     # ∫q² over a period falls by exp(-4πζ), higher modes decaying faster or being 1e-3 of it.
-    energy = np.sum((q**2).reshape(6, 100), axis=1)
-    found = -np.polyfit(np.arange(6), np.log(energy), 1)[0] / (4.0 * np.pi)
+    energy = np.sum((q**2).reshape(4, 100), axis=1)
+    found = -np.polyfit(np.arange(4), np.log(energy), 1)[0] / (4.0 * np.pi)
     assert found == pytest.approx(ratio, rel=1e-3)
 
 

@@ -16,14 +16,6 @@ from analytic.reduced.shapes import CantileverMode
 BEAM = Beam.reference()
 
 
-@pytest.mark.parametrize(
-    ("rotating", "cantilever"), [("FrI", "CI"), ("FrE", "CE"), ("FrC", "CI"), ("FrM", "CI")]
-)
-def test_at_rest_the_rotating_mode_is_the_cantilever_mode(beam, rotating, cantilever):
-    fr, c = reduced_model(beam, 0.0, rotating), reduced_model(beam, 0.0, cantilever)
-    np.testing.assert_allclose((fr.w_n, fr.g1, fr.g2), (c.w_n, c.g1, c.g2), rtol=1e-12)
-
-
 @pytest.mark.parametrize("variant", ["CI", "CE", "FrI", "FrE", "FrC", "FrM"])
 def test_at_rest(beam, variant):
     model = reduced_model(beam, 0.0, variant)

@@ -199,7 +199,10 @@ def test_the_jacobian_is_the_derivative_of_the_projected_residual(system):
 
 
 def test_old_factors_and_products_solve_as_new_factors_do():
-    """The rank in which they differ is the number of products, and too far off there is none."""
+    """The rank in which they differ is the number of products; one more checks the solution.
+
+    Too far off there is none.
+    """
     random = np.random.default_rng(0)
     old = np.eye(60) + 0.1 * random.standard_normal((60, 60))
     vector = random.standard_normal(60)
@@ -212,6 +215,6 @@ def test_old_factors_and_products_solve_as_new_factors_do():
 
     found = by_products(product, factored(old.copy()), vector)
     assert found == pytest.approx(np.linalg.solve(matrix, vector), rel=1e-9)
-    assert len(asked) == 6
+    assert len(asked) == 7
     far = old + 10.0 * all_of_it
     assert by_products(lambda x: far @ x, factored(old.copy()), vector) is None

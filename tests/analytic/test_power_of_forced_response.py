@@ -9,7 +9,6 @@ import pytest
 from analytic import (
     Beam,
     Damping,
-    DistributedForce,
     SpeedRipple,
     Theory,
     TipForce,
@@ -47,31 +46,22 @@ def power(states, omega, nu, load, ripple=0.0):
     return along, across, load.amplitude * (moved * np.exp(-1j * PHASE)).mean()
 
 
+@pytest.fixture(scope="module")
+def pushed():
+    """By a force at the tip, at 6 rad/s."""
+    omega_n = linear_modes(BEAM, 6.0, 1, theory=Theory(extension=False)).frequencies[0]
+    damped = BEAM.with_damping(Damping(external=0.008 * BEAM.mass_per_length * SCALE))
+    load = TipForce(amplitude=0.005 * BEAM.bending_stiffness / BEAM.length**2)
+    around = omega_n * np.array([0.985, 1.015])
+    return forced_response(damped, 6.0, load, around, theory=Theory(extension=False))
+
+
 @pytest.mark.parametrize(
-    ("omega", "c", "load"),
-    [
-        pytest.param(
-            2.0,
-            0.004,
-            DistributedForce(amplitude=0.0045 * BEAM.bending_stiffness / BEAM.length**3),
-            marks=pytest.mark.slow,
-        ),
-        (6.0, 0.008, SpeedRipple(amplitude=0.003 * SCALE)),
-        pytest.param(
-            6.0,
-            0.008,
-            TipForce(amplitude=0.005 * BEAM.bending_stiffness / BEAM.length**2),
-            marks=pytest.mark.slow,
-        ),
-    ],
+    "name", ["loaded", "rippled", pytest.param("pushed", marks=pytest.mark.slow)]
 )
-def test_damping_takes_what_the_load_gives(omega, c, load):
-    d = c * BEAM.mass_per_length * SCALE
-    omega_n = linear_modes(BEAM, omega, 1, theory=Theory(extension=False)).frequencies[0]
-    response = forced_response(
-        BEAM.with_damping(Damping(external=d)), omega, load, omega_n * np.array([0.985, 1.015]),
-        theory=Theory(extension=False),
-    )  # fmt: skip
+def test_damping_takes_what_the_load_gives(name, request):
+    response = request.getfixturevalue(name)
+    omega, load, d = response.omega[0], response.load, response.beam.damping.external
     i = int(np.argmax(response.amplitude))
     ripple = load.amplitude if isinstance(load, SpeedRipple) else 0.0
     for point in (0, i // 2, i):

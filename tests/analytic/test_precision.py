@@ -126,7 +126,7 @@ KINDS = (np.float16, np.float32, np.longdouble, Fraction)
 # Two kinds stand for all four where one answer takes a second.
 DEAR = {"quiet_ramp_times", "branch", "forced_response", "stability_limit", "planar_stability"}
 # Residual amplitudes and the stability of a plane, above, take the same numbers.
-SECONDS = {"quiet_ramp_times", "stability_limit"}
+SECONDS = {"quiet_ramp_times", "stability_limit", "planar_note"}
 
 
 @pytest.mark.parametrize(

@@ -37,12 +37,6 @@ def test_largest_acceleration_is_twice_the_mean():
     assert spin_up.acceleration(t).max() == pytest.approx(2.0 * 6.0 / 3.0)
 
 
-def test_before_the_start_the_beam_is_at_rest():
-    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
-    t = np.array([-2.0, 0.0])
-    assert not np.any([spin_up.angle(t), spin_up.rate(t), spin_up.acceleration(t)])
-
-
 def test_steady_rotation_is_a_spin_up_long_past():
     steady, spin_up = SteadyRotation(omega=6.0), SpinUp(omega=6.0, ramp_time=3.0)
     t = np.array([4.0, 5.5])

@@ -25,12 +25,14 @@ FILM = ("animate", "--ramp-time", "1", "--duration", "2", "--rate", "3", "--out"
 @contextmanager
 def files_of_at_most(size):
     """As on a disk that is full: each file ends there."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before, cached = resource.getrlimit(resource.RLIMIT_FSIZE), sys.dont_write_bytecode
+    sys.dont_write_bytecode = True  # half a module in a cache would be read by the next
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
     try:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        sys.dont_write_bytecode = cached
 
 
 @pytest.mark.slow  # a child process; signals and Ctrl-C within this one are tested below
@@ -133,7 +135,7 @@ def test_standard_output_that_takes_no_more_is_named(monkeypatch, capsys, buffer
     stream = io.BufferedWriter(raw) if buffered else raw
     full = io.TextIOWrapper(stream, encoding="utf-8", write_through=not buffered)
     with redirect_stdout(full), pytest.raises(SystemExit) as stop:
-        main(["table", "2"])
+        main(["table", "4"])
     assert stop.value.code == 2
     error = capsys.readouterr().err
     assert "rotbeam: cannot write to standard output" in error
@@ -145,7 +147,7 @@ def test_standard_output_that_takes_no_more_is_named(monkeypatch, capsys, buffer
 def test_closed_outputs_are_no_reason_to_stop():
     """As by >&- and 2>&-: what is None is not written to, and no file takes the number."""
     text = (
-        "import os, sys; from rotbeam_exu.cli import main; main(['table', '2']); "
+        "import os, sys; from rotbeam_exu.cli import main; main(['table', '4']); "
         "print('lost', file=sys.stderr); "
         "assert os.readlink('/proc/self/fd/1') == os.readlink('/proc/self/fd/2') == os.devnull"
     )

@@ -46,9 +46,8 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
 
 
 def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
-    code, _, error = call(
-        "run", "--elements", "2", "--step", "0.01", "--duration", "5", "--out", tmp_path
-    )
+    short = (*SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
+    code, _, error = call("run", *short)
     assert code == 1
     kept = tmp_path / "cable-2-omega-6-ramp-3.nc"
     assert f"the run itself is in {kept}" in error
@@ -57,7 +56,8 @@ def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
 
 
 def test_a_failed_run_is_kept_and_marked(call, tmp_path):
-    failing = ("run", "--elements", "2", "--step", "0.08", "--ramp-time", "2.5", "--out", tmp_path)
+    failing = ("run", "--elements", "2", "--step", "0.08", "--ramp-time", "2.5", "--no-figure",
+               "--out", tmp_path)  # fmt: skip
     for duration, name in ((8, "-failed"), (10, "-failed-2"), (8, "-failed")):
         code, _, error = call(*failing, "--duration", duration)
         assert code == 1

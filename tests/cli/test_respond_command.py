@@ -6,51 +6,56 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analytic import Beam, Damping, ResponseNotReachedError, SpeedRipple, forced_response
+from analytic import ResponseNotReachedError
 from rotbeam_exu import load
 from rotbeam_exu.cli import respond as job
 from rotbeam_exu.runs.attributes import beam_of
 from tests.beams import BLADE_TOML
 
-RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.6")
-QUICK = ("--to", "3.8", "--points", "3", "--functions", "8")
+RIPPLE = ("--omega", "6", "--ripple", "0.002", "--damping-ratio", "0.0008", "--from", "3.7")
+QUICK = ("--to", "3.76", "--points", "2", "--functions", "8")
 
 
-@pytest.fixture(scope="module")
-def exact():
-    beam = Beam.reference()
-    damped = beam.with_damping(Damping.from_ratio(beam, 1, 0.0008))
-    return forced_response(damped, 6.0, SpeedRipple(amplitude=0.002), [3.6, 3.7, 3.8], functions=8)
+def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
+    call, tmp_path, monkeypatch, folded
+):
+    asked = []
 
+    def computed(*arguments, **options):
+        asked.append((*arguments, options["functions"]))
+        return folded
 
-def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_path, exact):
+    monkeypatch.setattr(job.analytic, "forced_response", computed)
     code, out, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 0
     assert error == ""
+    ((blade, omega, ripple, frequencies, functions),) = asked
+    assert (blade, omega, ripple, functions) == (folded.beam, 6.0, folded.load, 8)
+    assert frequencies.tolist() == [3.7, 3.76]
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     assert [row[0] for row in rows] == ["start", "fold", "fold", "peak", "end"]
     assert [row[4] for row in rows] == ["yes", "yes | no", "no | yes", "yes", "yes"]
-    wanted = [*((fold.frequency, fold.amplitude) for fold in exact.folds), exact.peaks[0]]
+    wanted = [*((fold.frequency, fold.amplitude) for fold in folded.folds), folded.peaks[0]]
     for row, (nu, a) in zip(rows[1:4], wanted, strict=True):
         assert [float(row[1]), float(row[2])] == pytest.approx([nu, a], abs=1e-6)
     # On the backbone a ripple's lag is half a turn, its Euler force being a quarter behind it.
     assert float(rows[3][3]) == pytest.approx(np.pi, abs=1e-2)
-    name = "response-omega-6-ripple-0.002-from-3.6-to-3.8"
+    name = "response-omega-6-ripple-0.002-from-3.7-to-3.76"
     assert {path.name for path in tmp_path.iterdir()} == {
         f"{name}.{kind}" for kind in ("nc", "csv", "png", "pdf")
     }
     data, table = load(tmp_path / f"{name}.nc"), pd.read_csv(tmp_path / f"{name}.csv", comment="#")
     units = {"frequency": " [rad/s]", "phase": " [rad]"}
     for variable in ("frequency", "amplitude", "phase", "stable"):
-        assert data[variable].to_numpy() == pytest.approx(getattr(exact, variable))
+        assert data[variable].to_numpy() == pytest.approx(getattr(folded, variable))
         title = f"{variable}{units.get(variable, '')}"
         assert set(table[title]) == set(data[variable].to_numpy())
-    assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(exact.harmonics)
-    assert data["backbone_frequency"][0].item() == pytest.approx(exact.backbone.omega_n)
-    assert beam_of(data.attrs) == exact.beam
+    assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(folded.harmonics)
+    assert data["backbone_frequency"][0].item() == pytest.approx(folded.backbone.omega_n)
+    assert beam_of(data.attrs) == folded.beam
     attrs = {"load": "SpeedRipple", "load_size": 0.002, "load_unit": "rad/s", "omega": 6.0}
     assert attrs.items() <= data.attrs.items()
-    assert data.attrs["residual"] == pytest.approx(exact.residual.max())
+    assert data.attrs["residual"] == pytest.approx(folded.residual.max())
     assert "numpy" in data.attrs["versions"]
 
 
@@ -64,10 +69,12 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(call, tmp_pa
     ],
 )
 def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
+    """Figures of curves are tested above, and in tests/figures."""
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--functions", "8", "--inextensible", "--out", tmp_path,
+        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out",
+        tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))
@@ -127,13 +134,13 @@ def test_without_damping_a_zero_lets_through_what_meets_no_resonance(call, tmp_p
     assert "without damping the response has no end at resonance" in error
 
 
-def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatch, exact):
+def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatch, folded):
     def broken(*_, **__):
-        raise ResponseNotReachedError("the response was not found after 3.7 rad/s", exact)
+        raise ResponseNotReachedError("the response was not found after 3.7 rad/s", folded)
 
     monkeypatch.setattr(job.analytic, "forced_response", broken)
     code, _, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 1
-    kept = tmp_path / "response-omega-6-ripple-0.002-from-3.6-to-3.8-failed.nc"
+    kept = tmp_path / "response-omega-6-ripple-0.002-from-3.7-to-3.76-failed.nc"
     assert f"after 3.7 rad/s; the part that was found is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"

@@ -34,9 +34,28 @@ def finished(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def serial(beam, finished):
+def solved():
+    """What was computed, by case."""
+    return {}
+
+
+@pytest.fixture(scope="module")
+def serial(beam, finished, solved):
     """The sweep that is computed once; it fills the cache `finished`."""
-    return sweep(beam, **SMALL, **COARSE, jobs=1, history=True, cache=finished)
+    solve = sweeps.solve
+
+    def kept(case):
+        return solved.setdefault(json.dumps(case.describe()), solve(case))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sweeps, "solve", kept)
+        return sweep(beam, **SMALL, **COARSE, jobs=1, history=True, cache=finished)
+
+
+@pytest.fixture
+def at_once(serial, solved, monkeypatch):
+    """Its cases are not computed again; each result is a copy, as of a process."""
+    monkeypatch.setattr(sweeps, "solve", lambda case: solved[json.dumps(case.describe())].copy())
 
 
 @pytest.fixture
@@ -136,7 +155,7 @@ def test_a_failed_case_stays_on_record_with_its_sentence_and_what_was_computed(b
 
 
 def test_what_a_run_that_fails_its_checks_computed_is_kept(beam):
-    options = {"element": "linear", "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1}
+    options = {"element": "linear", "elements": 2, "step": 1e-2, "duration": 9.0, "jobs": 1}
     found = sweep(beam, omegas=[6.0], ramp_times=[3.0], **options, on_error="record", history=True)
     assert found["verdict"].item() == "failed"
     assert np.isfinite(found["q"]).any()
@@ -179,6 +198,7 @@ def test_numbers_of_numpy_are_numbers(beam, serial, cache):
     assert {path.name for path in cache.glob("*.nc")} == known
 
 
+@pytest.mark.usefixtures("at_once")
 def test_shards_make_the_whole(beam, serial, tmp_path):
     parts = [
         sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, shard=(k, 3)) for k in (1, 2, 3)
@@ -209,6 +229,7 @@ class DyingPool(Executor):
 
 
 # Of Dask's client, whose scheduler is gone, the second.
+@pytest.mark.usefixtures("at_once")
 @pytest.mark.parametrize("error", [BrokenProcessPool("a worker died"), CancelledError()])
 def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error):
     said = "a worker process died, or its executor ended, with . of 4 cases to do; run again"
@@ -221,6 +242,7 @@ def test_a_dying_worker_loses_no_finished_case(beam, serial, tmp_path, error):
     assert all(path.stat().st_mtime_ns == time for path, time in kept.items())
 
 
+@pytest.mark.usefixtures("at_once")
 def test_any_executor_will_do(beam, serial):
     with ThreadPoolExecutor(1) as pool:
         found = sweep(beam, **SMALL, **COARSE, executor=pool, history=True)

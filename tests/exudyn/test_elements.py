@@ -149,9 +149,8 @@ def test_tangent_and_force_are_derivatives(row, reference):
         (Cable(), BEAM, 6.0, 4, Cable()),
         (Exact(), THICK, 5.0, 8, Exact(nodes=3)),
         (Exact(nodes=3), THICK, 5.0, 4, Exact(nodes=3)),
-        # Soft in shear, for which round-off stays below the error of 32 elements.
-        (Ancf3(shear_correction=0.1), BEAM, 6.0, 8, Ancf3(shear_correction=0.1)),
-        # Its section is that of each Gauss point, and it turns with a tip mass.
+        # Soft in shear, for which round-off stays below the error of 32 elements. Its section is
+        # that of each Gauss point, and it turns with a tip mass.
         (Ancf3(shear_correction=0.1), TAPERED, 6.0, 8, Ancf3(shear_correction=0.1)),
         (Ancf3(shear_correction=0.01), TURNING, 3.3, 8, Ancf3(shear_correction=0.01)),
         (Linear(), BEAM, 2.0, 4, Linear()),

@@ -44,23 +44,23 @@ def test_frequencies_go_to_the_exact_ones_with_the_square_of_the_mesh(name, fitt
 
 
 def test_a_twisted_spin_up_follows_the_exact_one():
-    """16 elements and 5 ms leave 8e-4 L of lag; without the twist of its reference 4e-2 L.
+    """16 elements and 5 ms leave 1.5e-3 L of 0.55; without its twist the blade is 0.15 L off.
 
-    Gravity and a force at the tip, by which it swings 0.1 L farther, are those of theory.
+    Gravity and a force at the tip are those of theory: it swings 0.008 and 0.07 L farther by them.
     """
     blade = STRAIGHT.with_section_out_of_plane(0.25, 0.2).with_twist(math.pi / 6)
     blade = blade.with_precone(0.1)
     loads = [Gravity(0.3), TipForce(amplitude=0.02, frequency=2.0)]
-    motion, at = SpinUp(omega=2.0, ramp_time=3.0), np.linspace(0.0, 4.5, 46)
+    motion, at = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 1.25, 26)
     run = simulate(
-        blade, motion, element=ELEMENT, elements=16, duration=4.5, step=5e-3, loads=loads
+        blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads
     )
     theory = Theory(extension=False, rotary_inertia=True, trapeze=False)
     exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-4, loads=loads)
     tip = run["axis"][:, -1].interp(time=at)
-    np.testing.assert_allclose(tip, exact.tip, atol=1e-3)
-    np.testing.assert_allclose(run["q"].interp(time=at), exact.tip[:, 1], atol=1e-3)
-    np.testing.assert_allclose(run["w"].interp(time=at), exact.tip[:, 2], atol=1e-3)
+    np.testing.assert_allclose(tip, exact.tip, atol=2e-3)
+    np.testing.assert_allclose(run["q"].interp(time=at), exact.tip[:, 1], atol=2e-3)
+    np.testing.assert_allclose(run["w"].interp(time=at), exact.tip[:, 2], atol=2e-3)
     # At the clamp the section has its axes. Short waves of the sudden loads leave 2 %.
     loads = exact.section_loads([0.0])
     for kind, there in (("force", loads.force), ("moment", loads.moment)):

@@ -11,7 +11,7 @@ import pytest
 
 from analytic import Blade, Damping, FourierRamp, Gravity, PointMass, Section, SpinUp, TipForce
 from rotbeam_exu.verification import kit as room
-from rotbeam_exu.verification.case_rows import COLUMNS, Column, row_of
+from rotbeam_exu.verification.case_rows import COLUMNS, CaseColumn, row_of
 from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.kit import MESHES, kit_files, write_kit
@@ -108,7 +108,7 @@ def test_a_case_that_the_kit_cannot_say_is_refused(change, lost):
 
 def test_another_column_is_a_line(monkeypatch):
     """In both tables and in the problem."""
-    drag = Column("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
+    drag = CaseColumn("drag", "kg/(m s)", 0.0, "drag {} kg/(m s)")
     monkeypatch.setitem(COLUMNS, "damping.external", drag)
     case = replace(S1, name="S5", blade=S1.blade.with_damping(Damping(external=0.1)))
     monkeypatch.setitem(CASES, "S5", case)

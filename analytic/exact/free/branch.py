@@ -162,8 +162,3 @@ class Branch(OrbitSet):
     def folds(self) -> tuple[SpecialPoint, ...]:
         """Folds, where the curve turns around, in order along it."""
         return self._marked("fold")
-
-    @property
-    def branch_points(self) -> tuple[SpecialPoint, ...]:
-        """Crossings with other curves, in order along the curve."""
-        return self._marked("branch point")

@@ -50,9 +50,9 @@ class Resonance(NamedTuple):
 
 
 def frequency_ratios(
-    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, count: int = 4
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int
 ) -> tuple[list[int], FloatArray]:
-    """Return the next modes, from 1, and their ν_j/Ω about successive orbits, (orbits, modes).
+    """Return the lowest other modes, from 1, and their ν_j/Ω about successive orbits.
 
     Multipliers leave open how many turns a mode makes in a period; it is followed from the linear
     mode on, in the square of the amplitude.
@@ -65,10 +65,12 @@ def frequency_ratios(
         Nondimensional linear frequencies.
     mode : int
         From which the orbits grow.
-    count : int
-        How many other modes, the lowest.
+
+    Returns
+    -------
+    list, ndarray (orbits, modes)
     """
-    others = _others(modes, mode, count)
+    others = _others(modes, mode)
     squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
     ratios = [modes[others] / modes[mode - 1]]
     for i, orbit in enumerate(orbits, start=1):
@@ -80,9 +82,9 @@ def frequency_ratios(
     return [j + 1 for j in others], np.array(ratios[1:])
 
 
-def _others(modes: FloatArray, mode: int, count: int = 4) -> list[int]:
-    """Return the places of the lowest other modes."""
-    return [j for j in range(min(count + 1, modes.size)) if j != mode - 1]
+def _others(modes: FloatArray, mode: int) -> list[int]:
+    """Return the places of the lowest four other modes."""
+    return [j for j in range(min(5, modes.size)) if j != mode - 1]
 
 
 def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:

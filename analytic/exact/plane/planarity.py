@@ -41,7 +41,7 @@ def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> Float
     return rates
 
 
-def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) -> str:
+def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
     """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
 
     It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
@@ -54,8 +54,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
     omega : float
         Rotation speed ω [rad/s].
     amplitude : float
-        Peak |q|/L of the motion, about that of an orbit of `mode`.
-    mode : int
+        Peak |q|/L of the motion, about that of an orbit of the first mode.
     """
     require_planar(blade)
     unit = blade.unit
@@ -65,7 +64,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float, mode: int = 1) 
         return ""
     omega, amplitude = rotation_speed(omega), float(amplitude)
     try:
-        orbits = planar_orbits(blade, omega, mode)
+        orbits = planar_orbits(blade, omega)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
             # What the first resolution finds, the finer one confirms.
             told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH

@@ -22,7 +22,7 @@ class State(NamedTuple):
     offset_m: FloatArray  # ρ, from the line to the center of mass
 
 
-class Motion(NamedTuple):
+class Rates(NamedTuple):
     """Rates and accelerations of the same."""
 
     turning: FloatArray  # R K̇
@@ -44,7 +44,7 @@ class Changes:
     Each line of the motion once more, with δφ = Φ_k and δr' = U_k' for a change of coordinate k.
     """
 
-    def __init__(self, model: Any, at: State, motion: Motion, W: Any, W_dot: Any) -> None:
+    def __init__(self, model: Any, at: State, motion: Rates, W: Any, W_dot: Any) -> None:
         own = model.strains
         self._model, self._at, self._motion, self._W = model, at, motion, W[..., None]
         self._W_dot = W_dot[..., None]

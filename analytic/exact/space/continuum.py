@@ -29,7 +29,7 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
 from .basis import StrainFunctions
-from .changes import Changes, Motion, State
+from .changes import Changes, Rates, State
 from .vectors import Frames, cross, turned, turned_back
 
 
@@ -101,7 +101,7 @@ class SpaceContinuum:
         q_ddot: FloatArray,
         rate: float | FloatArray,
         rate_dot: float | FloatArray,
-    ) -> Motion:
+    ) -> Rates:
         inner, outer = self.inner.T, self.outer.T
         stretch, bend = self._rates(at.K, q_dot)
         stretch_rate, bend_rate = self._rates(at.K, q_ddot)
@@ -128,7 +128,7 @@ class SpaceContinuum:
             + cross(total_rate, at.offset_m)
             + cross(total, cross(total, at.offset_m))
         )
-        return Motion(
+        return Rates(
             turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
             acceleration, twisting, speeding,
         )  # fmt: skip
@@ -141,7 +141,7 @@ class SpaceContinuum:
         return turned(frame, turned(J, turned_back(frame, vector)))
 
     def _forces(
-        self, at: State, motion: Motion, push: FloatArray | None
+        self, at: State, motion: Rates, push: FloatArray | None
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return m A_c at the masses, and F and M on the grid, with weights."""
         body = 0.0 if push is None else push[1][..., :1]

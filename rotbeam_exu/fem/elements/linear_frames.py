@@ -143,7 +143,7 @@ class Substructures(_LinearFrames):
         return (nodes - 1) // self.cells
 
 
-def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> xr.Dataset:
+def divergence_speeds(beam: Beam, counts: Sequence[int]) -> xr.Dataset:
     """Return the divergence speed [rad/s] of both frames over numbers of substructures.
 
     Returns
@@ -152,7 +152,7 @@ def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> x
         `divergence_speed` over `frame` and `substructures`; attribute omega_0: the beam's [rad/s].
     """
     frames: tuple[FloatingFrame, ...] = ("tangent", "pinned")
-    models = [Substructures(frame=frame, cells=cells) for frame in frames]
+    models = [Substructures(frame=frame) for frame in frames]
     values = [[model.divergence_speed(beam, n) for n in counts] for model in models]
     attrs = {"units": "rad/s", "long_name": "divergence speed"}
     return xr.Dataset(
@@ -163,7 +163,7 @@ def divergence_speeds(beam: Beam, counts: Sequence[int], *, cells: int = 2) -> x
                 "substructures", list(counts), {"long_name": "number of substructures"}
             ),
         },
-        attrs={"omega_0": beam.omega_0, "cells": cells},
+        attrs={"omega_0": beam.omega_0, "cells": models[0].cells},
     )  # fmt: skip
 
 
