@@ -35,8 +35,8 @@ class SectionLoads:
     >>> from analytic import Beam, SpinUp, spin_up_response
     >>> found = spin_up_response(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), [1.0, 2.0])
     >>> print(found.section_loads([0.0, 4.0]).moment.round(2))
-    [[-50.69 -12.97]
-     [-69.22 -13.38]]
+    [[ -69.55  -20.56]
+     [-220.73  -21.15]]
     """
 
     stations: FloatArray

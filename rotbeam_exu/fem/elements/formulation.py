@@ -200,7 +200,8 @@ class Formulation(Described, abstract=True):
         About z, (samples, 1), in space about all axes, (samples, 3).
         """
         turning = slice(self.dimensions, None)
-        return np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
+        about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
+        return np.asarray(about_z)
 
     def sections(self, coordinates: FloatArray) -> FloatArray | None:
         """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""
