@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.driven.forced_orbits import ForcedResponse
+from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
 from analytic.exact.plane.planarity import PlanarStability
@@ -179,7 +179,7 @@ def _(found: StabilityLimit) -> xr.Dataset:
 
 
 @_described.register
-def _(response: ForcedResponse) -> xr.Dataset:
+def _of_response(response: ForcedResponse) -> xr.Dataset:
     """Over the points of the curve, in order; q/L = Σ cosine cos kφ + sine sin kφ in column k.
 
     `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
@@ -216,6 +216,23 @@ def _(response: ForcedResponse) -> xr.Dataset:
     )
     known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
     return dataset(variables, {}, {**inputs, **known})
+
+
+@_described.register
+def _(response: SpaceForcedResponse) -> xr.Dataset:
+    """As in the plane; q is the gauge, and `lag`, `flap` and `twist` are the tip's amplitudes."""
+    data, half = _of_response(response), "half the way of the tip"
+    data["stable"].attrs["long_name"] = "whether disturbances decay"
+    return data.merge(
+        dataset(
+            {
+                "lag": ("point", response.lag, f"{half} in lag over L"),
+                "flap": ("point", response.flap, f"{half} in flap over L"),
+                "twist": ("point", response.twist, "half the swing of the torsion [rad]"),
+            },
+            {},
+        )
+    )
 
 
 def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:

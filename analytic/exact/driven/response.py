@@ -113,6 +113,7 @@ class SpinUpResponse:
         }
 
 
+@dataclass(frozen=True, kw_only=True)
 class SpaceResponse(SpinUpResponse):
     """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
 
@@ -125,9 +126,16 @@ class SpaceResponse(SpinUpResponse):
         Place of the tip from the clamp [m].
     axis : ndarray (times, points, 3)
         Places of the points asked for from the clamp [m].
+    twist : ndarray (times,)
+        How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
+        rotation T from the unloaded section to the loaded one, in the axes of `tip`.
+    error : float
+        Of the twist as well, in radians over the largest deflection over the length.
     functions : int
         Functions for each curvature.
     """
+
+    twist: FloatArray = field(repr=False)
 
     @property
     def lag(self) -> FloatArray:
@@ -145,7 +153,14 @@ class SpaceResponse(SpinUpResponse):
     ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
         tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
-        return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}
+        axis = beam.length * motion.axis
+        return {
+            "q": tip[:, 1],
+            "q_dot": rate[:, 1],
+            "tip": tip,
+            "axis": axis,
+            "twist": motion.twist,
+        }
 
 
 @one_thread
@@ -228,7 +243,8 @@ def spin_up_response(
             continue
         if coarser is not None:
             size = float(np.abs(model.deflection(finer.tip)).max())
-            error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
+            changes = finer.tip - coarser.tip, finer.twist - coarser.twist
+            error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:
                 return kind(
                     beam=beam,

@@ -29,7 +29,7 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 
 
 class BladeMotion(NamedTuple):
-    """The tip's place and rate (times, ...), and places (times, points, ...); nondimensional.
+    """The tip's place, rate and twist (times, ...), and places (times, points, ...), without units.
 
     In the rotating frame: complex numbers in the plane, three components in space. `state` has q,
     q̇ and q̈, (3, times, n).
@@ -37,6 +37,7 @@ class BladeMotion(NamedTuple):
 
     tip: Any
     tip_rate: Any
+    twist: FloatArray
     axis: Any
     state: FloatArray
 
@@ -79,7 +80,7 @@ def integrated(
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot = np.zeros_like(z)
+    z_dot, twist = np.zeros_like(z), np.repeat(model.twist(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     state = np.zeros((3, time.size, model.size))
     state[0] = q
@@ -119,8 +120,9 @@ def integrated(
         state[:, inside] = positions, velocities, method.values(at) @ acceleration
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
+        twist[inside] = model.twist(positions)
         if points.size:
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return BladeMotion(z, z_dot, axis, state)
+    return BladeMotion(z, z_dot, twist, axis, state)

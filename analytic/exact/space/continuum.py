@@ -22,6 +22,7 @@ kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesni
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -253,6 +254,19 @@ class SpaceContinuum:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
 
+    @cached_property
+    def _tip_frame(self) -> Frames:
+        return Frames(self.functions.grid, np.array([1.0]), self.blade.kinks)
+
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return how far the load turns the tip's section out of its upright, (samples,)."""
+        loaded, unloaded = (
+            self._tip_frame.of(self._strains(one)[1])[1][..., 0]
+            for one in (q, np.zeros((1, self.size)))
+        )
+        turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
+        return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
+
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the tip's velocity in the root frame, (samples, 3)."""
         at = self._state(q)
@@ -267,6 +281,10 @@ class SpaceContinuum:
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
         return np.moveaxis(self.weights @ self.changes(q).slope, 0, 1)
+
+    def twist(self, q: FloatArray) -> FloatArray:
+        """Return the torsion along all of the blade, ∫(κ1 - κ01) dx [rad], (samples,)."""
+        return np.asarray(self._strains(q)[1][0] @ self.weights)
 
     @property
     def setting(self) -> float:

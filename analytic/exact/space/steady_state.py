@@ -32,6 +32,8 @@ class SteadyState:
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.
+    twist : float
+        How far the load turns the tip's section out of its upright [rad], as of `SpaceResponse`.
     error : float
         Its change over the length by the last refinement.
     """
@@ -42,6 +44,7 @@ class SteadyState:
     force: tuple[float, ...]
     moment: tuple[float, ...]
     tip: FloatArray
+    twist: float
     error: float
     _steady: SpaceBlade
 
@@ -129,6 +132,6 @@ def steady_state(
     )
     return SteadyState(
         blade=blade, omega=omega, theory=theory, force=force, moment=moment,
-        tip=blade.length * steady.tip, error=error,
-        _steady=steady,
+        tip=blade.length * steady.tip, error=error, _steady=steady,
+        twist=float(steady.model.twist(steady.equilibrium[None])[0]),
     )  # fmt: skip
