@@ -80,7 +80,7 @@ def integrated(
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot, twist = np.zeros_like(z), np.repeat(model.twist(q[None]), time.size)
+    z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     state = np.zeros((3, time.size, model.size))
     state[0] = q
@@ -120,7 +120,7 @@ def integrated(
         state[:, inside] = positions, velocities, method.values(at) @ acceleration
         z[inside] = model.tip(positions)
         z_dot[inside] = model.tip_rate(positions, velocities)
-        twist[inside] = model.twist(positions)
+        twist[inside] = model.tip_turn(positions)
         if points.size:
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)

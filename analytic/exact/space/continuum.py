@@ -258,7 +258,7 @@ class SpaceContinuum:
     def _tip_frame(self) -> Frames:
         return Frames(self.functions.grid, np.array([1.0]), self.blade.kinks)
 
-    def twist(self, q: FloatArray) -> FloatArray:
+    def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return how far the load turns the tip's section out of its upright, (samples,)."""
         loaded, unloaded = (
             self._tip_frame.of(self._strains(one)[1])[1][..., 0]
