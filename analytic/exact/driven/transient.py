@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
@@ -84,7 +85,7 @@ def integrated(
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     state = np.zeros((3, time.size, model.size))
     state[0] = q
-    previous = 0.0
+    previous, factors = 0.0, None
     ahead = list(pairwise(grid))[::-1]
     while ahead:
         begin, end = ahead.pop()
@@ -94,10 +95,14 @@ def integrated(
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
         found, driven = None, driven_at(stages)
+        if not math.isclose(h, previous):
+            factors = None
         residual = partial(model.residual, **driven)
         tangent = partial(model.tangent, **driven)
         for guess in guesses:
-            found = method.step(h, q, q_dot, guess, residual=residual, tangent=tangent)
+            found = method.step(
+                h, q, q_dot, guess, residual=residual, tangent=tangent, factors=factors
+            )
             if found is not None:
                 break
         if found is None:
@@ -106,22 +111,19 @@ def integrated(
             middle = 0.5 * (begin + end)
             ahead += [(middle, end), (begin, middle)]
             continue
-        acceleration, previous = found, h
+        acceleration, factors, previous = found.z, found.factors, h
         inside = slice(*np.searchsorted(time, (begin, end), side="right"))
         if begin == grid[0]:
             inside = slice(0, inside.stop)
         at = (time[inside] - begin) / (end - begin)
-        velocities = q_dot + h * method.integral(at) @ acceleration
-        positions = (
-            q
-            + h * at[:, None] * q_dot
-            + h**2 * method.integral(at) @ method.velocity @ acceleration
-        )
-        state[:, inside] = positions, velocities, method.values(at) @ acceleration
-        z[inside] = model.tip(positions)
-        z_dot[inside] = model.tip_rate(positions, velocities)
-        twist[inside] = model.tip_turn(positions)
-        if points.size:
+        if at.size:
+            onto = h * method.integral(at)
+            velocities = q_dot + onto @ acceleration
+            positions = q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration)
+            state[:, inside] = positions, velocities, method.values(at) @ acceleration
+            z[inside] = model.tip(positions)
+            z_dot[inside] = model.tip_rate(positions, velocities)
+            twist[inside] = model.tip_turn(positions)
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
