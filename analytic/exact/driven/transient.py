@@ -20,6 +20,8 @@ from ..space.continuum import SpaceContinuum
 from .loading import pushes, unit_load
 
 _STAGES = 8
+_CREDIT = 3  # failures, before a tangent of the steps before is no longer tried
+
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
@@ -86,6 +88,8 @@ def integrated(
     state = np.zeros((3, time.size, model.size))
     state[0] = q
     previous, factors = 0.0, None
+    # Tangents of the steps before are tried until they have failed more often than they served.
+    credit = _CREDIT if model.has_dear_tangent else 0
     ahead = list(pairwise(grid))[::-1]
     while ahead:
         begin, end = ahead.pop()
@@ -111,7 +115,10 @@ def integrated(
             middle = 0.5 * (begin + end)
             ahead += [(middle, end), (begin, middle)]
             continue
-        acceleration, factors, previous = found.z, found.factors, h
+        acceleration, previous = found.z, h
+        if factors is not None:
+            credit += 1 if found.factors is factors else -1
+        factors = found.factors if credit > 0 else None
         inside = slice(*np.searchsorted(time, (begin, end), side="right"))
         if begin == grid[0]:
             inside = slice(0, inside.stop)

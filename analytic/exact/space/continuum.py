@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -45,6 +45,9 @@ class SpaceContinuum:
     functions : StrainFunctions
         The strains, and what the sections weigh.
     """
+
+    has_dear_tangent: ClassVar[bool] = True
+    """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
     def __init__(self, functions: StrainFunctions) -> None:
         self.functions = functions
