@@ -102,11 +102,7 @@ def columns(
 
 
 def _clamp_loads(
-    case: RunCase,
-    trajectory: Trajectory,
-    angle: FloatArray,
-    root: FloatArray,
-    frame: FloatArray,
+    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
 ) -> dict[str, tuple[FloatArray, str, str]]:
     """Return what the blade exerts on the clamp, by the constraints' Lagrange multipliers.
 

@@ -147,14 +147,7 @@ class DrivenBlade(Discretized):
         """Return the residual and its derivatives to q, q̇ and q̈."""
         return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
 
-    def section_loads(
-        self,
-        x: FloatArray,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        frequency: float,
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x`, as the model has them."""
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
+        q, q_dot, q_ddot, phase, frequency = state
         return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))

@@ -85,8 +85,7 @@ def integrated(
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
     z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
-    state = np.zeros((3, time.size, model.size))
-    state[0] = q
+    state = np.repeat(np.stack((q, 0.0 * q, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None
     # Tangents of the steps before are tried until they have failed more often than they served.
     credit = _CREDIT if model.has_dear_tangent else 0
@@ -119,9 +118,8 @@ def integrated(
         if factors is not None:
             credit += 1 if found.factors is factors else -1
         factors = found.factors if credit > 0 else None
-        inside = slice(*np.searchsorted(time, (begin, end), side="right"))
-        if begin == grid[0]:
-            inside = slice(0, inside.stop)
+        before = -np.inf if begin == grid[0] else begin  # the first step has its start as well
+        inside = slice(*np.searchsorted(time, (before, end), side="right"))
         at = (time[inside] - begin) / (end - begin)
         if at.size:
             onto = h * method.integral(at)
