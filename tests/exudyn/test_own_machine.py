@@ -317,7 +317,9 @@ def test_the_settings_are_those_of_simulate(beam):
     run = simulate(beam, SPIN_UP, elements=4, duration=2.0, step=4e-3)
     with exudyn_system() as mbs:
         one = add_rotating_beam(mbs, beam, SPIN_UP, elements=4)
+        sensor = one.add_torque_sensor(mbs)
         solve(mbs, one, step=4e-3, every=50)
+        assert stored(mbs, sensor)[-1] == pytest.approx(run.clamp_torque[-1].item(), rel=1e-7)
         tip = stored(mbs, one.tip_sensor)[-1]
         assert tip[:2] == pytest.approx([run.tip_x[-1].item(), run.tip_y[-1].item()], abs=1e-8)
         settings = one.solver_settings(duration=2.0, step=4e-3)
