@@ -233,5 +233,5 @@ class Sensors:
             velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
             reference=self._reference,
             elastic_energy=elastic,
-            multipliers=np.hstack([table(s)[:, 1:] for s in self._clamp]),
+            multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
         )

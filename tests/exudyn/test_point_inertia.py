@@ -50,7 +50,7 @@ def test_a_free_slope_keeps_energy_and_angular_momentum():
         mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=M * np.eye(4)))
         chain = Chain(nodes=(node,), turning=((0, J),))
         add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
-        sensors = Sensors(mbs, chain)
+        sensors = Sensors(mbs, chain, clamp=())
         mbs.Assemble()
         settings = solver_settings(400, 2.5e-3, 200, "rotating", tolerance=1e-9)
         assert solve(mbs, settings, None) is None
