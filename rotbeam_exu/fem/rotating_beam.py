@@ -171,6 +171,8 @@ def add_rotating_beam(
                 "frame='inertial', a blade without external damping, and for loads Exudyn's own "
                 "on bodies or nodes"
             )
+    elif not hasattr(clamp, "angle"):
+        raise TypeError(f"clamp must be a rotation, or a marker that AddMarker gave, got {clamp!r}")
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
     loading = Loading(model, beam, elements, mass, loads)

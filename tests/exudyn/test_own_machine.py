@@ -312,6 +312,13 @@ def test_what_no_joint_clamps_is_refused(beam, marker, options, sentence):
             add_rotating_beam(mbs, beam, clamp, elements=2, **options)
 
 
+def test_a_body_is_no_clamp(beam):
+    with exudyn_system() as mbs:
+        body = mbs.AddObject(eii.ObjectGround())
+        with pytest.raises(TypeError, match="a marker that AddMarker gave, got "):
+            add_rotating_beam(mbs, beam, body)
+
+
 def test_the_settings_are_those_of_simulate(beam):
     """In any units: forces of a system in mm and t are 1000 times those in SI, N to mN."""
     run = simulate(beam, SPIN_UP, elements=4, duration=2.0, step=4e-3)
