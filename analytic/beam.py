@@ -235,8 +235,9 @@ def require_planar(beam: AnyBlade) -> None:
     if not beam.is_planar:
         raise ValueError(
             "this answer is of a straight blade in its plane, and this one is from stations or "
-            "has a twist, precone, prebend, sweep, kink or offset: take linear_modes, steady_state "
-            "or spin_up_response, which have it in space"
+            "has a twist, precone, prebend, sweep, kink or offset: take linear_modes, "
+            "steady_state, periodic_orbits, forced_response or spin_up_response, which have it in "
+            "space"
         )
 
 

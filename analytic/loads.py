@@ -91,6 +91,10 @@ class Load(Described, abstract=True):
             scaled["frequency"] = self.frequency * time
         return replace(self, **scaled)  # type: ignore[type-var]
 
+    def times(self, factor: float) -> Self:
+        """Return the load with `factor` times its size."""
+        return replace(self, **{self._of_size(): factor * self.size})  # type: ignore[type-var]
+
     def __str__(self) -> str:
         return f"{self.called} of {self.size:g} {self.unit}"
 

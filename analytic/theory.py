@@ -19,6 +19,9 @@ class Theory:
         Shear stiffness over axial stiffness, k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the
         blade, of Reissner's beam. True takes that of a blade from stations, which tell it. None of
         a beam whose slices stay normal to the axis.
+    engesser : bool
+        Whether the tension acts along the slope of the axis, Engesser's law, not along the normal
+        of the section, Reissner's; of a beam that shears, in the plane.
     rotary_inertia : bool
         Whether slices have inertia against rotation in the plane: that of a homogeneous section,
         ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
@@ -30,7 +33,8 @@ class Theory:
     Raises
     ------
     ValueError
-        If the shear is not positive, or the beam shears and does not stretch.
+        If the shear is not positive, or the beam shears and does not stretch, or Engesser's law is
+        asked of one that does not shear.
 
     Examples
     --------
@@ -44,13 +48,16 @@ class Theory:
 
     extension: bool = True
     shear: float | None = None  # True is a number too
+    engesser: bool = False
     rotary_inertia: bool = False
     trapeze: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("extension", "rotary_inertia", "trapeze"):
+        for name in ("extension", "engesser", "rotary_inertia", "trapeze"):
             object.__setattr__(self, name, flag(name, getattr(self, name)))
         if self.shear is None:
+            if self.engesser:
+                raise ValueError("engesser=True is a law of shear: give shear, as shear=0.32")
             return
         if self.shear is not True:
             object.__setattr__(self, "shear", positive("shear", self.shear))
@@ -64,7 +71,7 @@ class Theory:
     def name(self) -> str:
         """Name of the beam."""
         if self.shear is not None:
-            return "Timoshenko"
+            return "Timoshenko, Engesser's law" if self.engesser else "Timoshenko"
         return "with rotary inertia" if self.rotary_inertia else "Bernoulli-Euler"
 
 

@@ -8,8 +8,9 @@ from analytic.lazily import Lazily
 
 if TYPE_CHECKING:
     import h5netcdf
+    import h5py
     import xarray as xr
 else:
-    h5netcdf, xr = map(Lazily, ("h5netcdf", "xarray"))
+    h5netcdf, h5py, xr = map(Lazily, ("h5netcdf", "h5py", "xarray"))
 
-__all__ = ["Lazily", "h5netcdf", "xr"]
+__all__ = ["Lazily", "h5netcdf", "h5py", "xr"]

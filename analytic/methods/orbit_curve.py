@@ -31,6 +31,8 @@ amplitude, a "branch point" where another curve crosses."""
 _CARE = Care(harmonics=40, functions=64)
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
+_LEAST_SHARE = 1.0 / 32.0  # of a load, by which it is raised
+_STILL = 1e-12  # amplitude that is round-off, and has no peaks
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +137,8 @@ class At(Generic[S]):
     def peak(self, there: At[S]) -> Point | None:
         """Return where the amplitude turns around before the next point, if it does."""
         curve = self.curve
+        if self.orbit.amplitude < _STILL:
+            return None
 
         def climb(point: Point) -> float:
             return float(peak_gradient(curve.orbit(point.z)) @ point.tangent)
@@ -147,13 +151,13 @@ class At(Generic[S]):
 
 
 def response_curve(
-    system: S, frequencies: FloatArray, largest: float, harmonics: int
+    system: S, frequencies: FloatArray, largest: float, harmonics: int, tail: float = 1.0
 ) -> list[Marked]:
     """Return the response from the first frequency to the last, in order along the curve.
 
     Followed by arclength through all folds, from the small response at the first; the frequencies
     between are met wherever the curve passes them. Curves that are not connected to it are not
-    found. At least so many `harmonics` are taken.
+    found. At least so many `harmonics` are taken; for the `tail` see `Care`.
 
     Raises
     ------
@@ -165,7 +169,8 @@ def response_curve(
     rest = np.zeros((2 * harmonics + 1, system.size))
     rest[0] = system.rest(first)
     like = Orbit(system=system, frequency=first, coefficients=rest)
-    curve = OrbitCurve(like, first, last - first, partial(refined, care=_CARE))
+    care = _CARE._replace(tail=tail)
+    curve = OrbitCurve(like, first, last - first, partial(refined, care=care))
     found: list[Marked] = []
     try:
         at = _beginning(curve)
@@ -186,10 +191,20 @@ def response_curve(
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:
-    """Return the small response at the first frequency."""
-    z = curve.unknowns(curve.like)
-    across = np.eye(1, z.size, z.size - 1)[0]
-    resolved = At(curve, corrected(curve, z, across)).resolved()
+    """Return the small response at the first frequency; the load is raised in steps if it takes."""
+    z, share, step = curve.unknowns(curve.like), 0.0, 1.0
+    across, like = np.eye(1, z.size, z.size - 1)[0], curve.like
+    while share < 1.0:
+        eased = replace(curve, like=replace(like, system=like.system.loaded(share + step)))
+        try:
+            point = corrected(eased, z, across)
+        except NoOrbitError:
+            step *= 0.5
+            if step < _LEAST_SHARE:
+                raise
+        else:
+            z, share = point.z, share + step
+    resolved = At(curve, point).resolved()
     curve, z = resolved.curve, resolved.point.z.copy()
     z[-1] = 0.0  # refining goes across the curve, not along the frequency
     return At(curve, corrected(curve, z, np.eye(1, z.size, z.size - 1)[0]))

@@ -90,6 +90,10 @@ class System(Protocol):
         """Return a state (n,) of a driven system, from which a small response is found."""
         ...
 
+    def loaded(self, share: float) -> Self:
+        """Return a driven system under a share of its load, by which a larger response is found."""
+        ...
+
     @property
     def equilibrium(self) -> FloatArray:
         """The state about which a free system moves, (n,)."""

@@ -6,24 +6,31 @@ import sys
 from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from ..files.results import whole_file
 from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
-from ..verification.cases import VERSION
+from ..verification.cases import CASES, VERSION
 from ..verification.judgement import judged
 from ..verification.mistakes import Mistake, mistakes_in
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable
-from .output import print_note, print_text, print_written
+from .options import spelled_as
+from .output import bar, print_note, print_text, print_written
 from .verify import print_judgements
+
+Chosen = Annotated[str, Parameter(converter=spelled_as(lambda: CASES))]
 
 
 def judge(
     folder: Path,
     /,
     *,
+    case: list[Chosen] | None = None,
     report: Path | None = None,
     json: Path | None = None,
 ) -> None:
@@ -36,6 +43,8 @@ def judge(
     ----------
     folder
         With entry.toml and L.csv, B.csv, or histories and runs.csv.
+    case
+        Judge this case alone, as S1; repeat it for several.
     report
         Write the report, one HTML page.
     json
@@ -44,13 +53,16 @@ def judge(
     Examples
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
+    $ rotbeam judge mine --case S1
     """
     for target, ending, ours in ((report, ".html", TITLE), (json, ".json", SCHEMA)):
         if target is not None:
             require_writable(target, ours=ours, ending=ending)
-    faults: tuple[Fault, ...] = ()
+    only, faults = tuple(case or ()), tuple[Fault, ...]()
+    if unknown := [name for name in only if name not in CASES]:
+        raise ValueError(f"there is no case {unknown[0]!r}: it must be {', '.join(CASES)}")
     try:
-        submission = read_submission(folder)
+        submission = read_submission(folder, only=only)
     except MalformedSubmissionError as error:
         faults = error.faults
         for fault in faults:
@@ -61,8 +73,13 @@ def judge(
         if error.rest is None:
             sys.exit(2)
         submission = error.rest
-    found = judged(submission)
-    mistakes = mistakes_in(submission, found)
+    with bar("judging") as drawn:
+        found = judged(
+            submission, only=only, progress=lambda name, n, of: drawn(n, of, f"judging {name}")
+        )
+        mistakes = mistakes_in(
+            submission, found, lambda name, n, of: drawn(n, of, f"usual mistakes in {name}")
+        )
     _print_mistakes(mistakes)
     print_judgements([found], f"benchmark {VERSION}")
     for source in dict.fromkeys(found.sources.values()):

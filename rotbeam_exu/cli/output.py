@@ -13,7 +13,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from rich.cells import cell_len
 from rich.console import Console
@@ -223,8 +223,15 @@ def _encodable(text: str, console: Console) -> str:
     return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
 
 
+class Drawn(Protocol):
+    """A bar, called with the work done, all of it, and perhaps another title."""
+
+    def __call__(self, done: float, whole: float, title: str | None = None, /) -> None:  # noqa: D102
+        ...
+
+
 @contextmanager
-def bar(title: str, *more: ProgressColumn) -> Iterator[Callable[[float, float], None]]:
+def bar(title: str, *more: ProgressColumn) -> Iterator[Drawn]:
     """Give a function to call with the work done and all of it; it draws on a terminal only."""
     console = new_console()
     with Progress(
@@ -232,7 +239,9 @@ def bar(title: str, *more: ProgressColumn) -> Iterator[Callable[[float, float], 
         transient=True, disable=not console.is_terminal,
     ) as drawn:  # fmt: skip
         task = drawn.add_task(title, total=None)
-        yield lambda done, whole: drawn.update(task, completed=done, total=whole)
+        yield lambda done, whole, title=None: drawn.update(
+            task, completed=done, total=whole, description=title
+        )
 
 
 @contextmanager

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
+    "frequencies": "ω_k", "steady deflection": "tip",
     "backbone": "shift",
 }  # fmt: skip
 

@@ -22,7 +22,9 @@ from .style import STYLE, columns, cycle, ink, new_figure
 _SYMBOLS = {
     "linear frequency": "$ω_n$", "history": "$q(t)$", "amplitude": "$a$",
     "nonlinear shift": "$ω_{NL}/ω_n - 1$", "backbone": "$ω_{NL}/ω_n - 1$",
+    "frequencies": "$ω_k$", "steady deflection": "tip",
 }  # fmt: skip
+_UNITS = {"q": "m", "lag": "m", "flap": "m", "twist": "rad"}
 _MARKERS = "osD^v"
 _MOST_POINTS = 1000  # of a curve: more are not seen
 
@@ -89,14 +91,22 @@ def _history(histories: Histories) -> Axes:
     finest = histories.finest
     every = max(1, finest.time.size // _MOST_POINTS)
     time = finest.time[::every]
-    above.plot(time, histories.reference.history(time), color="0.2", lw=2.2, label="reference")
-    above.plot(time, finest.q[::every], color=ink(ORANGE), lw=0.9, label=_name(finest))
+    # In space the component that is off by most.
+    worst = np.abs(histories.differences[finest]).reshape(finest.time.size, -1).max(axis=0).argmax()
+    true, mine = (
+        q.reshape(time.size, -1)[:, worst]
+        for q in (histories.reference.history(time), finest.q[::every])
+    )
+    above.plot(time, true, color="0.2", lw=2.2, label="reference")
+    above.plot(time, mine, color=ink(ORANGE), lw=0.9, label=_name(finest))
     above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
-    above.set_ylabel("$q$ [m]")
+    name = histories.case.columns[worst]
+    above.set_ylabel(f"{name if histories.case.in_space else '$q$'} [{_UNITS[name]}]")
     above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
     for run, color in _colors(histories).items():
         every = max(1, run.time.size // _MOST_POINTS)
-        largest = np.maximum.accumulate(np.abs(histories.differences[run]))[::every]
+        off = np.abs(histories.differences[run]).reshape(run.time.size, -1).max(axis=1)
+        largest = np.maximum.accumulate(off)[::every]
         below.semilogy(run.time[::every], largest, color=color, label=_name(run))
     below.axhline(THRESHOLDS["history"], color="0.4", lw=0.7, ls=(0, (4, 2)))
     below.set(

@@ -110,8 +110,18 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     >>> print(f"{steady.amplitude:.4f} L at {steady.frequency:.4f} rad/s")
     0.1654 L at 3.0361 rad/s
     """
-    time, x, ramp_time = _steady_part(run)
-    omega_n = _natural_frequency(run)
+    _check_form(run)
+    time, q = (run[name].to_numpy().astype(np.float64) for name in ("time", "q"))
+    length = positive("the attribute beam_length", run.attrs["beam_length"])
+    ramp_time = not_negative("the attribute ramp_time", run.attrs["ramp_time"])
+    return oscillation_of(time, q / length, ramp_time, _natural_frequency(run))
+
+
+def oscillation_of(
+    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None
+) -> SteadyOscillation:
+    """Return `steady_oscillation` of q/L over time, of a beam whose ω_n [rad/s] may be known."""
+    time, x = _steady_part(time, x, ramp_time)
     window = float(time[-1])
     if omega_n is not None:
         # The nonlinear frequency may be lower, by a few percent.
@@ -140,13 +150,11 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     )
 
 
-def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
-    """Return the steady part: time from the end of the ramp, q/L, and the ramp time."""
-    _check_form(run)
-    length = positive("the attribute beam_length", run.attrs["beam_length"])
-    ramp_time = not_negative("the attribute ramp_time", run.attrs["ramp_time"])
-    time, q = run["time"].to_numpy().astype(np.float64), run["q"].to_numpy().astype(np.float64)
-    for name, values in (("time", time), ("q", q)):
+def _steady_part(
+    time: FloatArray, x: FloatArray, ramp_time: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the steady part: time from the end of the ramp, and q/L."""
+    for name, values in (("time", time), ("q", x)):
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
             raise NoOscillationError(
@@ -169,7 +177,7 @@ def _steady_part(run: xr.Dataset) -> tuple[FloatArray, FloatArray, float]:
             f"q has {steady.sum()} samples after the ramp, which ends at {ramp_time:g} s{last}; "
             f"{2 * SAMPLES} at least are needed: run for longer, or sample more often"
         )
-    return time[steady] - time[steady][0], q[steady] / length, ramp_time
+    return time[steady] - time[steady][0], x[steady]
 
 
 def _check_form(run: xr.Dataset) -> None:

@@ -46,8 +46,8 @@ class Fit:
         ω and the ν_j [rad per unit of time].
     coefficients : ndarray of shape (1 + 2 (HARMONICS + J),)
         c₀, the cosines of harmonics and tones, then their sines.
-    columns : ndarray of shape (samples, 1 + 2 (HARMONICS + J))
-        What they multiply, over time.
+    columns : ndarray of shape (samples, coefficients)
+        The model's functions, whose sum with the coefficients it is.
     """
 
     time: FloatArray
@@ -140,28 +140,29 @@ class Fit:
         |r̂| over the discrete frequencies, r with the least lucky phases. Near its own frequencies
         the fit has absorbed the error, so r̂ is the largest of its neighbors.
         """
-        inverse = self._inverse
+        inverse, samples = self._inverse, 2 * self.x.size
         influence = self.weights * (self._tangent @ (inverse @ (inverse.T @ gradient)))
-        samples = 2 * self.x.size
-        of_influence, of_remainder = (
-            np.abs(np.fft.rfft(v, samples)) for v in (influence, self.remainder)
-        )
-        # Twice as many samples: two bins to the turn.
-        filled = ndimage.maximum_filter1d(of_remainder, 4 * _LOBE + 1)
-        bound = 2.0 / samples * float(of_influence @ filled)
+        of_influence = np.abs(np.fft.rfft(influence, samples))
+        bound = 2.0 / samples * float(of_influence @ self._unlucky)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
 
     @cached_property
     def _tangent(self) -> FloatArray:
         """Derivatives of the model by coefficients, ω and ν, (samples, all)."""
-        slopes = _slopes(self.time, self.columns, self.coefficients)
-        return np.hstack([self.columns, slopes])
+        return np.hstack([self.columns, _slopes(self.time, self.columns, self.coefficients)])
 
     @cached_property
     def _inverse(self) -> FloatArray:
-        """Inverse of the triangle of the weighted tangent, (all, all)."""
-        weighted = np.sqrt(self.weights)[:, None] * self._tangent
-        return np.asarray(np.linalg.pinv(np.linalg.qr(weighted, mode="r"), rcond=1e-12))
+        """The weighted tangent's triangle, inverted."""
+        root = np.sqrt(self.weights)[:, None]
+        return np.linalg.pinv(np.linalg.qr(root * self._tangent, mode="r"), rcond=1e-12)
+
+    @cached_property
+    def _unlucky(self) -> FloatArray:
+        """The remainder's spectrum, each line the largest of its neighbors."""
+        # Twice as many samples: two bins to the turn.
+        spectrum = np.abs(np.fft.rfft(self.remainder, 2 * self.x.size))
+        return np.asarray(ndimage.maximum_filter1d(spectrum, 4 * _LOBE + 1))
 
 
 _ORDERS = np.arange(1.0, HARMONICS + 1.0)
@@ -211,7 +212,7 @@ def _descend(
         coefficients = _solve(columns, x, weights)
         return Fit(
             time=time, x=x, weights=weights, rates=rates, coefficients=coefficients, columns=columns
-        )  # fmt: skip
+        )
 
     fit = at(rates)
     for _ in range(most):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, is_dataclass
 from typing import Any
 
-from .cases import CASES, Case, stated
+from .cases import CASES, Asked, Case, stated
 
 
 @dataclass(frozen=True)
@@ -26,11 +26,16 @@ _TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
 _ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
 _WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
 _OMEGA = CaseColumn("omega", "rad/s")
+_PITCH = "twist $theta = {}$ rad at the tip, linear in $x$"
 COLUMNS = {
     "length": CaseColumn("L", "m"),
     "section.axial_stiffness": CaseColumn("EA", "N"),
     "section.bending_stiffness": CaseColumn("EI", "N m^2"),
     "section.mass_per_length": CaseColumn("rhoA", "kg/m"),
+    "section.out_of_plane.bending_ratio": CaseColumn("EI_flap/EI", "1"),
+    "section.out_of_plane.torsion_ratio": CaseColumn("GJ/EI", "1"),
+    "line.twist.in proportion": CaseColumn("twist", "rad", 0.0, _PITCH),
+    "line.precone": CaseColumn("precone", "rad", 0.0, "precone $beta = {}$ rad"),
     "hub_radius": CaseColumn("hub_radius", "m", 0.0),
     "point_masses.PointMass.mass": _TIP_MASS,
     "point_masses.PointMass.position": CaseColumn("L", "m"),
@@ -68,6 +73,7 @@ def row_of(case: Case) -> dict[str, Any]:
         **{one.name: told.get(one.name, one.nothing) for one in COLUMNS.values()},
         "duration": case.duration or None,
         "speeds": list(case.speeds),
+        "count": case.count if case.asked is Asked.FREQUENCIES else None,
         "amplitudes": list(case.amplitudes),
     }
 
@@ -83,6 +89,8 @@ def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:
     if isinstance(value, tuple) and len(value) == 1:
         (value,) = value
         path += f"{type(value).__name__}."
+    elif isinstance(value, tuple) and len(value) == 2 and value[0] == 0.0:
+        value, path = value[1], f"{path}in proportion."  # a profile that grows with x
     if is_dataclass(value):
         for name, part in stated(value).items():
             yield from _parts(f"{path}{name}.", part)

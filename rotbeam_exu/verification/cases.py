@@ -8,8 +8,18 @@ from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from analytic import AnyBlade, Beam, Damping, Gravity, SpinUp, SteadyRotation, periodic_orbits
+from analytic import (
+    AnyBlade,
+    Beam,
+    Damping,
+    Ellipse,
+    Gravity,
+    SpinUp,
+    SteadyRotation,
+    periodic_orbits,
+)
 from analytic.loads import Load
+from analytic.theory import BERNOULLI_EULER, Theory
 
 if TYPE_CHECKING:
     from analytic.exact.free.orbits import Orbits
@@ -25,14 +35,20 @@ class Level(StrEnum):
     MODERATE = "moderate"
     HARD = "hard"
     BLADE = "blade"
+    SPACE = "space"
 
 
 class Asked(StrEnum):
     """Result that is handed in."""
 
-    FREQUENCIES = "first natural frequency at each speed"
+    FREQUENCIES = "natural frequencies at each speed"
+    STEADY = "steady deflection of the tip at each speed"
     HISTORY = "deflection of the tip over time"
     BACKBONE = "nonlinear frequency at each speed and amplitude"
+
+
+TIP = ("lag", "flap", "twist")
+"""The tip in space, as `SpaceResponse` has it: two places [m], and the section's turn [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,12 +67,18 @@ class Case:
     duration : float
         Of the history [s].
     speeds : tuple of float
-        Of frequencies and backbones [rad/s].
+        Of frequencies, steady deflections and backbones [rad/s].
+    count : int
+        Number of frequencies at each speed, by their number.
     amplitudes : tuple of float
         Peak |q|/L: of a history the orbit it starts on, of a backbone its points.
     loads : tuple
     oscillates : bool
         Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
+    in_space : bool
+        Whether the blade flaps and twists as well: its histories are those of `TIP`.
+    theories : tuple of Theory
+        Those whose references come with the package, as codes declare them.
     """
 
     name: str
@@ -70,13 +92,31 @@ class Case:
     amplitudes: tuple[float, ...] = ()
     loads: tuple[Load, ...] = ()
     oscillates: bool = False
+    count: int = 1
+    in_space: bool = False
+    theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Columns of its histories besides the time."""
+        return TIP if self.in_space else ("q",)
+
+    def theory_of(self, declared: Theory) -> Theory:
+        """Return the theory by which a code is judged that declares one.
+
+        In space slices have their inertia about all axes, and twist does not shorten the axis: the
+        beam of Reissner and Simo, or of Kirchhoff without shear.
+        """
+        if not self.in_space:
+            return replace(declared, trapeze=True)  # which the plane does not know
+        return replace(declared, rotary_inertia=True, trapeze=False, engesser=False)
 
     @property
     def quantities(self) -> tuple[str, ...]:
         """Quantities that are judged of it."""
         if self.asked is Asked.HISTORY:
             return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
-        return ("linear frequency",) if self.asked is Asked.FREQUENCIES else ("backbone",)
+        return ("frequencies",) if self.count > 1 else (_QUANTITIES[self.asked],)
 
     @property
     def is_spun_up(self) -> bool:
@@ -105,6 +145,13 @@ class Case:
     def whole_duration(self, step: float) -> float:
         """Return the duration, or a little more that is a whole number of steps [s]."""
         return math.ceil(self.duration / step * (1.0 - 1e-12)) * step
+
+
+_QUANTITIES = {
+    Asked.FREQUENCIES: "linear frequency",
+    Asked.STEADY: "steady deflection",
+    Asked.BACKBONE: "backbone",
+}
 
 
 def stated(value: Any) -> dict[str, Any]:
@@ -144,6 +191,9 @@ def frequency_case(beam: AnyBlade, speeds: tuple[float, ...]) -> Case:
         name="L", level=Level.BASIC, title=title, asked=Asked.FREQUENCIES, blade=beam, speeds=speeds
     )
 
+
+SHEAR = (5.0 / 6.0) / (2.0 * 1.3)
+"""k_s/(2 (1 + ν)) with k_s = 5/6 and ν = 0.3, of which references come with the package."""
 
 SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
 """Speeds [rad/s] at which the paper's beam is looked at."""
@@ -192,6 +242,57 @@ def _cases() -> tuple[Case, ...]:
         ),
         replace(
             as_s1, name="S1+g", title="S1 under gravity", oscillates=False, loads=(Gravity(9.81),)
+        ),
+        *_stout(beam),
+        *_in_space(),
+    )  # fmt: skip
+
+
+def _stout(beam: Beam) -> tuple[Case, ...]:
+    """Return the cases of S3's beam with so small an EA that shear and rotary inertia count."""
+    EI, length, slenderness = beam.bending_stiffness, beam.length, 30.0
+    stout = Beam.from_stiffness(
+        length=length, axial_stiffness=EI * (slenderness / length) ** 2,
+        bending_stiffness=EI, mass_per_length=beam.mass_per_length,
+    )  # fmt: skip
+    laws = Theory(), Theory(shear=SHEAR), Theory(shear=SHEAR, engesser=True)
+    theories = tuple(replace(law, rotary_inertia=turns) for law in laws for turns in (False, True))
+    spun_up = spin_up_case(stout, SpinUp(omega=4.0, ramp_time=2.0), 15.0, "T", Level.BLADE)
+    linear = replace(frequency_case(stout, (0.0, 2.0, 4.0, 6.0)), name="TL", level=Level.BLADE)
+    return (
+        replace(linear, title="stout beam, frequencies", theories=theories),
+        replace(spun_up, title="S3, stout", oscillates=False, theories=theories),
+    )
+
+
+def _in_space() -> tuple[Case, ...]:
+    """Return the cases of a plastic blade, a full ellipse of 320 mm by 80 mm."""
+    height, width = 0.32, 0.08
+    beam = Beam(
+        length=8.0, area=0.25 * math.pi * height * width,
+        second_moment=math.pi / 64.0 * height**3 * width, youngs_modulus=1e9, density=1200.0,
+    )  # fmt: skip
+    straight = beam.with_shape(Ellipse(ratio=height / width))
+    twisted = straight.with_twist(math.pi / 6.0)
+    coned, theories = twisted.with_precone(0.05), (BERNOULLI_EULER, Theory(shear=SHEAR))
+
+    def case(name: str, title: str, asked: Asked, blade: AnyBlade, **more: Any) -> Case:
+        return Case(
+            name=name, level=Level.SPACE, title=title, asked=asked, blade=blade, in_space=True,
+            theories=theories, **more,
+        )  # fmt: skip
+
+    speeds = (0.0, 1.0, 2.0, 3.0)
+    return (
+        case("F", "flap, lag and torsion", Asked.FREQUENCIES, straight, speeds=speeds, count=7),
+        case(
+            "F+p", "twist and precone, frequencies", Asked.FREQUENCIES, coned, speeds=speeds,
+            count=7,
+        ),
+        case("P", "twist and precone, steady state", Asked.STEADY, coned, speeds=speeds[1:]),
+        case(
+            "W", "spin-up of a twisted blade", Asked.HISTORY, twisted, duration=15.0,
+            motion=SpinUp(omega=3.0, ramp_time=4.0),
         ),
     )  # fmt: skip
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import dataclasses
 from functools import partial
 
+import numpy as np
+
 from analytic import AnyBlade
+from analytic.arrays import FloatArray
 
 from ..fem.elements import (
     Ancf3,
@@ -53,19 +56,30 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
             raise NotImplementedError(str(error)) from error
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
-        return simulate(
+        if case.in_space is not model.leaves_plane:
+            raise NotImplementedError(f"{model.name} is for the plane, or for space")
+        found = simulate(
             case.blade, case.rotation, element=model, elements=elements, step=step,
             duration=case.whole_duration(step), loads=case.loads,
             initial_state=None if case.is_spun_up else partial(case.orbit.state, 0),
         )  # fmt: skip
+        return found.rename(q="lag", w="flap") if case.in_space else found
+
+    def lowest(beam: AnyBlade, omega: float, elements: int, count: int) -> FloatArray:
+        try:
+            require_modeled(beam, model)
+        except ValueError as error:
+            raise NotImplementedError(str(error)) from error
+        return np.asarray(Linearization.of(beam, omega, model, elements).frequencies(count))
 
     def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(Linearization.of(beam, omega, model, elements).frequencies(1)[0])
+        return float(lowest(beam, omega, elements, 1)[0])
 
     return Entry(
         name=" ".join([model.name, *options]),
         simulate=simulated,
-        first_frequency=first,
+        first_frequency=None if model.leaves_plane else first,
+        frequencies=lowest if model.leaves_plane else None,
         elements=elements or (32 if model.order == _SECOND else 16),
         meshes=() if elements else model.meshes,
         step=step,

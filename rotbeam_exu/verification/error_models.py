@@ -25,10 +25,17 @@ Declared = tuple[float | None, float | None]
 """Orders in mesh and step that an author declares."""
 
 _ORDERS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
-_VARIATIONS = {0.02: 0.4, 0.1: 0.2, 0.3: 0.2, 1.0: 0.2}  # κ: 1 where there is no rule at all
+_VARIATIONS = {0.02: 0.4, 0.1: 0.2, 0.3: 0.2, 1.0: 0.2}
+"""κ of mesh and step: 1 where there is no rule at all."""
+
+_ALIKE = 0.5
+"""Share of models whose mesh and step have the same κ; a good ladder of steps on one coarse mesh
+tells nothing about the mesh."""
+
 _NOISES = {0.0: 0.6, 0.3: 0.1, 3.0: 0.15, 30.0: 0.15}  # of a run, over the finest's error
-_RATIOS = (0.03, 0.3, 1.0, 3.0, 30.0)  # D/C
+_RATIOS = (3e-6, 1e-4, 3e-3, 0.1, 1.0, 10.0, 300.0, 1e4)  # D/C: small of many steps on one mesh
 _OWN = 0.02  # of each run's error: no pair of runs is all there is to know
+_LEAST = 1e-4  # the same of what mesh or step has alone, so that sums of both can be told apart
 
 _BELIEVED = 0.6
 """Weight of the declared order; the rest is any order's around two, by a factor of two."""
@@ -42,6 +49,7 @@ _MOST_FREEDOM = 2
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
 and with more of them bars of oscillating ones cover less than nine tenths."""
 
+_ROUND_OFF = 1e-13
 _LIKELY = 1e-3  # of the likeliest: what is less has no part in a bar
 _PROBABILITIES = (np.arange(60) + 0.5) / 60.0
 _STUDENT = {
@@ -61,7 +69,7 @@ class Models:
         Mesh sizes and steps over the finest; y is one where steps have no part of their own.
     declared : tuple of float
     given : tuple of ndarray (models,)
-        p, r, D/C, κ and the noise of each.
+        p, r, D/C, κ of mesh and step, and the noise of each.
     prior : ndarray (models,)
         Logarithm of its weight before there are runs.
     weights, projections : ndarray (models, runs), (models, runs, runs)
@@ -83,23 +91,27 @@ class Models:
     def evidence(self, runs: FloatArray) -> FloatArray:
         """Logarithm of how likely models are, (models,); runs (runs, samples) of any scale."""
         gram = runs @ runs.T / runs.shape[1]
-        left = self.projections.reshape(len(self.prior), -1) @ gram.ravel()
-        likely = self.volume - 0.5 * (len(runs) - 1) * np.log(np.maximum(left, 1e-300))
+        forms = self.projections.reshape(len(self.prior), -1)
+        left = forms @ gram.ravel()
+        # Of steps that go down by a hundred to the eighth power nothing but round-off is left.
+        least = _ROUND_OFF * (np.abs(forms) @ np.abs(gram.ravel())) + 1e-300
+        likely = self.volume - 0.5 * (len(runs) - 1) * np.log(np.maximum(left, least))
         return np.asarray(self.prior + likely)
 
     def parts(self) -> tuple[FloatArray, FloatArray]:
         """Covariances (models, runs, runs) of the errors of mesh and step."""
-        return _parts(self.x, self.y, *self.given[:4])
+        return _parts(self.x, self.y, *self.given[:5])
 
 
 def _parts(
-    x: FloatArray, y: FloatArray, p: FloatArray, r: FloatArray, ratio: FloatArray, kappa: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+    x: FloatArray, y: FloatArray, p: FloatArray, r: FloatArray, ratio: FloatArray,
+    in_mesh: FloatArray, in_step: FloatArray,
+) -> tuple[FloatArray, FloatArray]:  # fmt: skip
     mesh, step = x ** p[:, None], ratio[:, None] * y ** r[:, None]
-    k = kappa[:, None, None] ** 2
+    k, m = (one[:, None, None] ** 2 for one in (in_mesh, in_step))
     return (
         mesh[:, :, None] * mesh[:, None, :] * (1.0 + k * (x[:, None] == x)),
-        step[:, :, None] * step[:, None, :] * (1.0 + k * (y[:, None] == y)),
+        step[:, :, None] * step[:, None, :] * (1.0 + m * (y[:, None] == y)),
     )
 
 
@@ -107,10 +119,14 @@ def _modeled(
     x: FloatArray, y: FloatArray, declared: Declared, prior: FloatArray, *given: FloatArray
 ) -> Models:
     """Return the algebra of models."""
-    covariance = np.add(*_parts(x, y, *given[:4]))
+    mesh, step = _parts(x, y, *given[:5])
+    covariance = mesh + step
     each = np.arange(x.size)
     size = covariance[:, each, each]
-    covariance[:, each, each] += _OWN**2 * size + (given[4] ** 2 * size.min(axis=1))[:, None]
+    # What mesh and step have together ends where either does.
+    smaller = np.minimum(mesh[:, each, each], step[:, each, each]) if step.any() else size
+    own = _OWN**2 * smaller + _LEAST**2 * size
+    covariance[:, each, each] += own + (given[5] ** 2 * size.min(axis=1))[:, None]
     scale = np.sqrt(covariance[:, each, each])
     both = scale[:, :, None] * scale[:, None, :]
     covariance /= both
@@ -133,13 +149,21 @@ def models_of(x: tuple[float, ...], y: tuple[float, ...], declared: Declared) ->
     p = sorted({*_ORDERS, *filter(None, declared[:1])})
     r = sorted({*_ORDERS, *filter(None, declared[1:])}) if stepped else [1.0]
     ratios = _RATIOS if stepped else (0.0,)
-    axes = p, r, ratios, tuple(_VARIATIONS), tuple(_NOISES)
+    pairs = [
+        (k, m, share * (_ALIKE * (k == m) + (1.0 - _ALIKE) * other))
+        for k, share in _VARIATIONS.items()
+        for m, other in _VARIATIONS.items()
+        if k == m or (stepped and min(k, m) == min(_VARIATIONS))
+    ]
+    axes = p, r, ratios, range(len(pairs)), tuple(_NOISES)
     likely = (
         shares(p, declared[0]), shares(r, declared[1]) if stepped else np.ones(1),
-        np.ones(len(ratios)), list(_VARIATIONS.values()), list(_NOISES.values()),
+        np.ones(len(ratios)), [share for *_, share in pairs], list(_NOISES.values()),
     )  # fmt: skip
     prior = np.log(math.prod(np.meshgrid(*likely, indexing="ij"))).ravel()
-    given = (one.ravel() for one in np.meshgrid(*axes, indexing="ij"))
+    *given, pair, noise = (one.ravel() for one in np.meshgrid(*axes, indexing="ij"))
+    kappas = np.array([(k, m) for k, m, _ in pairs])[pair].T
+    given += [*kappas, noise]
     return _modeled(np.array(x), np.array(y), declared, prior, *given)
 
 

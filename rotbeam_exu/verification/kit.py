@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +20,7 @@ from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
+from ..files.results import whole_folder
 from .case_rows import COLUMNS, cases_csv, row_of
 from .cases import CASES, VERSION, Asked, Case
 from .judgement import THRESHOLDS
@@ -64,21 +64,12 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         what = "is not empty" if target.is_dir() else "is a file"
         raise FileExistsError(f"{target} {what}: name a folder that is new, or empty")
-    contents, above = kit_files(), target.absolute().parent
-    try:
-        above.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".kit-", dir=above) as aside:
-            made = Path(aside, "kit")
-            for name, content in contents.items():
-                path = made / name
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(content)
-            if target.exists():
-                target.rmdir()
-            made.rename(target)
-    except OSError as error:
-        why = f"{error.strerror or error}; choose another folder"
-        raise OSError(f"cannot write to {target.parent}: {why}") from error
+    contents = kit_files()
+    with whole_folder(target) as made:
+        for name, content in contents.items():
+            path = made / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
     return target
 
 
@@ -182,8 +173,25 @@ def problem_numbers() -> str:
         "farthest": FARTHEST,
         "digits": DIGITS,
         "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
+        "space": _looked_at(),
     }
     return json.dumps(document)
+
+
+def _looked_at() -> list[dict[str, Any]]:
+    """Return numbers of the cases in space, to look at before the first judgement."""
+    found: list[dict[str, Any]] = []
+    for case in CASES.values():
+        if not case.in_space:
+            continue
+        truth = reference(case)
+        at = case.speeds[-1:] or (5.0, 10.0, 15.0)
+        rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
+        found += [
+            {"id": case.name, "at": x, "row": [f"{value:.4g}" for value in row.tolist()]}
+            for x, row in zip(at, rows, strict=True)
+        ]
+    return found
 
 
 def _besides(case: Case) -> list[str]:

@@ -100,7 +100,10 @@ def found_of(
     doubt, difference = runs.bar + bound, abs(runs.limit)
     finest, note = abs(float(runs.values[-1])), ""
     if math.isnan(difference):
-        outcome, note = Outcome.UNDECIDED, f"one mesh has no limit {where}: hand in three"
+        # The second tier, for codes whose mesh is fixed: nothing is extrapolated.
+        as_run = f"as run within {finest + bound:.0e} of the reference"
+        outcome = Outcome.UNDECIDED
+        note = f"{as_run}, but one mesh has no limit {where}: hand in three"
     elif runs.steps.any() and np.unique(runs.steps).size == 1:
         outcome = Outcome.UNDECIDED
         one = f"with one {runs.refined}"
@@ -130,11 +133,13 @@ def _remedy(runs: Convergence, tolerance: float, bound: float, of_what: str) -> 
     factor = max(runs.bar / room, 1.5)
     mesh, step = abs(float(runs.in_mesh[-1])), abs(float(runs.in_step[-1]))
     finer = []
-    if mesh >= 0.3 * step or not mesh:
+    # Where errors of a mesh change sign little may be left by chance; what the step cannot account
+    # for is still the mesh's.
+    if mesh >= 0.3 * step or step < 0.1 * room:
         elements = runs.elements[-1] * factor ** (1.0 / runs.powers[0])
         few = np.unique(runs.elements).size < 3
         finer.append("a third mesh" if few else f"about {_rounded(elements)} elements")
-    if step >= 0.3 * mesh and np.unique(runs.steps).size > 1:
+    if step >= max(0.3 * mesh, 0.1 * room) and np.unique(runs.steps).size > 1:
         smallest = float(runs.steps.min()) * factor ** (-1.0 / runs.powers[1])
         of = f"{smallest:.1g}" if runs.refined == "tolerance" else f"{1e3 * smallest:.1g} ms"
         finer.append(f"a {runs.refined} of about {of}")

@@ -6,17 +6,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response, steady_state
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .cases import CASES, Asked, Case
+from .cases import Asked, Case
 from .shipped import FILE, Shipped, shipped, spline
 
 COMPUTED_BOUND = 1e-9
@@ -33,8 +33,10 @@ class Reference:
     ----------
     case : Case
     theory : Theory
+        Of the code; the case may add to it, `Case.theory_of`.
     bound : float
         Relative error: of a history over max|q|, interpolation included, else of frequencies.
+        Of a tip in space that of its worst component.
     source : str
         Which file and how it was made, or how it was computed.
     """
@@ -46,9 +48,12 @@ class Reference:
     _history: interpolate.BSpline | None = field(default=None, repr=False)
     # Orbits take a second each, and the search for mistakes asks for the same ones again.
     _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
+    _rows: dict[float, FloatArray] = field(default_factory=dict, repr=False)
 
     def history(self, times: ArrayLike) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.
+
+        In space lag, flap and twist, along one more axis.
 
         Raises
         ------
@@ -76,13 +81,23 @@ class Reference:
         found: FloatArray = self._history(t, derivative)
         return found
 
+    def row(self, speed: float) -> FloatArray:
+        """Return the numbers asked for at a speed [rad/s]: frequencies, or `TIP`; (numbers,).
+
+        Raises
+        ------
+        ValueError
+            If theory refuses them.
+        """
+        if speed not in self._rows:
+            data = _shipped()
+            here = data.row(self.case, self.theory, speed) if data else None
+            self._rows[speed] = row_of(self.case, self.theory, speed)[0] if here is None else here
+        return self._rows[speed]
+
     def first_frequency(self, speed: float) -> float:
         """Return ω_n [rad/s] in steady rotation at `speed` [rad/s]; ValueError if refused."""
-        data = _shipped_of(self.theory)
-        here = None if data is None else data.first_frequency(self.case.blade, speed)
-        if here is not None:
-            return here
-        return float(linear_modes(self.case.blade, speed, 1, theory=self.theory).frequencies[0])
+        return float(self.row(speed)[0])
 
     def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
         """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.
@@ -105,7 +120,8 @@ class Reference:
     def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
         """Return `frequency_at` of several amplitudes, computed in one go."""
         speed = self.case.rotation.omega if speed is None else speed
-        data, blade, known = _shipped_of(self.theory), self.case.blade, self._known
+        data = _shipped() if self.theory == BERNOULLI_EULER else None
+        blade, known = self.case.blade, self._known
         at = [(speed, float(a)) for a in amplitudes]
         for place in set(at) - set(known):
             here = data.frequency_at(blade, *place) if data else None
@@ -121,14 +137,14 @@ class Reference:
 
 @lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask
 def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
-    """Return the exact answer of a case: shipped of Bernoulli and Euler's beam, else computed.
+    """Return the exact answer of a case: shipped of the theories that it names, else computed.
 
     Parameters
     ----------
     case : Case
         Of the benchmark, or another one.
     theory : Theory
-        Of the beam that the code tends to.
+        Of the beam that the code declares.
 
     Raises
     ------
@@ -137,22 +153,42 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
     RuntimeError
         If its history does not settle, or the shipped data cannot be read.
     """
-    data = _shipped_of(theory)
-    bound, source, found = COMPUTED_BOUND, f"computed from the exact beam, {theory.name}", None
+    data = _shipped()
+    named = case.theory_of(theory).name
+    bound, source, found = COMPUTED_BOUND, f"computed from the exact beam, {named}", None
     if case.asked is not Asked.HISTORY:
-        if data and case in (CASES["L"], CASES["B"]):
-            bound, source = data.frequency_bound, data.source
-    elif data and (here := data.history(case)):
-        (found, bound), source = here, data.source
+        here = data.bound(case, theory) if data else None
+        if data and here is not None:
+            bound, source = here, data.source
+        elif case.asked is Asked.STEADY:
+            bound = max(row_of(case, theory, speed)[1] for speed in case.speeds)
+    elif data and (known := data.history(case, theory)):
+        (found, bound), source = known, data.source
     else:
         samples = sampled_history(case, theory)
         found, bound = spline(samples.time, samples.q), samples.error
     return Reference(case=case, theory=theory, bound=bound, source=source, _history=found)
 
 
-def _shipped_of(theory: Theory) -> Shipped | None:
-    """Return the shipped data of a theory; None while they are being made anew."""
-    return shipped() if theory == BERNOULLI_EULER and FILE.exists() else None
+def _shipped() -> Shipped | None:
+    """Return the shipped data; None while they are being made anew."""
+    return shipped() if FILE.exists() else None
+
+
+def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, float]:
+    """Compute the numbers asked for at a speed [rad/s], and the largest relative error of them."""
+    theory, blade = case.theory_of(declared), case.blade
+    if case.asked is Asked.STEADY:
+        steady = steady_state(blade, speed, theory=theory)
+        row = np.array([steady.tip[1], steady.tip[2], steady.twist])
+        scales = np.abs(row) / (blade.length, blade.length, 1.0)
+        return row, COMPUTED_BOUND + steady.error / float(scales.min())
+    if case.in_space:
+        # Of a straight blade too, whose `linear_modes` are those in its plane; loaded where needed.
+        from analytic.exact.space.modes import space_modes  # noqa: PLC0415
+
+        return space_modes(blade, speed, case.count, theory).frequencies, COMPUTED_BOUND
+    return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -162,10 +198,10 @@ class Sampled:
     Attributes
     ----------
     time, q : ndarray (samples,)
-        [s], [m].
+        [s], [m]; in space lag, flap and twist (samples, 3).
     error : float
-        Over max|q|: of the samples by the next coarser computation, and of the spline by the
-        computation halfway between them.
+        Over max|q|, of the worst component: of the samples by the next coarser computation, and of
+        the spline by the computation halfway between them.
     """
 
     time: FloatArray
@@ -181,19 +217,24 @@ def sampled_history(
     Samples are `spacing` [s] apart, or some 400 in a period. RuntimeError if the history is not
     reached, ValueError if theory has no answer.
     """
-    blade, motion = case.blade, cast("SpinUp", case.rotation)
+    blade, motion, theory = case.blade, cast("SpinUp", case.rotation), case.theory_of(theory)
     if spacing is None:
         spacing = 0.015 / max(blade.omega_0, motion.omega / 3.0)
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
-        found = spin_up_response(
+        found: Any = spin_up_response(
             blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
         )
         q, error = found.q, found.error
+        if case.in_space:
+            # Its error is over the largest of lag and flap, to which all components are small.
+            q = np.stack((found.lag, found.flap, found.twist), axis=1)
+            sizes = np.abs(q).max(axis=0) / (blade.length, blade.length, 1.0)
+            error *= float(sizes.max() / sizes.min())
     else:
         orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
         q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())
     between = spline(time[::2], q[::2])(time[1::2]) - q[1::2]
-    error += float(np.abs(between).max() / np.abs(q).max())
+    error += float(np.max(np.abs(between).max(axis=0) / np.abs(q).max(axis=0)))
     return Sampled(time=time[::2], q=q[::2], error=error)

@@ -15,16 +15,16 @@ from pathlib import Path
 import numpy as np
 from rich.progress import track
 
-from analytic import AmplitudeNotReachedError, AnyBlade, linear_modes, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
-from analytic.theory import BERNOULLI_EULER
+from analytic.theory import Theory
 
 from ..lazily import xr
 from . import shipped
-from .cases import CASES, VERSION, Case
-from .references import Sampled, sampled_history
+from .cases import VERSION, Case
+from .references import Sampled, row_of, sampled_history
 
 SPACING = 5e-3
 """Time between the shipped samples [s]."""
@@ -39,11 +39,12 @@ _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compres
 def dataset(commit: str) -> xr.Dataset:
     """Compute all shipped data, for the commit that makes them."""
     cases = shipped.shipped_histories()
-    found = {name: history(cases[name]) for name in track(list(cases), "histories")}
+    found = {name: history(*cases[name]) for name in track(list(cases), "histories")}
+    columns = [(name, k) for name, (case, _) in cases.items() for k in range(len(case.columns))]
+    tables = {name: table(*one) for name, one in shipped.shipped_tables().items()}
+    of_tables = shipped.shipped_tables().values()
     places = shipped.shipped_backbones()
     curves = {name: backbone(*places[name]) for name in track(list(places), "backbones")}
-    linear = CASES["L"]
-    frequencies = [float(linear_modes(linear.blade, w, 1).frequencies[0]) for w in linear.speeds]
     errors = [error for *_, error in curves.values()]
     first = next(iter(found.values()))
     described = {
@@ -53,24 +54,34 @@ def dataset(commit: str) -> xr.Dataset:
         "backbone_of": ("blade and speed", ""),
         "omega_n": ("natural frequency", "rad/s"),
         "curvature": ("(1 - ω_NL/ω_n)/a², a cubic spline over a²", "1"),
-        "first_frequency": ("first natural frequency in steady rotation", "rad/s"),
+        "row": ("natural frequencies, or lag, flap and twist of the tip", "rad/s, or m and rad"),
+        "table_bound": ("relative error of a table", "1"),
+        "table_of": ("what is asked, blade, speeds and theory", ""),
         "time": ("time", "s"),
         "amplitude": ("a, peak |q| over the length", "1"),
-        "speed": ("rotation speed", "rad/s"),
+        "place": ("number of the speed", "1"),
+        "number": ("number of the frequency, or of the component", "1"),
     }
+    widest = [max(one[0].shape[axis] for one in tables.values()) for axis in (0, 1)]
+    padded = np.full((len(tables), *widest), np.nan)
+    for into, (rows, _) in zip(padded, tables.values(), strict=True):
+        into[: rows.shape[0], : rows.shape[1]] = rows
     data = xr.Dataset(
         {
-            "q": (("history", "time"), [one.q for one in found.values()]),
-            "bound": ("history", [one.error for one in found.values()]),
-            "history_of": ("history", [shipped.said(shipped.key(cases[name])) for name in found]),
+            "q": (("history", "time"), [np.atleast_2d(found[name].q.T)[k] for name, k in columns]),
+            "bound": ("history", [found[name].error for name, _ in columns]),
+            "history_of": ("history", [_of(*cases[name], k) for name, k in columns]),
             "omega_n": ("backbone", [one[0] for one in curves.values()]),
             "backbone_of": ("backbone", [shipped.said(places[name]) for name in curves]),
             "curvature": (("backbone", "amplitude"), [one[1] for one in curves.values()]),
-            "first_frequency": ("speed", frequencies),
+            "row": (("table", "place", "number"), padded),
+            "table_bound": ("table", [bound for _, bound in tables.values()]),
+            "table_of": ("table", [_of(*one) for one in of_tables]),
         },
         {
-            "history": list(found), "time": first.time, "backbone": list(curves),
-            "amplitude": shipped.amplitudes(), "speed": list(linear.speeds),
+            "history": [_component(cases[name][0], name, k) for name, k in columns],
+            "time": first.time, "backbone": list(curves), "amplitude": shipped.amplitudes(),
+            "table": list(tables), "place": np.arange(widest[0]), "number": np.arange(widest[1]),
         },
         {
             "title": "Reference data of the rotating beam benchmark",
@@ -85,13 +96,28 @@ def dataset(commit: str) -> xr.Dataset:
     return data
 
 
-def history(case: Case) -> Sampled:
+def _of(case: Case, theory: Theory, component: int = 0) -> str:
+    """Return what a history or a table was made of; components after the first are told apart."""
+    return _component(case, shipped.said(shipped.key(case, theory)), component)
+
+
+def _component(case: Case, name: str, component: int) -> str:
+    return f"{name} {case.columns[component]}" if component else name
+
+
+def table(case: Case, theory: Theory) -> tuple[FloatArray, float]:
+    """Compute the rows of a table over its speeds, and the largest relative error."""
+    rows = [row_of(case, theory, speed) for speed in case.speeds]
+    return np.array([row for row, _ in rows]), max(error for _, error in rows)
+
+
+def history(case: Case, theory: Theory) -> Sampled:
     """Compute one history, rounded."""
     tolerance = TOLERANCES.get(case.name, 1e-8)
     case = replace(case, duration=shipped.DURATION)
-    found = sampled_history(case, BERNOULLI_EULER, tolerance=tolerance, spacing=SPACING)
+    found = sampled_history(case, theory, tolerance=tolerance, spacing=SPACING)
     # A power of two, so that rounding leaves trailing zeros in the mantissa.
-    quantum = 2.0 ** np.floor(np.log2(_QUANTUM * np.abs(found.q).max()))
+    quantum = 2.0 ** np.floor(np.log2(_QUANTUM * np.abs(found.q).max(axis=0)))
     return Sampled(time=found.time, q=np.round(found.q / quantum) * quantum, error=found.error)
 
 

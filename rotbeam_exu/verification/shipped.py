@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -14,15 +15,16 @@ import numpy as np
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.theory import BERNOULLI_EULER, Theory
 
-from ..lazily import xr
+from ..lazily import h5py
 from ..paper import RAMP_TIMES
 from ..paper import SPEEDS as SPUN_UP
 from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
-DIGEST = "0ba10ced1247adbbac635b42d7b3fd46d6edf850deb1f073d763e09de5890e87"
+DIGEST = "cdd9ea1bc8ea07d60dcb86148a922fcf908afd98218f6d94bd0bdb20b05ad2f6"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
@@ -36,16 +38,31 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     return interpolate.make_interp_spline(time, q, k=5)
 
 
-def shipped_histories() -> dict[str, Case]:
-    """Return the cases whose histories are shipped: the paper's spin-ups, and the benchmark's."""
+def shipped_histories() -> dict[str, tuple[Case, Theory]]:
+    """Return whose histories are shipped: the paper's spin-ups, and the benchmark's cases."""
     spin_ups = [SpinUp(omega=omega, ramp_time=time) for omega in SPUN_UP for time in RAMP_TIMES]
     found = [
         spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
         for one in spin_ups
     ]
-    known = {key(case) for case in found}
-    own = [case for case in CASES.values() if case.asked is Asked.HISTORY]
-    return {case.name: case for case in (*found, *(one for one in own if key(one) not in known))}
+    known = {key(case, BERNOULLI_EULER) for case in found}
+    own = [one for one in _by_theory() if one[0].asked is Asked.HISTORY and key(*one) not in known]
+    return {_named(*one): one for one in [*((case, BERNOULLI_EULER) for case in found), *own]}
+
+
+def shipped_tables() -> dict[str, tuple[Case, Theory]]:
+    """Return whose frequencies and steady states are shipped."""
+    asked = Asked.FREQUENCIES, Asked.STEADY
+    return {_named(*one): one for one in _by_theory() if one[0].asked in asked}
+
+
+def _by_theory() -> list[tuple[Case, Theory]]:
+    return [(case, theory) for case in CASES.values() for theory in case.theories]
+
+
+def _named(case: Case, theory: Theory) -> str:
+    number = case.theories.index(theory)
+    return f"{case.name} {number}" if number else case.name
 
 
 def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
@@ -57,9 +74,12 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
     }
 
 
-def key(case: Case) -> tuple[Any, ...]:
-    """Return what makes a history."""
-    return case.blade, case.motion, case.loads, case.amplitudes
+def key(case: Case, theory: Theory) -> tuple[Any, ...]:
+    """Return what makes a history, or a table."""
+    asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    theory = case.theory_of(theory)
+    return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
 
 def said(value: Any) -> str:
@@ -78,51 +98,77 @@ class Shipped:
 
     Attributes
     ----------
-    data : Dataset
-        q over history and time, with bounds; shift over backbone and amplitude; first frequencies
-        over speed.
+    data : mapping of ndarray
+        q over history and time, with bounds, in space each component a history; shift over backbone
+        and amplitude; rows of frequencies and steady states over table, place and number. Read
+        without xarray, whose import takes longer than a case.
+    attrs : mapping
+        The file's own attributes.
     """
 
-    data: xr.Dataset
+    data: Mapping[str, FloatArray]
+    attrs: Mapping[str, Any]
 
     @property
     def source(self) -> str:
         """One sentence: which file, made how and by which commit."""
-        attrs = self.data.attrs
         return (
-            f"shipped with benchmark {attrs['benchmark']}: {FILE.name} "
-            f"(SHA-256 {DIGEST[:12]}), {attrs['method']}, made at commit {attrs['commit']}"
+            f"shipped with benchmark {self.attrs['benchmark']}: {FILE.name} "
+            f"(SHA-256 {DIGEST[:12]}), {self.attrs['method']}, made at commit "
+            f"{self.attrs['commit']}"
         )
 
-    def _names(self, dimension: str) -> dict[str, str]:
-        """Return the names along a dimension by what each thing was made of."""
-        of, names = self.data[f"{dimension}_of"].to_numpy(), self.data[dimension].to_numpy()
-        return dict(zip(of.tolist(), names.tolist(), strict=True))
+    @cached_property
+    def _of(self) -> dict[str, dict[str, int]]:
+        """Places of histories and tables by what they were made of."""
+        return {
+            name: {of: k for k, of in enumerate(self.data[f"{name}_of"].tolist())}
+            for name in ("history", "table")
+        }
 
-    def history(self, case: Case) -> tuple[interpolate.BSpline, float] | None:
+    def history(
+        self, case: Case, theory: Theory = BERNOULLI_EULER
+    ) -> tuple[interpolate.BSpline, float] | None:
         """Return q over time and its bound over max|q|; None if it is not here, or too short."""
-        name = self._names("history").get(said(key(case)))
-        if name is None or case.duration > DURATION:
+        k = self._of["history"].get(said(key(case, theory)))
+        if k is None or case.duration > DURATION:
             return None
-        here = self.data.sel(history=name)
-        return spline(here["time"].to_numpy(), here["q"].to_numpy()), float(here["bound"])
+        q = self.data["q"][k : k + len(case.columns)].T
+        q = q if case.in_space else q[:, 0]
+        return spline(self.data["time"], q), float(self.data["bound"][k])
 
-    def first_frequency(self, blade: AnyBlade, speed: float) -> float | None:
-        """Return ω_n [rad/s] in steady rotation; None if it is not here."""
-        column = self.data["first_frequency"]
-        here = column.to_numpy()[column["speed"].to_numpy() == speed]
-        return float(here[0]) if here.size and blade == CASES["L"].blade else None
+    def row(self, case: Case, theory: Theory, speed: float) -> FloatArray | None:
+        """Return the numbers of a table at a speed [rad/s]; None if they are not here.
+
+        Of a history or a backbone the frequencies of a table of the same blade.
+        """
+        asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
+        for own in CASES.values():
+            alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            if not alike or speed not in own.speeds or case.count > own.count:
+                continue
+            k = self._of["table"].get(said(key(own, theory)))
+            if k is not None:
+                here = self.data["row"][k, own.speeds.index(speed)]
+                return np.asarray(here[np.isfinite(here)])
+        return None
+
+    def bound(self, case: Case, theory: Theory) -> float | None:
+        """Return the relative error of a table's numbers or of backbones; None if not here."""
+        if case == CASES["B"] and theory == BERNOULLI_EULER:
+            return self.frequency_bound
+        k = self._of["table"].get(said(key(case, theory)))
+        return None if k is None else float(self.data["table_bound"][k])
 
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
         """ω_n and the curvature over a², by the inputs of a backbone."""
-        a, found = self.data["amplitude"].to_numpy(), {}
-        for of, name in self._names("backbone").items():
-            here = self.data.sel(backbone=name)
-            curvature = here["curvature"].to_numpy()
+        a, found = self.data["amplitude"], {}
+        of_each = (self.data[name] for name in ("backbone_of", "omega_n", "curvature"))
+        for of, omega_n, curvature in zip(*of_each, strict=True):
             known = np.isfinite(curvature)
             over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
-            found[of] = float(here["omega_n"]), over_square
+            found[str(of)] = float(omega_n), over_square
         return found
 
     def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
@@ -135,7 +181,7 @@ class Shipped:
     @property
     def frequency_bound(self) -> float:
         """Relative error of all frequencies."""
-        return float(self.data.attrs["frequency_bound"])
+        return float(self.attrs["frequency_bound"].item())
 
 
 @lru_cache(maxsize=1)
@@ -150,11 +196,14 @@ def shipped() -> Shipped:
     if found != DIGEST:
         why = f"were damaged or changed (SHA-256 {found[:12]}, not {DIGEST[:12]})"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    data = xr.load_dataset(io.BytesIO(raw), engine="h5netcdf")
-    if data.attrs["benchmark"] != VERSION:
-        why = f"are of benchmark {data.attrs['benchmark']}, not {VERSION}"
+    with h5py.File(io.BytesIO(raw)) as file:
+        text = h5py.check_string_dtype
+        data = {name: (one.asstr() if text(one.dtype) else one)[()] for name, one in file.items()}
+        attrs = dict(file.attrs)
+    if attrs["benchmark"] != VERSION:
+        why = f"are of benchmark {attrs['benchmark']}, not {VERSION}"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
-    return Shipped(data=data)
+    return Shipped(data=data, attrs=attrs)
 
 
 def amplitudes() -> FloatArray:

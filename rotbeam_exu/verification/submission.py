@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from analytic.arrays import FloatArray
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .cases import Asked, Case
+from .cases import TIP, Asked, Case
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,16 +46,53 @@ class Declaration:
 
 @dataclass(frozen=True, kw_only=True)
 class Frequency:
-    """A first natural frequency [rad/s] in steady rotation at `speed` [rad/s].
+    """A natural frequency [rad/s] in steady rotation at `speed` [rad/s], the first or another.
 
     `rounding` is the error of its last digit [rad/s], where it was written to few.
     """
 
+    case: str = "L"
     elements: int
     speed: float
+    number: int = 1
     frequency: float = math.nan
     failure: str = ""
     rounding: float = field(default=0.0, repr=False)
+
+    @property
+    def values(self) -> dict[int, tuple[float, float]]:
+        """The frequency and its rounding, by the place in `Reference.row`."""
+        return {self.number - 1: (self.frequency, self.rounding)}
+
+    def named(self, _place: int) -> str:
+        """Return the name of a value."""
+        return f"in frequency {self.number} " if self.number > 1 else ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadyTip:
+    """The tip in steady rotation at `speed` [rad/s]: lag and flap [m], twist [rad].
+
+    `rounding` are the errors of their last digits, where they were written to few.
+    """
+
+    case: str
+    elements: int
+    speed: float
+    lag: float = math.nan
+    flap: float = math.nan
+    twist: float = math.nan
+    failure: str = ""
+    rounding: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), repr=False)
+
+    @property
+    def values(self) -> dict[int, tuple[float, float]]:
+        """Lag, flap and twist with their rounding, by the place in `Reference.row`."""
+        return dict(enumerate(zip((self.lag, self.flap, self.twist), self.rounding, strict=True)))
+
+    def named(self, place: int) -> str:
+        """Return the name of a value."""
+        return f"in {TIP[place]} "
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +119,7 @@ class Run:
         Step of the integration [s], or the tolerance of one that chooses its steps; the other is
         NaN.
     time, q : ndarray (samples,)
-        [s], and q [m] of Eq. 16; empty of a run that failed.
+        [s], and q [m] of Eq. 16, in space `cases.TIP` (samples, 3); empty of a run that failed.
     q_dot : ndarray (samples,), optional
         Its rate in the turning frame [m/s].
     failure : str
@@ -94,8 +131,8 @@ class Run:
         Time spent [s]; NaN if not told.
     remark : str
         The code's own objection to the run.
-    rounding : float
-        Error of q that the last digits of time and q leave, where they were written to few [m].
+    rounding : float or ndarray (3,)
+        Error of q that the last digits of time and q leave, where they were written to few.
     """
 
     case: str
@@ -111,7 +148,7 @@ class Run:
     wall: float = math.nan
     cpu: float = math.nan
     remark: str = ""
-    rounding: float = field(default=0.0, repr=False)
+    rounding: float | FloatArray = field(default=0.0, repr=False)
 
     @property
     def is_adaptive(self) -> bool:
@@ -140,11 +177,18 @@ class Submission:
 
     declaration: Declaration
     frequencies: tuple[Frequency, ...] = ()
+    steady: tuple[SteadyTip, ...] = ()
     backbone: tuple[BackbonePoint, ...] = ()
     runs: tuple[Run, ...] = ()
 
+    @property
+    def rows(self) -> tuple[Frequency | SteadyTip, ...]:
+        """Rows of all tables but backbones."""
+        return (*self.frequencies, *self.steady)
+
     def has(self, case: Case) -> bool:
         """Return whether something of a case was submitted."""
-        if case.asked is Asked.HISTORY:
-            return any(run.case == case.name for run in self.runs)
-        return bool(self.frequencies if case.asked is Asked.FREQUENCIES else self.backbone)
+        if case.asked is Asked.BACKBONE:
+            return bool(self.backbone)
+        names = {run.case for run in self.runs} | {row.case for row in self.rows}
+        return case.name in names

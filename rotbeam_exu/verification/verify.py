@@ -35,6 +35,9 @@ DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
 the orbit of O the beam hardens; S2 leaves too little for that."""
 
+IN_SPACE = ("F", "F+p", "W")
+"""Cases that `verify` takes of a code in space."""
+
 LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
 """Meshes and steps [s] by which the cost at equal error is found; steps scaled as speeds are."""
 
@@ -44,6 +47,8 @@ class Code(Protocol):
 
     def __call__(self, case: Case, *, elements: int, step: float) -> xr.Dataset:
         """Return q [m] and q_dot [m/s] of the tip over `time` [s], as Eq. 16 has them.
+
+        In space lag and flap [m] and twist [rad] in place of both, as `cases.TIP`.
 
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
@@ -71,6 +76,8 @@ class Entry:
     first_frequency : callable, optional
         (beam, omega, elements) -> first natural frequency [rad/s] in steady rotation, where the
         code has it.
+    frequencies : callable, optional
+        (blade, omega, elements, count) -> the lowest ones [rad/s] of a blade in space.
     elements, step
         Mesh and step [s] of the judged run.
     meshes : tuple of int, optional
@@ -86,6 +93,7 @@ class Entry:
     name: str
     simulate: Code
     first_frequency: Callable[[AnyBlade, float, int], float] | None = None
+    frequencies: Callable[[AnyBlade, float, int, int], FloatArray] | None = None
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()
@@ -135,7 +143,7 @@ def verify(
     1 of 2 agrees, 1 undecided (L)
     """
     if beam is None and spin_up is None:
-        cases = [CASES[name] for name in DEFAULT]
+        cases = [CASES[name] for name in (IN_SPACE if entry.frequencies else DEFAULT)]
     else:
         blade, motion = _by_default(beam, spin_up)
         speeds = tuple(speed * faster_than_paper(blade) for speed in SPEEDS)
@@ -150,11 +158,12 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     one, two and four of its steps. What fails is on record with its sentence.
     """
     frequencies = [
-        _frequency(entry, case, speed, elements)
+        one
         for case in cases
-        if case.asked is Asked.FREQUENCIES and entry.first_frequency is not None
+        if case.asked is Asked.FREQUENCIES
         for speed in case.speeds
         for elements in entry.own_meshes
+        for one in _frequencies(entry, case, speed, elements)
     ]
     runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
@@ -175,13 +184,25 @@ def _by_default(beam: AnyBlade | None, spin_up: SpinUp | None) -> tuple[AnyBlade
     return beam or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
 
 
-def _frequency(entry: Entry, case: Case, speed: float, elements: int) -> Frequency:
-    assert entry.first_frequency is not None
+def _frequencies(entry: Entry, case: Case, speed: float, elements: int) -> list[Frequency]:
+    """Return the frequencies of a mesh at a speed, none if the code does not have them."""
+    if (entry.frequencies if case.in_space else entry.first_frequency) is None:
+        return []
+    made = [
+        Frequency(case=case.name, elements=elements, speed=speed, number=number)
+        for number in range(1, case.count + 1)
+    ]
     try:
-        found = entry.first_frequency(case.blade, speed, elements)
+        if case.in_space and entry.frequencies is not None:
+            found = entry.frequencies(case.blade, speed, elements, case.count).tolist()
+        else:
+            assert entry.first_frequency is not None
+            found = [entry.first_frequency(case.blade, speed, elements)]
+    except NotImplementedError:
+        return []
     except RuntimeError as error:
-        return Frequency(elements=elements, speed=speed, failure=str(error))
-    return Frequency(elements=elements, speed=speed, frequency=found)
+        return [replace(one, failure=str(error)) for one in made]
+    return [replace(one, frequency=value) for one, value in zip(made, found, strict=True)]
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:
@@ -206,7 +227,10 @@ def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
     # A whole number of steps may end a little later than the case.
     found = found.isel(time=found["time"].to_numpy() <= case.duration)
     own = str(found.attrs.get("verdict", "passed"))
-    time, q, q_dot = (found[name].to_numpy() for name in ("time", "q", "q_dot"))
+    time = found["time"].to_numpy()
+    tip = [found[name].to_numpy() for name in case.columns]
+    q = np.stack(tip, axis=1) if case.in_space else tip[0]
+    q_dot = None if case.in_space else found["q_dot"].to_numpy()
     wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
     return replace(run, time=time, q=q, q_dot=q_dot, wall=wall, remark=remark)
 

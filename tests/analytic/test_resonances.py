@@ -144,15 +144,15 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
     orbits = along([0.3, 0.34, 0.35])
     modes = 2.0 * MODES
     with pytest.warns(RotbeamWarning) as told:
-        warn_of_resonances(orbits, modes, 1, 3.0)
+        warn_of_resonances(orbits, modes, 1, 3.0, "")
     (said,) = [str(one.message) for one in told]
     drive = f"{18 * orbits[1].frequency:.4f} rad/s"
     assert f"from a = 0.34 on, harmonic 6 of the orbit of mode 1 ({drive})" in said
     assert "is 0.6 % from mode 2" in said  # 0.0376 of 6
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warn_of_resonances(along([0.1, 0.2]), modes, 1, 3.0)  # 5.54 and 5.66: 0.3 of a turn
-        warn_of_resonances([], modes, 1, 3.0)
+        warn_of_resonances(along([0.1, 0.2]), modes, 1, 3.0, "")  # 5.54 and 5.66: 0.3 of a turn
+        warn_of_resonances([], modes, 1, 3.0, "")
 
 
 def test_the_nearest_resonance_is_that_of_the_last_orbit():

@@ -103,6 +103,15 @@ def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
     model, q = modes.model, modes._steady
     K = model.strains.K[0] @ q
     assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
+    assert steady_state(blade, 4.0, theory=theory).twist == pytest.approx(untwist, abs=6e-7)
+
+
+def test_an_unloaded_blade_has_no_twist_however_it_is_bent():
+    blade = BLADE.with_twist(0.5).with_prebend(0.3).with_sweep(0.2).with_precone(0.1)
+    assert abs(steady_state(blade, 0.0).twist) < 1e-13
+    # A moment about the line of a straight blade twists it by its length over GJ.
+    turned = steady_state(BLADE, 0.0, moment=(0.01, 0.0, 0.0), theory=PLAIN).twist
+    assert turned == pytest.approx(0.01 / 0.08, rel=1e-9)
 
 
 @pytest.mark.parametrize(

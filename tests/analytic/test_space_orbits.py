@@ -5,7 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, Theory, backbone, linear_modes, periodic_orbits
+from analytic import (
+    AmplitudeNotReachedError,
+    Beam,
+    Theory,
+    TipForce,
+    backbone,
+    forced_response,
+    linear_modes,
+    periodic_orbits,
+    steady_state,
+)
 from analytic.exact.space.modes import orbit_modes
 from analytic.exact.space.steady import space_continuum, space_rotation
 
@@ -126,3 +136,30 @@ def test_a_blade_that_is_hardly_twisted_has_the_orbits_of_the_plane():
 def test_an_unknown_gauge_is_refused():
     with pytest.raises(ValueError, match="gauge must be 'lag' or 'flap'"):
         periodic_orbits(BLADE, 1.0, [0.1], gauge="up")
+
+
+@pytest.mark.parametrize("away", [1e-3, pytest.param(0.03, marks=pytest.mark.slow)])
+def test_a_family_that_an_internal_resonance_ends_is_refused(away):
+    """Lag has twice the frequency of flap at w̄ = 1.3587: no orbit of a = 0.02 is flap's alone."""
+    at = 1.35867 + away
+    flap, lag = linear_modes(twisted(30.0), at, 2, theory=SOLID).frequencies
+    assert lag / flap == pytest.approx(2.0, abs=1.5 * away)
+    with pytest.raises(AmplitudeNotReachedError, match="2 or 3 times its frequency may be that of"):
+        periodic_orbits(twisted(30.0), at, [0.05], gauge="flap", theory=SOLID)
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        lambda blade: steady_state(blade, 1.0),
+        lambda blade: linear_modes(blade, 1.0, 2),
+        lambda blade: periodic_orbits(blade, 1.0, [0.05]),
+        lambda blade: forced_response(blade, 1.0, TipForce(amplitude=0.01), [0.1, 0.2]),
+    ],
+)
+def test_a_state_with_others_beside_it_is_refused(verb):
+    """A section on edge turns over at w̄ = 0.65, to either side: beyond are three states."""
+    blade = BLADE.with_section_out_of_plane(4.0, 0.01, 0.1).with_precone(0.05)
+    assert steady_state(blade, 0.6).tip[1] == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(ValueError, match="ends or becomes unstable at w_bar = 0.64.*rotate slower"):
+        verb(blade)

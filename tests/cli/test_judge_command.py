@@ -23,7 +23,7 @@ def test_a_right_code(call, folder, tmp_path, monkeypatch):
     page, data = tmp_path / "out.html", tmp_path / "out.json"
     code, out, err = call("judge", folder, "--report", page, "--json", data)
     assert (code, err) == (0, "")
-    assert "2 of 12" in out
+    assert "2 of 18" in out
     assert "usual mistake" not in out
     assert "reference: " in out
     tables = out.split("reference: ")[0]
@@ -34,7 +34,7 @@ def test_a_right_code(call, folder, tmp_path, monkeypatch):
     assert set(found["files"]) >= {"entry.toml", "runs.csv", "L.csv", "S1/m008_h1e-3.csv"}
 
     # A judgement may be made again: its page is no reason to refuse, ahead of it.
-    def stopped(_):
+    def stopped(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(room, "judged", stopped)
@@ -139,3 +139,18 @@ def test_an_error_about_a_file_steers_no_terminal(call, tmp_path):
     code, out, err = call("run", "--config", path)
     assert code == 2
     assert set(steers(out + err)) == {"\n"}
+
+
+def test_one_case_is_read_and_judged_alone(call, folder):
+    """A fault in another case's history is not met; frequencies still serve the shift."""
+    code, whole, _ = call("judge", folder)
+    with (folder / "runs.csv").open("a") as runs:
+        runs.write("V/m008_h1e-3.csv,8,1e-3,,,,,,\n")
+    assert call("judge", folder)[0] == 2
+    code, out, err = call("judge", folder, "--case", "s1")
+    assert (code, err) == (0, "")
+    assert "L ω" not in out
+    assert "1 of 1" in out
+    shift = next(line for line in whole.splitlines() if "S1 shift" in line)
+    assert shift in out
+    assert "there is no case 'S9': it must be L, S1" in call("judge", folder, "--case", "S9")[2]

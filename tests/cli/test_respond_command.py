@@ -98,6 +98,25 @@ def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path):
     assert found == {"own": (0.02, 0.0), "other": (0.0, 0.3)}
 
 
+def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
+    config = tmp_path / "blade.toml"
+    config.write_text(
+        f"{BLADE_TOML}out_of_plane = {{ bending_ratio = 0.25, torsion_ratio = 0.3 }}\n"
+        "[blade.line]\ntwist = [0.0, 0.5]\n[blade.damping]\nbending = 0.1\nexternal = 0.1\n"
+    )
+    code, _, error = call(
+        "respond", "--config", config, "--gravity", "0.5", "--from", "2", "--to", "2.5",
+        "--points", "2", "--functions", "8", "--inextensible", "--no-figure", "--out", tmp_path,
+    )  # fmt: skip
+    assert (code, error) == (0, "")
+    data = load(next(tmp_path.glob("*.nc")))
+    assert data["lag"].to_numpy() == pytest.approx(data["amplitude"].to_numpy(), rel=0.05)
+    assert (data["lag"] > data["flap"]).all()
+    assert (data["flap"] > data["twist"]).all()
+    assert data["twist"].attrs["units"] == "rad"
+    assert "plane" not in data["stable"].attrs["long_name"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

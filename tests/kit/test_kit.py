@@ -70,6 +70,10 @@ def test_cases_can_be_made_again_from_their_rows(folder):
         blade = Blade(
             length=row["L"], section=section, hub_radius=row["hub_radius"], point_masses=masses
         )
+        if row["EI_flap/EI"] is not None:
+            blade = blade.with_section_out_of_plane(row["EI_flap/EI"], row["GJ/EI"])
+        if row["twist"]:
+            blade = blade.with_twist(row["twist"]).with_precone(row["precone"])
         own = case.blade.blade
         assert blade == own.with_damping(blade.damping)
         assert row["bending_damping"] == own.damping.bending
@@ -183,6 +187,16 @@ def test_the_tube_has_the_beam():
     assert told["rho"] * told["A"] == pytest.approx(row["rhoA"], rel=1e-14)
 
 
+def test_the_ellipse_has_the_blade_in_space():
+    """The problem's E, ρ and half axes give its stiffnesses, by the formulas of a full ellipse."""
+    row, a, b, E = row_of(CASES["F"]), 0.16, 0.04, 1e9
+    A, lag, flap = math.pi * a * b, 0.25 * math.pi * a**3 * b, 0.25 * math.pi * a * b**3
+    torsion = math.pi * (a * b) ** 3 / (a**2 + b**2)
+    told = row["EA"], row["rhoA"], row["EI"], row["EI_flap/EI"], row["GJ/EI"]
+    due = E * A, 1200.0 * A, E * lag, flap / lag, torsion / 2.6 / lag
+    assert told == pytest.approx(due, rel=1e-12)
+
+
 def test_the_history_for_self_check_is_the_reference(folder):
     found = columns(folder / "reference_S1.csv")
     truth = reference(CASES["S1"])
@@ -204,10 +218,10 @@ def test_the_paper_is_of_the_present_source():
     assert room.PDF.read_bytes().startswith(b"%PDF")
 
 
-def test_the_paper_has_two_pages():
+def test_the_paper_has_two_pages_and_one_for_space():
     pytest.importorskip("typst")
     pages = room.typeset(format="png", ppi=20)
-    assert len(pages) == 2
+    assert len(pages) == 3
 
 
 def test_a_folder_that_holds_something_is_refused(tmp_path):

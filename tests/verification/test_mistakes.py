@@ -7,10 +7,12 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.verification.cases import CASES
+from analytic.exact.beam.discretization import continuum
+from analytic.theory import BERNOULLI_EULER, Theory
+from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
+from rotbeam_exu.verification.mistakes.forces import FORCES, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
 from rotbeam_exu.verification.references import reference
@@ -64,6 +66,15 @@ def test_factors(named, exact):
     assert named(1.3 * exact.q) == "factor"
 
 
+def test_an_angle_for_the_deflection(named, exact):
+    """Of the tip's place from the clamp: a factor alone would leave 5e-2 of it."""
+    turned = (exact.tip @ [1.0, 1j]) * np.exp(-1j * S1.motion.angle(TIME))
+    angle = np.angle(turned)
+    assert named(np.degrees(angle)) == "degrees"
+    assert named(angle) == "radians"
+    assert named(LENGTH * angle) == "arc"
+
+
 @pytest.mark.parametrize("offset", [0.03, 0.5, -0.4])
 def test_an_offset_of_time(named, spline, offset):
     moved = TIME - offset
@@ -84,6 +95,37 @@ def test_another_ramp(named, name):
     q = spin_up_response(S1.blade, wrong, time, tolerance=1e-2).q
     assert named(q, time) == name
     assert named(q, time, ramps=()) is None
+
+
+@pytest.mark.parametrize("force", FORCES)
+def test_a_force_that_is_left_out(named, force):
+    assert named(without(force, S1, TIME)) == force
+
+
+def test_forces_that_are_left_out_are_those_of_a_turning_frame():
+    """With Euler's they are what the rotation adds to the slope's acceleration, r'' exp(-iθ)."""
+    rng = np.random.default_rng(1)
+    w, w_dot = 2.0, 0.7
+    models = {name: kind(1e-3, 6, 3) for name, (_, kind) in FORCES.items()}
+    q = 0.1 * rng.standard_normal((3, 1, next(iter(models.values())).size))
+    at = {rate: continuum(1e-3, 6, 3)._fields(*q, w * rate, w_dot * rate, None) for rate in (0, 1)}
+    added = (at[1].acceleration - at[0].acceleration) * at[1].turn
+    lacking = sum(model.lacking(at[1], np.array([[w]])) for model in models.values())
+    euler = 1j * w_dot * at[1].stretch * at[1].turn
+    assert added == pytest.approx(lacking + euler, rel=1e-12, abs=1e-12)
+
+
+def test_without_the_centrifugal_force_a_slow_ramp_bends_as_a_load_does():
+    """q = -(11/120) ρA θ̈ L⁵/EI at the middle of the ramp; stiffened a sixth less."""
+    slow = replace(S1, motion=SpinUp(omega=6.0, ramp_time=60.0), duration=30.0)
+    time = np.linspace(0.0, 30.0, 601)
+    q = without("no centrifugal force", slow, time)
+    beam = S1.blade
+    static = 11.0 / 120.0 * 0.2 * beam.mass_per_length * LENGTH**5 / beam.bending_stiffness
+    # The first mode swings by a tenth of a percent about it, and bends by 1 % of L.
+    assert q[-1] == pytest.approx(-static, rel=1e-2)
+    stiffened = spin_up_response(beam, slow.motion, time, tolerance=1e-3).q[-1]
+    assert abs(stiffened) < 0.9 * static
 
 
 @pytest.mark.parametrize("ramp", RAMPS.values())
@@ -136,6 +178,9 @@ def test_what_none_of_them_explains_is_left_alone(named, exact):
         (lambda w, speed: first(0.0), "no rotation"),
         (lambda w, speed: first(speed * np.pi / 30.0), "revolutions per minute"),
         (lambda w, speed: w * 1.01, None),
+        (np.hypot, "out of the plane"),
+        (lambda w, speed: w + speed, "seen at rest"),
+        (lambda w, speed: np.rint(w / (2.0 * np.pi / 60.0)) * (2.0 * np.pi / 60.0), "bins"),
     ],
 )
 def test_linear_frequencies(change, name):
@@ -148,6 +193,17 @@ def test_linear_frequencies(change, name):
     ]
     found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
     assert (found and found.name) == name
+
+
+def test_frequencies_without_centrifugal_stiffening():
+    """At low speeds; faster ones have no frequency at all."""
+    rows = [
+        Frequency(elements=n, speed=w, frequency=np.sqrt(first(0.0) ** 2 - w**2))
+        for n in (8, 16)
+        for w in (0.0, 2.0)
+    ]
+    found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
+    assert found.name == "no centrifugal stiffening"
 
 
 def first(speed):
@@ -205,3 +261,52 @@ def test_all_that_was_handed_in_is_searched(exact):
     assert "hand in rad/s" in str(found[0])
     assert found[1].before == pytest.approx(2.0, abs=1e-2)
     assert found[1].after < 1e-2
+
+
+REISSNER = Theory(shear=SHEAR, rotary_inertia=True)
+ENGESSER = Theory(shear=SHEAR, rotary_inertia=True, engesser=True)
+
+
+def of_theory(theory, declared):
+    """Results in the stout cases of a code that has one theory and declares another."""
+    linear, true = (reference(CASES[name], theory) for name in ("TL", "T"))
+    time = np.linspace(0.0, 15.0, 1501)
+    q = true.history(time)
+    rows = [
+        Frequency(
+            case="TL", elements=n, speed=w,
+            frequency=linear.first_frequency(w) * (1.0 + 1e-2 / n**2),
+        )
+        for n in (8, 16, 32)
+        for w in CASES["TL"].speeds
+    ]  # fmt: skip
+    runs = [
+        Run(case="T", elements=n, step=h, time=time, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))
+        for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (16, 5e-4), (16, 2e-3))
+    ]
+    declaration = Declaration(code="mine", order=2.0, order_in_step=2.0, theory=declared)
+    return Submission(declaration=declaration, frequencies=tuple(rows), runs=tuple(runs))
+
+
+@pytest.mark.parametrize(
+    ("theory", "declared", "said"),
+    [
+        (BERNOULLI_EULER, REISSNER, "those of Bernoulli-Euler, the tags say Timoshenko with"),
+        (REISSNER, BERNOULLI_EULER, "those of Timoshenko with rotary inertia, the tags say Bern"),
+        (ENGESSER, REISSNER, "those of Timoshenko, Engesser's law with rotary inertia, the tags"),
+        (REISSNER, ENGESSER, "the tags say Timoshenko, Engesser's law with rotary inertia: corr"),
+    ],
+)
+def test_tags_that_do_not_fit_are_named(theory, declared, said):
+    submission = of_theory(theory, declared)
+    found = mistakes_in(submission, judged(submission))
+    assert [(one.case, one.name) for one in found if one.case == "T"] == [("T", "tags")]
+    assert said in str(found[-1])
+
+
+@pytest.mark.parametrize("theory", [BERNOULLI_EULER, REISSNER, ENGESSER])
+def test_tags_that_fit_are_left_alone(theory):
+    submission = of_theory(theory, theory)
+    found = judged(submission)
+    assert found.passed
+    assert mistakes_in(submission, found) == []

@@ -116,3 +116,21 @@ def test_a_correct_run_more_never_makes_a_verdict_worse(count):
         worse += any(before and not after for before, after in pairwise(passed))
     # Bars are estimates: those of the runs before may have been too small by chance.
     assert worse <= at_most(count, 0.05)
+
+
+@counts
+@pytest.mark.parametrize("kind", ["asymptotic", "pre-asymptotic"])
+@pytest.mark.parametrize("order", [2.0, 4.0])
+def test_a_ladder_of_steps_on_a_coarse_mesh_tells_nothing_of_the_mesh(order, kind, count):
+    """Steps down to a two-hundredth, as are advised where a step would decide."""
+    runs = WHOLE[0] + (16,) * 4, (*WHOLE[1], 3e-4, 1e-4, 4e-5, 2e-5)
+    rng = np.random.default_rng(8)
+    mesh, step = 32 / np.array(runs[0]), np.array(runs[1]) / 2e-5
+    missed, differs = 0, 0
+    for _ in range(count):
+        values = errors(rng, kind, mesh, order, 10.0) + errors(rng, kind, step, 2.0, 4e-4)
+        fit, outcome = fitted(values, runs, order)
+        missed += abs(fit.limit) > fit.bar
+        differs += outcome is Outcome.DIFFERS
+    assert missed <= at_most(count, 0.05)
+    assert differs <= at_most(count, 1e-3)

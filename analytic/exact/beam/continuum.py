@@ -9,6 +9,7 @@ Without shear, γ = 0: the beam is Bernoulli and Euler's, with the elongation e 
 θ of the tangent and the curvature θ' = (r' × r'')/|r'|². With it the beam is Reissner's, θ is the
 angle of the section, and e and γ are the strains along and across its normal. The elastic energy
 V = ½∫ (e²/μ + σγ²/μ + θ'²) dx is quadratic, σ being the shear over the axial stiffness.
+By Engesser's law (|r'| - 1)² stands for e² in it, the tension acting along the slope.
 With (θ, e, γ) as coordinates the stiffness is the identity and nothing locks: the inextensible beam
 is e = 0, μ = 0. In a frame that turns at the rate w(τ) the acceleration of the slope is p exp(iθ),
 
@@ -24,12 +25,13 @@ acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear ha
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
+from ...profiles import evaluated
 from ...unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
 
@@ -63,13 +65,19 @@ class Continuum(Kinematics):
         Section, point masses, hub radius and setting angle, relative to the uniform beam.
     shear : float or None
         σ = k_s GA/(EA); None to leave shear out.
+    engesser : bool
+        Whether the tension acts along the slope of the axis; else along the section's normal.
 
     Attributes
     ----------
     outboard : dict
         Mass, length and tip beyond each Gauss point, times its weight (points,), by the names
         "mass", "length" and "tip": a load acts on one of them.
+    has_dear_tangent : bool
+        Whether one costs many residuals, so that it serves in the steps of time after it.
     """
+
+    has_dear_tangent: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -79,8 +87,11 @@ class Continuum(Kinematics):
         *,
         blade: UnitBlade = UNIFORM,
         shear: float | None = None,
+        engesser: bool = False,
     ) -> None:
         super().__init__(slenderness, bending, axial, blade, shear)
+        self.engesser = engesser
+        self._axial = self.weights * evaluated(blade.axial, self.points) if engesser else None
         # One point more integrates the square of the integrated interpolant exactly.
         count = 2 * self._across.a_panel + 1
         at, dm = blade.inertia(count)
@@ -148,7 +159,12 @@ class Continuum(Kinematics):
             theta = theta + q_ddot[..., : self.bending] @ self._rotary_mass
             euler = self.blade.setting * np.asarray(rate_dot)
             theta = theta + euler[..., None] * self._rotary_force
-        strains = (at.force @ self._psi.conj()).real
+        force = at.force
+        if self._axial is not None:
+            # Of ½ (|s| - 1)²/μ, beyond the ½ e²/μ that is in q.
+            s = at.stretch
+            force = force + self._axial / self.slenderness * (1.0 + 1j * s.imag - s / np.abs(s))
+        strains = (force @ self._psi.conj()).real
         return q + self._viscosity * q_dot + np.concatenate((theta, strains), axis=-1)
 
     def residual(
@@ -225,6 +241,11 @@ class Continuum(Kinematics):
         stiffness[..., nb:, :nb] += np.swapaxes(mixed, -1, -2)
         stiffness[..., :nb, nb:] += mixed
         mass[..., :nb, :nb] += self._rotary_mass
+        if self._axial is not None:
+            s = at.stretch[..., None]
+            change = self._psi.imag - s / np.abs(s) * (self._psi / s).imag
+            change = self._axial[:, None] / self.slenderness * change
+            stiffness[..., nb:, nb:] += (psi.T @ (1j * change)).real
         return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
 
     @property
@@ -242,6 +263,31 @@ class Continuum(Kinematics):
         """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
         at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
         return -at.force.real / self.weights
+
+    def section_loads(
+        self,
+        x: FloatArray,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return N and Q (samples, places, 2) and M (samples, places) at `x`, by d'Alembert.
+
+        Of all inertia and all loads beyond, in the section's axes.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
+        if self._turns:
+            along, dj = self.blade.turning(2 * self._across.a_panel + 1)
+            euler = np.asarray(self.blade.setting * np.asarray(rate_dot))[..., None]
+            spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
+            moment = moment + (spin_rate * dj) @ self.grid.integral(along)
+        onto = -self.grid.interpolation(x).T / self.weights[:, None]
+        force = at.force @ onto
+        return np.stack((force.real, force.imag), axis=-1), moment @ onto
 
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.
@@ -263,6 +309,9 @@ class Continuum(Kinematics):
         """
         elastic: FloatArray = 0.5 * np.sum(q**2, axis=-1)
         z, blade = self.slope(q), self.blade
+        if self._axial is not None:
+            more = (np.abs(z) - 1.0) ** 2 - self._strain(q).real ** 2
+            elastic = elastic + 0.5 / self.slenderness * more @ self._axial
         squared = self._squared(z)
         if blade.hub:
             squared = squared + 2.0 * blade.hub * (z @ self.outboard["mass"]).real

@@ -30,9 +30,10 @@ def continuum(
     axial: int,
     blade: UnitBlade = UNIFORM,
     shear: float | None = None,
+    engesser: bool = False,
 ) -> Continuum:
     """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, blade=blade, shear=shear)
+    return Continuum(slenderness, bending, axial, blade=blade, shear=shear, engesser=engesser)
 
 
 def finer_model(model: Continuum) -> Continuum:
@@ -50,6 +51,7 @@ def finer_model(model: Continuum) -> Continuum:
         more(model.axial) if model.slenderness > 0.0 else model.axial,
         model.blade,
         model.shear_ratio,
+        model.engesser,
     )
 
 
@@ -59,7 +61,7 @@ def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) ->
     unit = _unit(beam, require_theory(theory))
     slenderness, axial = (beam.slenderness, axial) if theory.extension else (0.0, 1)
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
-    return continuum(slenderness, bending, axial, unit, theory.shear)
+    return continuum(slenderness, bending, axial, unit, theory.shear, theory.engesser)
 
 
 def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:

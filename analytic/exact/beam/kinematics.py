@@ -158,6 +158,10 @@ class Kinematics:
         """Return the tip's position z(1), (samples,)."""
         return self.slope(q) @ self.weights
 
+    def tip_turn(self, q: FloatArray) -> FloatArray:
+        """Return zero, (samples,): in its plane a beam does not twist."""
+        return np.zeros(len(q))
+
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> ComplexArray:
         """Return the tip's velocity ż(1) in the rotating frame, (samples,)."""
         return self.slope_rate(q, q_dot) @ self.weights

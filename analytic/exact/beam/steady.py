@@ -61,6 +61,13 @@ class AtConstantRate(Discretized):
         tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate, push=self.push)
         return tangent
 
+    def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
+        found: tuple[FloatArray, FloatArray] = self.model.section_loads(
+            x, *state, self.rate, push=self.push
+        )
+        return found
+
     def potential(self, q: FloatArray) -> FloatArray:
         """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
         return np.asarray(self.model.amended_potential(q, self.rate))
@@ -71,15 +78,31 @@ class AtConstantRate(Discretized):
 
 
 @dataclass(frozen=True, eq=False)
-class BeamCoordinates(Discretized):
-    """The discretized beam as `methods` see it: the gauge is the tip's deflection over the length.
+class SteadyBeam(AtConstantRate):
+    """The beam in a frame that turns at a constant rate; a `methods.System`.
+
+    The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
+    maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.
 
     Attributes
     ----------
     model : Continuum
+    rate : float
+        w̄ = ω/√(EI/mL³).
     """
 
     model: Continuum
+    rate: float
+
+    @cached_property
+    def odd(self) -> NDArray[np.bool_]:
+        """True for the coordinates of θ and γ, (n,)."""
+        return self.model.odd
+
+    @cached_property
+    def equilibrium(self) -> FloatArray:
+        """Coordinates (n,) of the straight beam that the rotation stretches."""
+        return self.model.steady_state(self.rate)
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's deflection v(1), (samples,)."""
@@ -96,32 +119,6 @@ class BeamCoordinates(Discretized):
     def refined(self) -> Self:
         """Return the beam on half as many functions again."""
         return replace(self, model=finer_model(self.model))
-
-
-@dataclass(frozen=True, eq=False)
-class SteadyBeam(AtConstantRate, BeamCoordinates):
-    """The beam in a frame that turns at a constant rate; a `methods.System`.
-
-    The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t) maps orbits onto orbits: θ and γ are odd. The
-    invariant is the Jacobi integral.
-
-    Attributes
-    ----------
-    rate : float
-        w̄ = ω/√(EI/mL³).
-    """
-
-    rate: float
-
-    @cached_property
-    def odd(self) -> NDArray[np.bool_]:
-        """True for the coordinates of θ and γ, (n,)."""
-        return self.model.odd
-
-    @cached_property
-    def equilibrium(self) -> FloatArray:
-        """Coordinates (n,) of the straight beam that the rotation stretches."""
-        return self.model.steady_state(self.rate)
 
 
 BeamOrbit = Orbit[SteadyBeam]

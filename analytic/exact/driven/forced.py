@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, Literal
 
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_planar, warn_if_rpm
+from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Load
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import resolved_model
-from ..beam.steady import steady_rotation
+from ..beam.discretization import MOST_FUNCTIONS, resolved_model
+from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import linear_modes
-from .forced_orbits import ForcedResponse, ResponseNotReachedError
-from .loading import DrivenBeam, unit_load
+from ..space.modes import DIRECTIONS
+from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
+from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
+from .loading import DrivenBlade, unit_load
 
 _MOST_HARMONICS = 100  # dense matrices of so many times twice the functions
 _LARGEST = 0.95  # |q|/L to which a response is followed
@@ -36,6 +39,7 @@ def forced_response(
     theory: Theory = BERNOULLI_EULER,
     functions: int = 10,
     harmonics: int = 4,
+    gauge: Literal["lag", "flap"] = "lag",
 ) -> ForcedResponse:
     """Return the periodic response of the damped blade to a load, over the load's frequency.
 
@@ -61,7 +65,15 @@ def forced_response(
     theory : Theory
         Extension, shear and rotary inertia.
     functions, harmonics : int
-        Least number of functions for the tangent's angle, and of harmonics.
+        Least number of functions for the tangent's angle, half as many for each curvature in space,
+        and of harmonics.
+    gauge : {"lag", "flap"}
+        Place of the tip whose greatest deflection is the amplitude; "flap" of a blade in space.
+
+    Returns
+    -------
+    ForcedResponse
+        Of a blade in space a `SpaceForcedResponse`, with `lag`, `flap` and `twist`.
 
     Raises
     ------
@@ -84,7 +96,6 @@ def forced_response(
     >>> print(found.amplitude[found.at(5.0)].round(4))
     [0.1355]
     """
-    require_planar(beam)
     unit = unit_load(beam, load)
     if load.varied is None:
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
@@ -105,25 +116,46 @@ def forced_response(
     else:
         highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(beam, highest)
-    model = resolved_model(beam, 1, theory, functions)
-    rate = steady_rotation(beam, highest, model).rate
+    steady, tail, kind = _planar_or_spatial(beam, highest, theory, functions, gauge)
     if not any(beam.unit.damping):
         _require_no_resonance(beam, None if by_speed else highest, theory, asked)
-    system = DrivenBeam(model, None if by_speed else rate, unit)
+    # Deflections are told from the steady state, at changing speeds from that at rest.
+    system = DrivenBlade(replace(steady, rate=0.0) if by_speed else steady, unit)
     least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
     try:
-        found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least)
+        found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least, tail)
     except NoOrbitError as failed:
         response, last = None, f" at {asked[0]:g} rad/s"
         if failed.last:
-            response = _packed(beam, load, theory, failed.last)
+            response = _packed(kind, beam, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        remedy = failed.remedy or "take more damping or a smaller load"
+        free = lives_in_space(beam) and not beam.damping.bending
+        more = "damping of the bending, without which torsion has none," if free else "more damping"
+        remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
-    return _packed(beam, load, theory, found)
+    return _packed(kind, beam, load, theory, found)
+
+
+def _planar_or_spatial(
+    beam: AnyBlade, omega: float, theory: Theory, functions: int, gauge: str
+) -> tuple[SteadyBeam | SpaceBlade, float, type[ForcedResponse]]:
+    """Return the blade in steady rotation at ω [rad/s], the tail of `Care`, and the response."""
+    if gauge not in DIRECTIONS:
+        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+    if not lives_in_space(beam):
+        if gauge == "flap":
+            raise ValueError(
+                "this blade stays in its plane under the load, and gauge is 'flap': leave it out"
+            )
+        model = resolved_model(beam, 1, theory, functions)
+        return steady_rotation(beam, omega, model), 1.0, ForcedResponse
+    functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
+    in_space = space_continuum(beam, theory, functions // 2)
+    steady = replace(space_rotation(beam, omega, in_space), direction=DIRECTIONS[gauge])
+    return steady, in_space.functions.blade.tail, SpaceForcedResponse
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -162,12 +194,14 @@ def _require_no_resonance(
             )
 
 
-def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
+def _packed(
+    kind: type[ForcedResponse], beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]
+) -> ForcedResponse:
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     per_second = beam.frequency_scale
-    return ForcedResponse(
+    return kind(
         beam=beam,
         load=load,
         theory=theory,

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import undamped
+from ...beam import AnyBlade, undamped
 from ...input_checks import finite_array, finite_number
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ..free.backbone import Backbone, backbone
-from ..free.branch import Branch, SpecialPoint
+from ..free.branch import Branch, SpaceOrbitSet, SpecialPoint
+from ..space.modes import space_modes
 
 if TYPE_CHECKING:
     from ...plotting import Axes
+
+_LOOKED_AT = 6  # modes, for the backbone
 
 
 class ResponseNotReachedError(RuntimeError):
@@ -108,13 +111,22 @@ class ForcedResponse(Branch):
 
     @property
     def backbone(self) -> Backbone:
-        """The backbone of the first mode of the undamped blade, on which the response leans."""
+        """The backbone of the undamped blade on which the response leans.
+
+        Of the first mode; in space of the first that has more of the gauge.
+        """
         if self.load.varied == "speed":
             raise ValueError(
                 f"{self.load.called} goes around with the speed, and each speed has its own "
                 "backbone: take periodic_orbits at one of them"
             )
-        return backbone(undamped(self.beam), float(self.omega[0]), theory=self.theory)
+        blade, omega = undamped(self.beam), float(self.omega[0])
+        return backbone(blade, omega, theory=self.theory, **self._leans_on(blade, omega))
+
+    def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
+        """Return the mode and the gauge of the backbone."""
+        del blade, omega
+        return {}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
@@ -152,3 +164,22 @@ class ForcedResponse(Branch):
             f"{'folds at ' + folds if folds else 'no folds'}; "
             f"residual at most {self.residual.max():.1e}"
         )
+
+
+class SpaceForcedResponse(SpaceOrbitSet, ForcedResponse):
+    """Periodic response of a blade in space under one load; made by `forced_response`.
+
+    As `ForcedResponse`, but q is the gauge, the tip's place along lag or flap less that of the
+    steady state, under gravity less that at rest.
+    """
+
+    @property
+    def gauge(self) -> Literal["lag", "flap"]:
+        """Place of the tip whose greatest deflection is the amplitude."""
+        return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
+
+    def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
+        """Return the first mode that has more of the gauge, and the gauge."""
+        flap, lag, _ = space_modes(blade, omega, _LOOKED_AT, self.theory).shares.T
+        more = flap > lag if self.gauge == "flap" else lag > flap
+        return {"mode": int(np.argmax(more)) + 1, "gauge": self.gauge}

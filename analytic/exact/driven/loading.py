@@ -6,19 +6,20 @@ A ripple of the speed is no force but changes w and ẇ.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade
 from ...loads import Load, require_load
 from ...methods.system import Tangent
 from ..beam.continuum import Continuum
-from ..beam.steady import BeamCoordinates
+from ..beam.steady import Discretized, SteadyBeam
 from ..space.continuum import SpaceContinuum
+from ..space.steady import SpaceBlade
 
 
 def unit_load(beam: AnyBlade, load: Load) -> Load:
@@ -58,40 +59,70 @@ def pushes(
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenBeam(BeamCoordinates):
-    """The beam under one load in steady rotation; a `methods.System`.
+class DrivenBlade(Discretized):
+    """The blade under one load in steady rotation, in its plane or in space; a `methods.System`.
 
     Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well.
 
     Attributes
     ----------
-    rate : float or None
-        w̄; None if it is ν.
+    steady : SteadyBeam or SpaceBlade
+        Without the load; its gauge is that of the response.
     load : Load
         Without dimensions.
     """
 
-    rate: float | None
+    steady: SteadyBeam | SpaceBlade
     load: Load
     driven: ClassVar[bool] = True
     odd: ClassVar[None] = None
 
+    @property
+    def model(self) -> Continuum | SpaceContinuum:
+        """The discretization."""
+        return self.steady.model
+
+    @property
+    def gauge(self) -> Callable[[FloatArray], FloatArray]:
+        """The function that returns the tip's deflection, (samples,)."""
+        return self.steady.gauge
+
+    @property
+    def gauge_rate(self) -> Callable[[FloatArray, FloatArray], FloatArray]:
+        """The function that returns its rate, (samples,)."""
+        return self.steady.gauge_rate
+
+    @property
+    def gauge_gradient(self) -> Callable[[FloatArray], FloatArray]:
+        """The function that returns its derivatives to the coordinates, (samples, n)."""
+        return self.steady.gauge_gradient
+
+    def refined(self) -> DrivenBlade:
+        """Return the blade on half as many functions again."""
+        return replace(self, steady=self.steady.refined())
+
+    @property
+    def _turns(self) -> bool:
+        return self.load.varied == "speed"
+
     def speed(self, frequency: float) -> float:
         """Return w̄."""
-        return frequency if self.rate is None else self.rate
+        return frequency if self._turns else self.steady.rate
 
     def rest(self, frequency: float) -> FloatArray:
-        """Return the straight beam that the rotation stretches, (n,)."""
-        return self.model.steady_state(self.speed(frequency))
+        """Return the steady state without the load, (n,)."""
+        return replace(self.steady, rate=self.speed(frequency)).equilibrium
 
-    def _drive(
-        self, phase: FloatArray, frequency: float
-    ) -> tuple[FloatArray, FloatArray, ComplexArray | None]:
+    def loaded(self, share: float) -> DrivenBlade:
+        """Return the blade under a share of the load."""
+        return replace(self, load=self.load.times(share))
+
+    def _drive(self, phase: FloatArray, frequency: float) -> tuple[FloatArray, FloatArray, Any]:
         """Return w, ẇ and the push at the phases."""
         load = self.load
         rate = self.speed(frequency) + load.rate(phase)
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
-        angle = phase if self.rate is None else np.full_like(phase, np.nan)
+        angle = phase if self._turns else np.full_like(phase, np.nan)
         return rate, load.acceleration(phase, frequency), pushes(self.model, [(load, phase)], angle)
 
     def residual(
@@ -115,3 +146,8 @@ class DrivenBeam(BeamCoordinates):
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
         return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
+
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
+        q, q_dot, q_ddot, phase, frequency = state
+        return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))

@@ -19,17 +19,20 @@ from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import blade_continuum
+from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.steady import steady_rotation
 from ..space.steady import lives_in_space, space_continuum, space_rotation
-from .transient import BladeMotion, grid_of, integrated
+from .transient import BladeMotion, drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_MANY_CELLS = 16
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _MOST_STEPS = 100_000  # of one solution; some minutes
+_AT_ONCE = 100  # times, in space of some megabytes each
 _ROUND_OFF = 1e-13  # of the tip's position over the length
 
 
@@ -81,6 +84,19 @@ class SpinUpResponse:
     error: float
     steps: int
     functions: int
+    _model: Any = field(repr=False)
+    _state: FloatArray = field(repr=False)
+
+    def section_loads(self, x: ArrayLike) -> SectionLoads:
+        """Return force and moment in the sections at `x` [m], over time."""
+        at = points_of_beam("x", x, self.beam.length)
+        driven_at = drive(self.beam, rippled(self.spin_up, self.loads), self.loads, self._model)
+        parts = [
+            self._model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
+            for few in np.array_split(np.arange(self.time.size), 1 + self.time.size // _AT_ONCE)
+        ]
+        force, moment = (np.concatenate(one) for one in zip(*parts, strict=True))
+        return in_newtons(self.beam, at, (force, moment))
 
     @staticmethod
     def in_units(
@@ -98,6 +114,7 @@ class SpinUpResponse:
         }
 
 
+@dataclass(frozen=True, kw_only=True)
 class SpaceResponse(SpinUpResponse):
     """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
 
@@ -110,9 +127,16 @@ class SpaceResponse(SpinUpResponse):
         Place of the tip from the clamp [m].
     axis : ndarray (times, points, 3)
         Places of the points asked for from the clamp [m].
+    twist : ndarray (times,)
+        How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
+        rotation T from the unloaded section to the loaded one, in the axes of `tip`.
+    error : float
+        Of the twist as well, in radians over the largest deflection over the length.
     functions : int
         Functions for each curvature.
     """
+
+    twist: FloatArray = field(repr=False)
 
     @property
     def lag(self) -> FloatArray:
@@ -130,7 +154,14 @@ class SpaceResponse(SpinUpResponse):
     ) -> dict[str, FloatArray]:
         """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
         tip, rate = beam.length * motion.tip, beam.length * beam.frequency_scale * motion.tip_rate
-        return {"q": tip[:, 1], "q_dot": rate[:, 1], "tip": tip, "axis": beam.length * motion.axis}
+        axis = beam.length * motion.axis
+        return {
+            "q": tip[:, 1],
+            "q_dot": rate[:, 1],
+            "tip": tip,
+            "axis": axis,
+            "twist": motion.twist,
+        }
 
 
 @one_thread
@@ -194,9 +225,11 @@ def spin_up_response(
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
+    fewest = math.ceil(_A_DIGIT * digits)
+    # The kinks of a table leave an algebraic tail.
+    more = fewest // 2 if beam.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
     for level in range(_REFINEMENTS):
-        functions = math.ceil(_A_DIGIT * digits)
-        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        functions = fewest + max(more, beam.unit.panel_count) * level
         model: Any = (
             space_continuum(beam, theory, functions) if space
             else blade_continuum(beam, theory, functions, functions // 2)
@@ -213,7 +246,8 @@ def spin_up_response(
             continue
         if coarser is not None:
             size = float(np.abs(model.deflection(finer.tip)).max())
-            error = float(np.abs(finer.tip - coarser.tip).max() / (size or 1.0))
+            changes = finer.tip - coarser.tip, finer.twist - coarser.twist
+            error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:
                 return kind(
                     beam=beam,
@@ -225,6 +259,8 @@ def spin_up_response(
                     error=error,
                     steps=grid.size - 1,
                     functions=functions,
+                    _model=model,
+                    _state=finer.state,
                 )
         coarser = finer
     raise RuntimeError(

@@ -115,6 +115,7 @@ class SpaceBackbone(Backbone):
     gauge: Literal["lag", "flap"] | None = None
 
     _kind: ClassVar[type[Orbits]] = SpaceOrbits
+    at_resonance: ClassVar[str] = "several orbits may have one amplitude there"
 
     def branch(self, up_to: float = 0.9) -> BackboneBranch:
         """Refuse: tongues are followed in the plane only."""

@@ -14,8 +14,11 @@ from ...beam import AnyBlade
 from ...input_checks import finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
+from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.state import BeamState
 from ..beam.steady import orbit_state
+
+_SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
 
 
 class AmplitudeNotReachedError(RuntimeError):
@@ -99,6 +102,16 @@ class OrbitSet:
         z = length * orbit.system.model.axis(q, at)
         return z.real, z.imag
 
+    def section_loads(self, i: int, x: ArrayLike, phase: ArrayLike) -> SectionLoads:
+        """Return force and moment in the sections at `x` [m] of orbit `i` at phases [rad].
+
+        The first dimension of both is that of the phases.
+        """
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        phases = finite_values("phase", phase, "rad")
+        state = (*orbit.coordinates(phases), *orbit.drive(phases))
+        return in_newtons(self.beam, at, orbit.system.section_loads(at, *state))
+
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:
         return tuple(floquet_multipliers(one, self._covered) for one in self.nondimensional)
@@ -125,6 +138,61 @@ class OrbitSet:
     def stable_modes(self) -> NDArray[np.int_]:
         """Number of modes that `stable` covers, the lowest, (orbits,)."""
         return np.array([found.modes for found in self._stability])
+
+
+class SpaceOrbitSet(OrbitSet):
+    """Periodic orbits of a blade in space; base of `SpaceOrbits` and `SpaceForcedResponse`.
+
+    `stable` covers disturbances in all directions.
+    """
+
+    def tip(self, i: int, phase: ArrayLike) -> FloatArray:
+        """Return the tip's places from the clamp [m] at the phases [rad], (phases, 3).
+
+        Along the clamp, in the direction of rotation (lag) and normal to both (flap).
+        """
+        orbit = self._orbit(i)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        return np.asarray(self.beam.length * orbit.system.model.tip(q))
+
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
+        """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
+        return self.beam.length * orbit.system.model.axis(q, at)
+
+    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
+        """Refuse: a state of the plane does not hold it; take `axis`."""
+        raise ValueError(
+            "the state of a blade in space is more than u, v and their rates: take axis, at two "
+            "phases for the rates"
+        )
+
+    @property
+    def lag(self) -> FloatArray:
+        """Half the way of the tip from end to end in the direction of rotation, over L."""
+        return self._swings[:, 0]
+
+    @property
+    def flap(self) -> FloatArray:
+        """The same normal to it and to the clamp."""
+        return self._swings[:, 1]
+
+    @property
+    def twist(self) -> FloatArray:
+        """Half the swing of the tip's section about the clamp's axis [rad]."""
+        return self._swings[:, 2]
+
+    @cached_property
+    def _swings(self) -> FloatArray:
+        """Lag, flap and twist, (orbits, 3), between samples by their Fourier series."""
+        found = []
+        for orbit in self.nondimensional:
+            count, model = 8 * orbit.harmonics, orbit.system.model
+            q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
+            series = np.fft.rfft(np.column_stack((model.tip(q)[:, 1:], model.tip_turn(q))), axis=0)
+            found.append(np.ptp(np.fft.irfft(series, _SAMPLES, axis=0), axis=0) / count)
+        return 0.5 * _SAMPLES * np.array(found)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -214,7 +214,7 @@ def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
 
 
 def warn_of_resonances(
-    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
+    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float, there: str
 ) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
     others = _others(modes, mode)
@@ -239,5 +239,5 @@ def warn_of_resonances(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                "tell; backbone(...).branch follows what branches there"
+                f"tell; {there}"
             )

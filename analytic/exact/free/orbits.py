@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
-from ...input_checks import finite_array, finite_number, finite_values, points_of_beam
+from ...input_checks import finite_array, finite_number, finite_values
 from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
-from ..beam.state import BeamState
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError, OrbitSet
+from .branch import AmplitudeNotReachedError, OrbitSet, SpaceOrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
 from .path import ModePath
 
@@ -136,34 +135,12 @@ class Orbits(OrbitSet):
         )
 
 
-class SpaceOrbits(Orbits):
+class SpaceOrbits(SpaceOrbitSet, Orbits):
     """Free periodic orbits of a blade in space; made by `periodic_orbits`.
 
     As `Orbits`, but q is the gauge, the tip's place along lag or flap less that of the steady
     state, and the amplitude its peak, to both sides the same.
     """
-
-    def tip(self, i: int, phase: ArrayLike) -> FloatArray:
-        """Return the tip's places from the clamp [m] at the phases [rad], (phases, 3).
-
-        Along the clamp, in the direction of rotation (lag) and normal to both (flap).
-        """
-        orbit = self._orbit(i)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        return np.asarray(self.beam.length * orbit.system.model.tip(q))
-
-    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
-        """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
-        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        return self.beam.length * orbit.system.model.axis(q, at)
-
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
-        """Refuse: a state of the plane does not hold it; take `axis`."""
-        raise ValueError(
-            "the state of a blade in space is more than u, v and their rates: take axis, at two "
-            "phases for the rates"
-        )
 
 
 def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits:
@@ -178,7 +155,9 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(of, ascending)
     found = _confirmed(of, found)
-    warn_of_resonances(list(found.values()), of.modes, of.mode, of.beam.frequency_scale)
+    warn_of_resonances(
+        list(found.values()), of.modes, of.mode, of.beam.frequency_scale, of.at_resonance
+    )
     kept = [found[a] for a in ascending[place].tolist() if a in found]
     orbits = _packed(of, kept, kind) if kept else None
     if orbits is None or refused:
@@ -237,7 +216,7 @@ def _why(of: ModePath, a: float) -> str:
     nearest = nearest_resonance(below, of.modes, of.mode)
     if below[-1] is nodes[-1]:
         return f"{nearest}; ask for smaller amplitudes"
-    return f"{nearest}; ask for amplitudes beyond it, or take backbone(...).branch to follow it"
+    return f"{nearest}; ask for amplitudes beyond it: {of.at_resonance}"
 
 
 def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits:

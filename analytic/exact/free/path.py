@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -29,6 +29,8 @@ _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ModePath:
     """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
+
+    at_resonance: ClassVar[str] = "backbone(...).branch follows what branches there"
 
     beam: AnyBlade
     omega: float
@@ -79,7 +81,7 @@ class ModePath:
     def _begun(self) -> tuple[FloatArray, Path[SteadyBeam]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
         steady = self._rotation()
-        small = 0.02 / self.mode**2
+        small, near = 0.02 / self.mode**2, "2 or 3 times its frequency may be that of another mode"
         while True:
             (steady, frequencies, shapes), tangent = self._solved(steady), LastTangent()
             shape, linear = shapes[self.mode - 1], frequencies[self.mode - 1]
@@ -87,7 +89,7 @@ class ModePath:
                 seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)
                 double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
             except NoOrbitError as failed:
-                reason = f"{failed}; 2 or 3 times its frequency may be that of another mode"
+                reason = f"{failed}; {near}"
             else:
                 if meets_the_equations(double, self.care):
                     path = Path(
@@ -95,8 +97,12 @@ class ModePath:
                         care=self.care, tangent=tangent,
                     )  # fmt: skip
                     return frequencies[: steady.functions // 2], path
+                slow = double.truncation > 0.5 * double.residual
                 reason = (
-                    f"{steady.functions} functions meet the equations of motion to "
+                    f"{double.harmonics} harmonics leave a residual of {double.truncation:.1e}; "
+                    f"{near}"
+                    if slow
+                    else f"{steady.functions} functions meet the equations of motion to "
                     f"{double.residual:.1e} only; rotate slower"
                 )
             steady = steady.refined()

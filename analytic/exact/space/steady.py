@@ -40,6 +40,8 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     """
     require_section(beam)
     require_shear(beam, require_theory(theory))
+    if theory.engesser:
+        raise ValueError("Engesser's law of shear is known in the plane: leave engesser out")
     unit = space_unit(beam)
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(

@@ -13,6 +13,7 @@ from ...input_checks import finite_array, points_of_beam, rotation_speed
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.section_loads import SectionLoads, in_newtons
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 
@@ -31,6 +32,8 @@ class SteadyState:
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.
+    twist : float
+        How far the load turns the tip's section out of its upright [rad], as of `SpaceResponse`.
     error : float
         Its change over the length by the last refinement.
     """
@@ -41,6 +44,7 @@ class SteadyState:
     force: tuple[float, ...]
     moment: tuple[float, ...]
     tip: FloatArray
+    twist: float
     error: float
     _steady: SpaceBlade
 
@@ -50,6 +54,14 @@ class SteadyState:
         return np.asarray(
             self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
         )
+
+    def section_loads(self, x: ArrayLike) -> SectionLoads:
+        """Return force and moment in the sections at `x` [m], each (points, 3)."""
+        at = points_of_beam("x", x, self.blade.length)
+        state = self._steady.equilibrium[None]
+        still = np.zeros_like(state)
+        force, moment = self._steady.section_loads(at, state, still, still)
+        return in_newtons(self.blade, at, (force[0], moment[0]))
 
 
 def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:
@@ -120,6 +132,6 @@ def steady_state(
     )
     return SteadyState(
         blade=blade, omega=omega, theory=theory, force=force, moment=moment,
-        tip=blade.length * steady.tip, error=error,
-        _steady=steady,
+        tip=blade.length * steady.tip, error=error, _steady=steady,
+        twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip

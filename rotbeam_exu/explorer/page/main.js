@@ -44,15 +44,16 @@ arrange();
 let folded = [];
 window.addEventListener("beforeprint", () => {
   document.documentElement.classList.add("printing");
+  for (const plot of document.querySelectorAll(".plot")) plot.firstElementChild.setAttribute("viewBox", `0 0 ${plot.clientWidth} ${plot.clientHeight}`);
   folded = [...document.querySelectorAll(".numbers, .letters")].filter(e => !e.open);
   for (const e of folded) e.open = true;
 });
 window.addEventListener("afterprint", () => {
   document.documentElement.classList.remove("printing");
+  for (const plot of document.querySelectorAll(".plot")) plot.firstElementChild.removeAttribute("viewBox");
   for (const e of folded) e.open = false;
 });
 function drawAll() {
-  for (const plot of document.querySelectorAll(".plot")) plot.firstElementChild.setAttribute("viewBox", `0 0 ${plot.clientWidth || 1} ${plot.clientHeight || 1}`);
   showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft(); tellSpeed();
 }
 let waiting = false, changed = new Set(), spun = -1;
@@ -78,7 +79,7 @@ function set(change) {
   });
 }
 window.addEventListener("hashchange", () => { restore(); drawAll(); });
-const resized = new ResizeObserver(() => drawAll());
+const resized = new ResizeObserver(() => { if (!document.documentElement.classList.contains("printing")) drawAll(); });
 for (const plot of document.querySelectorAll(".plot")) resized.observe(plot);
 restore();
 makeRows();

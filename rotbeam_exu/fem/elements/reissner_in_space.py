@@ -65,6 +65,11 @@ class SpaceExact(Sheared, FrameNodes):
     # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.
     spectral_radius: ClassVar[float] = 0.6
 
+    @property
+    def meshes(self) -> tuple[int, ...]:
+        """Seven frequencies of a blade are decided with the last one."""
+        return 16, 32, 64, 128
+
     def require_section(self, blade: AnyBlade) -> None:
         """Refuse a table of stations, kinks, centers off the line, and an unknown torsion."""
         require_bare(self, blade)

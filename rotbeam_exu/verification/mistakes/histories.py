@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from analytic import spin_up_response
+from analytic import SpinUp, spin_up_response
 from analytic.arrays import FloatArray
 from analytic.lazily import optimize
 from analytic.motion import SpeedChange
 
 from ..cases import Case
+from .forces import FORCES, without
 from .mistake import LEFT, Mistake, explaining, largest
 
 SMALL = 1e-2
@@ -24,6 +25,7 @@ _SAMPLES = 1500
 _EARLIEST, _STEPS = 2.0, 401  # offsets that are tried [s], and how many
 _RAMP_WINDOW = 4.0  # of the ramp [s]: enough to tell one from another
 _SHORTENING = 0.581  # of a bent cantilever's first mode: the tip nears the clamp by this × q²/L
+_ROUGH = 0.3  # of max|q|: what a mistake leaves that may be it, in the first mode alone
 _LINEAR = 0.1  # |q|/L up to which a response is proportional to the speed, early in a ramp
 
 _UNITS = {
@@ -65,9 +67,20 @@ class CosineRamp(_WrongRamp):
         return 0.5 * self.omega * (angle, rate, k * np.sin(k * t))[derivative]
 
 
+@dataclass(frozen=True, kw_only=True)
+class SmoothRamp(_WrongRamp):
+    """A rate that grows by the smoothstep, ω(3s² - 2s³) with s = t/T."""
+
+    def _within(self, t: Any, derivative: int) -> Any:
+        s, time = t / self.ramp_time, self.ramp_time
+        steps = time * (s**3 - 0.5 * s**4), s**2 * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / time
+        return self.omega * steps[derivative]
+
+
 RAMPS: dict[str, type[_WrongRamp]] = {
     "a rate that grows linearly, without the sine of Eq. 1": LinearRamp,
     "a rate that grows as half a cosine": CosineRamp,
+    "a rate that grows by the smoothstep 3s² - 2s³": SmoothRamp,
 }
 
 
@@ -81,6 +94,22 @@ class _Seen:
     true: FloatArray
     reference: Callable[[FloatArray], FloatArray]
 
+    def placed(self, left: Callable[[FloatArray], float]) -> float:
+        """Return what is left by a mistake that wants the tip's place along the clamp's line [m].
+
+        It is taken from the first mode, and where that explains much of a spin-up from theory.
+        """
+        blade, rotation = self.case.blade, cast("SpinUp", self.case.rotation)
+        hub = blade.unit.hub * blade.length
+        rough = left(hub + blade.length - _SHORTENING * self.true**2 / blade.length)
+        if rough > _ROUGH * largest(self.true) or not self.case.is_spun_up:
+            return rough
+        found = spin_up_response(
+            blade, rotation, self.time, tolerance=0.1 * SMALL, loads=self.case.loads
+        )
+        turned = (found.tip @ [1.0, 1.0j]) * np.exp(-1j * rotation.angle(self.time))
+        return left(turned.real)
+
 
 _Suspects = Iterator[tuple[str, str, float]]
 """Name, sentence, and the largest |q| [m] that the mistake leaves unexplained."""
@@ -92,11 +121,13 @@ def mistake_in_history(
     q: FloatArray,
     reference: Callable[[FloatArray], FloatArray],
     ramps: Collection[str] = RAMPS,
+    most: float = SMALL / 3.0,
 ) -> Mistake | None:
     """Return the mistake that explains the error of a history, if there is one.
 
     Times [s] and q [m] are as handed in; `reference` gives q [m] at times within the case. `ramps`
-    are the wrong ones to try, keys of RAMPS; each takes a second or two.
+    are the wrong ones to try, keys of RAMPS; each takes a second or two. A mistake leaves `most` at
+    most, over max|q|.
     """
     every = max(1, time.size // _SAMPLES)
     time, q = time[::every], q[::every]
@@ -106,12 +137,46 @@ def mistake_in_history(
     if not before > SMALL:
         return None
     tried = ((name, said, left / scale) for of in SUSPECTS for name, said, left in of(seen))
-    found = explaining(case.name, before, tried)
+    found = explaining(case.name, before, most, tried)
     if found is not None or not case.is_spun_up:
         return found
     for name, said, left in _unit_of_speed(seen):
         return Mistake(case=case.name, name=name, said=said, before=before, after=left / scale)
-    return _ramp(seen, ramps)
+    lacking = ((name, said, left / scale) for name, said, left in _forces(seen))
+    return explaining(case.name, before, most, lacking) or _ramp(seen, ramps, most)
+
+
+TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
+_OTHER = "is the other way round: lag grows along the rotation, flap up, twist from lag to flap"
+SIGNS = {
+    "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
+    "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
+    "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
+    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, _UNITS["degrees"][1])),
+}
+"""Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
+
+
+def mistake_in_space(
+    case: Case,
+    time: FloatArray,
+    q: FloatArray,
+    reference: Callable[[FloatArray], FloatArray],
+    most: float = SMALL / 3.0,
+) -> Mistake | None:
+    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None."""
+    true = reference(time)
+    scale = np.abs(true).max(axis=0)
+    before = largest((q - true) / scale)
+    if not before > SMALL:
+        return None
+    # A blade that is twisted the other way moves as in a mirror.
+    mirror = {"sign of the blade's twist": (f"the blade's {TWISTED}", (1.0, -1.0, -1.0))}
+    tried = [
+        (name, said, largest((q / factors - true) / scale))
+        for name, (said, factors) in {**SIGNS, **mirror}.items()
+    ]
+    return explaining(case.name, before, most, tried)
 
 
 def _factors(seen: _Seen) -> _Suspects:
@@ -154,13 +219,32 @@ def _inertial(seen: _Seen) -> _Suspects:
     """Yield q taken across a line that does not turn: the tip's position, or its displacement."""
     blade, angle = seen.case.blade, seen.case.rotation.angle(seen.time)
     reach = (1.0 + blade.unit.hub) * blade.length
-    along = reach - _SHORTENING * seen.true**2 / blade.length
-    off = seen.q - np.sin(angle) * along - np.cos(angle) * seen.true
+
+    def left(along: FloatArray) -> float:
+        off = seen.q - np.sin(angle) * along - np.cos(angle) * seen.true
+        return min(largest(off), largest(off + np.sin(angle) * reach))
+
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"
-    yield "inertial axis", said, min(largest(off), largest(off + np.sin(angle) * reach))
+    yield "inertial axis", said, seen.placed(left)
 
 
-SUSPECTS = _factors, _offset, _inertial
+def _angle(seen: _Seen) -> _Suspects:
+    """Yield the tip's angle from the clamp's line: in degrees, radians, or times the length."""
+    length = seen.case.blade.length
+    for name, said, unit in (
+        ("degrees", "q is the tip's angle in degrees", 180.0 / math.pi),
+        ("radians", "q is the tip's angle in radians", 1.0),
+        ("arc", "q is the tip's angle times the length", length),
+    ):
+
+        def left(along: FloatArray, unit: float = unit) -> float:
+            return largest(seen.q / unit - np.arctan2(seen.true, along)) * length
+
+        remedy = "hand in the distance across the clamp's line, Eq. 16"
+        yield name, f"{said}: {remedy}", seen.placed(left)
+
+
+SUSPECTS = _factors, _offset, _inertial, _angle
 """Mistakes of any history; mistakes of spin-ups are tried if none of these explains it."""
 
 
@@ -188,7 +272,16 @@ def _unit_of_speed(seen: _Seen) -> _Suspects:
                 return
 
 
-def _ramp(seen: _Seen, ramps: Collection[str]) -> Mistake | None:
+def _forces(seen: _Seen) -> _Suspects:
+    """Yield spin-ups without a force of the rotation."""
+    for name, (said, _) in FORCES.items():
+        try:
+            yield name, said, largest(seen.q - without(name, seen.case, seen.time))
+        except RuntimeError:
+            continue
+
+
+def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
     """Return the wrong ramp that explains q while the rotation speeds up."""
     case = seen.case
     during = seen.time <= min(case.ramp_time, _RAMP_WINDOW)
@@ -201,9 +294,11 @@ def _ramp(seen: _Seen, ramps: Collection[str]) -> Mistake | None:
     for name in ramps:
         wrong = RAMPS[name](omega=case.rotation.omega, ramp_time=case.ramp_time)
         try:
-            made = spin_up_response(case.blade, wrong, time, tolerance=SMALL, loads=case.loads).q
+            made = spin_up_response(
+                case.blade, wrong, time, tolerance=0.1 * SMALL, loads=case.loads
+            ).q
         except (RuntimeError, ValueError):
             continue
         said = f"the ramp has {name}: θ̇ = (ω/T)(t - T/(2π) sin(2πt/T))"
         tried.append((name, said, largest(q - made) / scale))
-    return explaining(case.name, before, tried)
+    return explaining(case.name, before, most, tried)

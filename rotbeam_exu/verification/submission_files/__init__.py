@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -11,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ...files.results import writable_folder
-from ..cases import CASES, Asked, Case
-from ..submission import BackbonePoint, Frequency, Submission
+from ...files.results import whole_folder
+from ..cases import CASES, TIP, Asked, Case
+from ..submission import BackbonePoint, Frequency, Run, SteadyTip, Submission
 from . import entry, runs
 from .content import OUTSIDE, below, content_of
 from .faults import Faults, MalformedSubmissionError, near, printable
@@ -35,13 +36,15 @@ from .tables import (
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
 
 
-def read_submission(folder: str | os.PathLike[str]) -> Submission:
+def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = ()) -> Submission:
     r"""Read what an author hands in.
 
     Parameters
     ----------
     folder : path
         With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
+    only : collection of str, optional
+        Names of the cases whose histories are read, all by default. Histories are most of the work.
 
     Returns
     -------
@@ -70,15 +73,15 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     if not root.is_dir():
         raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
     declaration = entry.declaration_of(root, faults)
-    points: dict[Asked, list[dict[str, Any]]] = {}
+    points: dict[Asked, list[dict[str, Any]]] = {asked: [] for asked in Asked}
     for file, case in _tables().items():
         if os.path.lexists(root / file):
-            points[case.asked] = _points(root, file, case, faults)
-    histories = runs.runs_of(root, faults)
+            points[case.asked] += _points(root, file, case, faults)
+    histories = runs.runs_of(root, faults, only)
     _strangers(root, faults)
-    frequencies, backbone = (points.get(of, []) for of in (Asked.FREQUENCIES, Asked.BACKBONE))
-    backbone = [row for row in backbone if "failure" not in row]
-    some = bool(frequencies or backbone or histories)
+    frequencies, steady = points[Asked.FREQUENCIES], points[Asked.STEADY]
+    backbone = [row for row in points[Asked.BACKBONE] if "failure" not in row]
+    some = bool(frequencies or steady or backbone or histories)
     if not (faults or some):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
         faults.add(entry.FILE, said)
@@ -87,6 +90,7 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
     made = Submission(
         declaration=declaration,
         frequencies=tuple(Frequency(**row) for row in frequencies),
+        steady=tuple(SteadyTip(**row) for row in steady),
         backbone=tuple(BackbonePoint(**row) for row in backbone),
         runs=histories,
     )
@@ -98,7 +102,7 @@ def read_submission(folder: str | os.PathLike[str]) -> Submission:
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
     """Write the files of a submission, as `read_submission` takes them, and return the folder.
 
-    They read back the same to the last bit.
+    They read back the same to the last bit. All are written, or none.
 
     Parameters
     ----------
@@ -110,7 +114,9 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     Raises
     ------
     FileExistsError
-        If there is a submission.
+        If there is a submission, or a file of one.
+    OSError
+        If it cannot be written.
     ValueError
         If two runs have the same case, mesh and step.
 
@@ -127,9 +133,7 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     ...     print(sorted(path.name for path in written.iterdir()))
     ['L.csv', 'entry.toml']
     """
-    root = writable_folder(folder)
-    if (root / entry.FILE).exists():
-        raise FileExistsError(f"{root} holds a submission already: choose another folder")
+    root = Path(folder)
     named = [replace(run, file=runs.file_of(run)) for run in submission.runs]
     files = [run.file for run in named]
     twice = sorted({file for file in files if files.count(file) > 1})
@@ -137,22 +141,31 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
     for table, case in _tables().items():
-        one = case.asked is Asked.FREQUENCIES
-        points = submission.frequencies if one else submission.backbone
+        points: list[Any] = [row for row in submission.rows if row.case == case.name]
+        points += submission.backbone if case.asked is Asked.BACKBONE else ()
         texts |= {table: written(_columns(case), points)} if points else {}
     texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
-    for file, text in texts.items():
-        (root / file).write_text(text, encoding="utf-8", newline="\n")
-    for run in named:
-        if run.failure:
-            continue
-        held = [one.name for one in runs.HISTORY if getattr(run, one.name) is not None]
-        numbers = np.column_stack([getattr(run, name) for name in held])
-        (root / run.case).mkdir(exist_ok=True)
-        with (root / run.file).open("w", encoding="utf-8", newline="\n") as out:
-            # 17 digits of each number are enough in any spacing of the samples.
-            np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
+    for name in (*texts, *(run.case for run in named)):
+        if (root / name).exists():
+            raise FileExistsError(f"{root} holds {name} already: choose another folder")
+    with whole_folder(root) as made:
+        for file, text in texts.items():
+            (made / file).write_text(text, encoding="utf-8", newline="\n")
+        for run in named:
+            if not run.failure:
+                _write_history(run, made)
     return root
+
+
+def _write_history(run: Run, folder: Path) -> None:
+    """Write the history of a run into the folder of its case."""
+    held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
+    parts = (run.time, run.q, run.q_dot)
+    numbers = np.column_stack([part for part in parts if part is not None])
+    (folder / run.case).mkdir(exist_ok=True)
+    with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
+        # 17 digits of each number are enough in any spacing of the samples.
+        np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
@@ -176,27 +189,37 @@ def _columns(case: Case) -> tuple[Column, ...]:
     places = [Column("elements", whole), Column("speed", asked(case.speeds), "rad/s")]
     if case.amplitudes:
         places.append(Column("amplitude", asked(case.amplitudes)))
+    if case.count > 1:
+        places.append(Column("number", asked(range(1, case.count + 1))))
+    if case.asked is Asked.STEADY:
+        return (*places, *(replace(one, measured=True) for one in runs.TIP_COLUMNS), FAILURE)
     return (*places, Column("frequency", _positive, "rad/s", measured=True), FAILURE)
 
 
 def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
     """Return the rows of a case's table by field; rows with a failure have no frequency."""
-    sheet = sheet_of(folder, file, _columns(case), faults)
+    columns = _columns(case)
+    sheet = sheet_of(folder, file, columns, faults)
+    names = [column.name for column in columns if column.measured]
+    of_case = {} if case.asked is Asked.BACKBONE else {"case": case.name}
     found: dict[tuple[float, ...], dict[str, Any]] = {}
-    most = [0]
+    most = dict.fromkeys(names, 0)
     for line, cells, row in rows_of(sheet, faults) if sheet else ():
-        place = row["elements"], row["speed"], row.get("amplitude", 0.0)
+        place = row["elements"], row["speed"], row.get("amplitude", row.get("number", 0))
         if place in found:
             faults.add(file, "the same row stands above: keep one", line)
             continue
-        found[place] = row
-        most += [digits(cells["frequency"])] if "frequency" in row else []
-    measured = [row for row in found.values() if "frequency" in row]
-    if measured and max(most) < LEAST_DIGITS:
-        faults.add(file, f"frequencies are written to {max(most)} {TOO_FEW}")
+        found[place] = row | of_case
+        most |= {name: max(most[name], digits(cells[name])) for name in names if name in row}
+    measured = [row for row in found.values() if names[0] in row]
+    short = [name for name, count in most.items() if measured and count < LEAST_DIGITS]
+    if short:
+        named = {"frequency": "frequencies are"}.get(short[0], f"column {short[0]!r} is")
+        faults.add(file, f"{named} written to {most[short[0]]} {TOO_FEW}")
         return []
     for row in measured:
-        row["rounding"] = rounding(max(most), row["frequency"])
+        errors = tuple(rounding(most[name], abs(row[name])) for name in names)
+        row["rounding"] = errors if len(errors) > 1 else errors[0]
     return list(found.values())
 
 

@@ -22,7 +22,8 @@ FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")
 _TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
 _ORDERS = ("order", "order_in_step")
-_SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu))"
+_LAWS = ("Reissner", "Engesser")
+_SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu)), and perhaps a law"
 
 Kind = Callable[[str, Any], Any]
 """From a key and its value to the declared value; ValueError with the sentences on a fault."""
@@ -49,7 +50,8 @@ def declaration_of(folder: Path, faults: Faults) -> Declaration | None:
     tags, share = stated.pop("tags", ()), stated.pop("share", None)
     if "k_s" in stated:
         share = 0.5 * stated.pop("k_s") / (1.0 + stated.pop("nu"))
-    theory = Theory(shear=share, rotary_inertia="rotary-inertia" in tags)
+    slopes = stated.pop("law", "") == "Engesser"
+    theory = Theory(shear=share, engesser=slopes, rotary_inertia="rotary-inertia" in tags)
     return Declaration(**stated, theory=theory, inextensible="inextensible" in tags)
 
 
@@ -67,6 +69,7 @@ def entry_text(declaration: Declaration) -> str:
     lines.append(f"tags = [{', '.join(tags)}]")
     if theory.shear is not None:
         lines += ["", "[shear]", f"share = {float(theory.shear)!r}"]
+        lines += ['law = "Engesser"'] * theory.engesser
     return "\n".join([*lines, ""])
 
 
@@ -96,7 +99,8 @@ def _read(document: dict[str, Any], stated: dict[str, Any]) -> Iterator[tuple[st
 def _items(document: dict[str, Any]) -> Iterator[tuple[str, Any, dict[str, Kind]]]:
     """Yield all keys, also of [shear], with their values and the kinds they may be of."""
     for key, value in document.items():
-        keys = sorted(value) if key == "shear" and isinstance(value, dict) else []
+        table = key == "shear" and isinstance(value, dict)
+        keys = sorted(set(value) - {"law"}) if table else []
         if keys in (["k_s", "nu"], ["share"]):
             yield from ((name, one, _SHEAR) for name, one in value.items())
         else:
@@ -135,6 +139,12 @@ def _number(key: str, value: Any) -> float:
     return found
 
 
+def _law(key: str, value: Any) -> str:
+    if value not in _LAWS:
+        raise ValueError(f"{key} must be {' or '.join(_LAWS)}, got {shown(str(value))}")
+    return str(value)
+
+
 def _no_shear(_key: str, _value: Any) -> None:
     raise ValueError(_SHEAR_REMEDY)
 
@@ -143,7 +153,7 @@ _KEYS: dict[str, Kind] = {
     **dict.fromkeys(_TEXTS, _text), "authors": _list, **dict.fromkeys(_ORDERS, _number),
     "tags": _list, "shear": _no_shear,
 }  # fmt: skip
-_SHEAR: dict[str, Kind] = dict.fromkeys(("k_s", "nu", "share"), _number)
+_SHEAR: dict[str, Kind] = {**dict.fromkeys(("k_s", "nu", "share"), _number), "law": _law}
 
 
 def _line_of(key: str, text: str) -> int | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..cases import CASES, Asked, Case
+from ..cases import CASES, TIP, Asked, Case
 from ..submission import Run
 from .content import below
 from .faults import Faults, printable, several, shown
@@ -46,6 +46,7 @@ HISTORY = (
     Column("q", unit="m"),
     Column("q_dot", unit="m/s", needed=False, measured=True),
 )
+TIP_COLUMNS = tuple(Column(name, unit="rad" if name == "twist" else "m") for name in TIP)
 _SLACK = 1e-6
 _NAME = re.compile(
     r"m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
@@ -90,8 +91,8 @@ def file_of(run: Run) -> str:
     return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{mantissa}e{power}.csv"
 
 
-def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
-    """Return the runs that runs.csv lists; failed runs have no history."""
+def runs_of(root: Path, faults: Faults, only: Collection[str] = ()) -> tuple[Run, ...]:
+    """Return the runs of some or all cases that runs.csv lists; failed runs have no history."""
     there = [
         f"{name}/{printable(path.name)}"
         for name, case in CASES.items()
@@ -102,6 +103,8 @@ def runs_of(root: Path, faults: Faults) -> tuple[Run, ...]:
         return ()
     found, listed = [], list(_listed(root, faults))
     for row in listed:
+        if only and row["case"] not in only:
+            continue
         samples: dict[str, Any] | None = {"time": np.empty(0), "q": np.empty(0)}
         if "failure" not in row:
             samples = history_of(
@@ -148,9 +151,12 @@ def history_of(
 ) -> dict[str, Any] | None:
     """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong.
 
+    In space q is lag, flap and twist, (samples, 3).
+
     Also the error of their last digits. `step` is NaN where it is not known.
     """
-    sheet = sheet_of(folder, file, HISTORY, faults)
+    wanted = (HISTORY[0], *TIP_COLUMNS) if case.in_space else HISTORY
+    sheet = sheet_of(folder, file, wanted, faults)
     numbers = None if sheet is None else _numbers(sheet, faults)
     if sheet is None or numbers is None:
         return None
@@ -162,12 +168,17 @@ def history_of(
             for name, count in most.items()
             if count < LEAST_DIGITS
         ]
-        unfit += _unfit(columns["time"], columns["q"], case)
+        tip = np.stack([columns[name] for name in case.columns])
+        farthest = tip[np.abs(tip).argmax(axis=0), np.arange(tip.shape[1])]
+        unfit += _unfit(columns["time"], farthest, case)
     if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
         return None
     within = columns["time"] <= case.duration
-    off = _rounding(columns, most, step)
-    return {name: values[within] for name, values in columns.items()} | {"rounding": off}
+    errors = [_rounding(columns, name, most, step) for name in case.columns]
+    found = {name: values[within] for name, values in columns.items()}
+    if case.in_space:
+        return {"time": found["time"], "q": tip.T[within], "rounding": np.array(errors)}
+    return found | {"rounding": errors[0]}
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:
@@ -216,18 +227,20 @@ def _unfit(time: FloatArray, q: FloatArray, case: Case) -> list[tuple[str, int |
     return found
 
 
-def _rounding(columns: dict[str, FloatArray], most: dict[str, int], step: float) -> float:
-    """Return the error of q that the last digits of time and q leave [m].
+def _rounding(
+    columns: dict[str, FloatArray], name: str, most: dict[str, int], step: float
+) -> float:
+    """Return the error of a column that the last digits of time and of itself leave.
 
     A time is exact, however short, that is a whole number of steps with all their decimals.
     """
-    time, q = columns["time"], columns["q"]
+    time, q = columns["time"], columns[name]
     late = rounding(most["time"], float(time[-1]))
     whole_steps = np.abs(time / step - np.rint(time / step)) < _SLACK
     if late <= (0.5 + _SLACK) * step and whole_steps.all():
         late = 0.0
     fastest = float(np.abs(np.gradient(q, time)).max()) if late else 0.0
-    return rounding(most["q"], float(np.abs(q).max())) + late * fastest
+    return rounding(most[name], float(np.abs(q).max())) + late * fastest
 
 
 def _digits(sheet: Sheet, columns: dict[str, FloatArray]) -> dict[str, int]:

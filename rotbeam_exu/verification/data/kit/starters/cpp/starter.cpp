@@ -3,7 +3,7 @@
 //   g++ -O2 -std=c++17 -o starter starter.cpp
 //   ./starter S1 32 1e-3 [folder of the kit, .. by default]
 //
-// Any case but B. Writes S1/m032_h1e-3.csv, or rows of L.csv, in the folder where it is run, and a
+// Any case in the plane but B. Writes S1/m032_h1e-3.csv, or rows of L.csv or TL.csv, in the folder where it is run, and a
 // row of runs.csv. Nodes 0 to n stand L/n apart; a spring EA/l joins two of them, a spring EI/l
 // bends at each, 2 EI/l at the clamp, from which the first link is half a length away on average;
 // all in the frame that turns with the clamp. Steps are those of the implicit midpoint rule.
@@ -240,7 +240,7 @@ std::ofstream rows_of(const std::string& file, const std::string& header) {
 }
 
 void frequencies(const Case& c, int elements) {
-  std::ofstream out = rows_of("L.csv", "elements,speed,frequency");
+  std::ofstream out = rows_of(c.cells.at("id") + ".csv", "elements,speed,frequency");
   std::istringstream speeds(c.cells.at("speeds"));
   for (double speed; speeds >> speed;)
     out << elements << "," << speed << "," << first_frequency(Chain(c, elements), speed) << "\n";
@@ -288,7 +288,8 @@ int main(int count, char** words) try {
   const int elements = std::stoi(words[2]);
   if (elements < 2) throw std::runtime_error("elements must be at least 2");
   const Case c = read_case(kit, id);
-  if (id == "L")
+  if (c.cells.at("level") == "space") throw std::runtime_error("this starter stays in the plane");
+  if (c.cells.at("asked") == "frequencies")
     frequencies(c, elements);
   else if (!c.has("duration"))
     throw std::runtime_error("this starter gives no backbones");

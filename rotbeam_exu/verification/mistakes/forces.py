@@ -1,0 +1,80 @@
+"""A force of the rotation that a code leaves out: the exact beam without it, spun up."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from analytic.arrays import ComplexArray, FloatArray
+from analytic.exact.beam.continuum import Continuum
+from analytic.exact.driven.transient import grid_of, integrated
+
+from ..cases import Case
+
+_FUNCTIONS = 12, 6
+_STEP = 0.08  # in units of 1/√(EI/(mL³))
+
+
+class _Lacking(Continuum):
+    """The exact beam without a force of the rotation.
+
+    Newton's method has the whole beam's tangent, and takes an iteration more for it.
+    """
+
+    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
+        """Return the acceleration (samples, points) of the slope r' that is left out."""
+        raise NotImplementedError
+
+    def of_clamp(self, rate: FloatArray) -> Any:
+        """Return what is left out of the clamp's own acceleration."""
+        return 0.0
+
+    def _fields(self, q: Any, q_dot: Any, q_ddot: Any, rate: Any, *others: Any) -> Any:
+        at = super()._fields(q, q_dot, q_ddot, rate, *others)
+        w = self.blade.setting * np.asarray(rate)[..., None]
+        lacking = self.lacking(at, w) @ self._green + self.of_clamp(w) * self.outboard["mass"]
+        return at._replace(force=at.force - at.turn.conj() * lacking)
+
+
+class _NoCoriolis(_Lacking):
+    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
+        velocity = at.stretch_rate + 1j * at.stretch * (at.spin - rate)
+        return np.asarray(2j * rate * at.turn * velocity)
+
+
+class _NoCentrifugal(_Lacking):
+    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
+        return np.asarray(-(rate**2) * at.turn * at.stretch)
+
+    def of_clamp(self, rate: FloatArray) -> Any:
+        return -(rate**2) * self.blade.hub
+
+
+FORCES: dict[str, tuple[str, type[_Lacking]]] = {
+    "no Coriolis force": ("the Coriolis force is left out: add 2θ̇ × v in the turning frame",
+        _NoCoriolis),
+    "no centrifugal force": ("the centrifugal force is left out: add its tension and θ̇² r",
+        _NoCentrifugal),
+}  # fmt: skip
+
+
+def without(force: str, case: Case, time: FloatArray) -> FloatArray:
+    """Return q [m] of a spin-up at times [s] without a force, a key of FORCES.
+
+    RuntimeError where Newton's method fails.
+    """
+    blade, rotation = case.blade, case.rotation
+    model = FORCES[force][1](blade.slenderness, *_FUNCTIONS, blade=blade.unit)
+    end, ramp = float(time[-1]), min(case.ramp_time, float(time[-1]))
+    step = _STEP / blade.frequency_scale
+    corners = [0.0, ramp] + [end] * (end > ramp)
+    counts = [int(np.ceil((b - a) / step)) for a, b in pairwise(corners)]
+    found = integrated(
+        blade, rotation, case.loads, model, grid_of(corners, counts), time, np.empty(0),
+        np.zeros(model.size),
+    )  # fmt: skip
+    if found is None:
+        raise RuntimeError(f"{force}: the motion is not reached")
+    return np.asarray(blade.length * found.tip.imag)
