@@ -194,3 +194,32 @@ def test_all_words_can_be_read(open_page, url, dark):
     found = [contrast(*one) for one in page.evaluate(COLORS)]
     assert len(found) > 100
     assert min(found)[0] >= 4.5, sorted(found)[:5]
+
+
+def test_on_paper_charts_are_whole_and_letters_are_words(open_page, url):
+    page = open_page(url, width=1400)
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 703, "height": 1000})  # A4 within its margins
+    assert [one for one in page.evaluate(OVERLAPS) if "leaves its chart" in one] == []
+    assert page.evaluate("document.documentElement.scrollWidth") == 703
+    assert page.locator("#letters dd").first.is_visible()
+    page.emulate_media(media="screen")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert not page.locator("#letters dd").first.is_visible()
+    assert page.locator(".plot > svg[viewBox]").count() == 0
+
+
+def test_on_a_phone_the_table_is_folded_above_the_charts(open_page, url):
+    page = open_page(url, phone=True)
+    table, charts = page.locator("#rows"), page.locator(".charts")
+    assert not table.is_visible()
+    fold = page.locator(".numbers > summary")
+    assert fold.bounding_box()["y"] < charts.bounding_box()["y"] < 0.35 * 844
+    fold.tap()
+    assert table.is_visible()
+    page.locator(".letters > summary").press("Enter")
+    words = dict(zip(page.locator("dt").all_inner_texts(), page.locator("dd").all_inner_texts(),
+                     strict=True))  # fmt: skip
+    assert words["FrI"] == "rotating mode, inextensible (paper)"
+    assert page.evaluate(OVERLAPS) == []
