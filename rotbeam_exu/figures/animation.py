@@ -20,7 +20,7 @@ from analytic.reduced.linear_frame import LinearResponse
 from ..paper import BLUE, RED
 from .style import STYLE, new_figure, shade_ramp
 
-_LETTERS = dict.fromkeys(
+_LETTERS: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "axes.titlesize", "xtick.labelsize", "ytick.labelsize"), 11.0
 )  # legible on a phone
 _REACH = 1.08  # of a view, beyond the beam's length

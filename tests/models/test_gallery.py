@@ -197,7 +197,10 @@ def test_is_it_planar(run):
     assert found["round_one"].stable.all()
     rate = found["data"]["growth_rate"]
     # The tension holds the blade back, so that more stays in the plane as it turns faster.
-    assert np.all(np.diff((rate == 0.0).sum("a")) >= 0)
+    # Of stable cells the highest counts: below it tongues take some away.
+    highest = [np.flatnonzero(row == 0.0).max(initial=-1) for row in rate.to_numpy()]
+    assert np.all(np.diff(highest) >= 0)
+    assert highest[-1] > highest[0]
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
 
 
