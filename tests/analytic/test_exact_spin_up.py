@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, spin_up_response
+from analytic.exact.beam.continuum import Continuum
 from analytic.exact.beam.discretization import continuum
 from analytic.methods.collocation import radau
 
@@ -62,11 +63,21 @@ def test_agrees_with_a_library_integrator(beam):
             acceleration,
             residual=lambda *state, rates=rates: model.residual(*state, *rates),
             tangent=lambda *state, rates=rates: model.tangent(*state, *rates),
-        )
+        ).z
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
     ours, theirs = model.tip(q), model.tip(library.y[:n, -1])
     assert abs(ours - theirs) < 1e-6  # of the length; the library's own error at 1e-8 a step
+
+
+def test_steps_take_the_tangent_of_those_before(beam, monkeypatch):
+    """As long as it contracts: a spin-up takes far fewer tangents than steps."""
+    formed, tangent = [], Continuum.tangent
+    monkeypatch.setattr(
+        Continuum, "tangent", lambda *args, **named: formed.append(0) or tangent(*args, **named)
+    )
+    found = spin_up_response(beam, SpinUp(omega=2.0, ramp_time=3.0), [3.0], tolerance=1e-6)
+    assert len(formed) < found.steps / 2
 
 
 def test_order_of_the_collocation(fitted_order):
