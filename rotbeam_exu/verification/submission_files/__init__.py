@@ -49,7 +49,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     Parameters
     ----------
     folder : path
-        With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
+        With entry.toml and a table as L.csv, a free vibration as L/m032_w6.csv, or runs.csv, which
+        lists the histories.
     only : collection of str, optional
         Names of the cases whose histories are read, all by default. Histories are most of the work.
 
@@ -73,8 +74,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     >>> with TemporaryDirectory() as folder:
     ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
     ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
-    ...     print(read_submission(folder).frequencies)
-    (Frequency(elements=8, speed=6.0, frequency=3.731123456, failure=''),)
+    ...     print(read_submission(folder).frequencies[0].frequency)
+    3.731123456
     """
     root, faults = Path(folder), Faults()
     if not root.is_dir():
