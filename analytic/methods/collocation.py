@@ -22,9 +22,11 @@ from .system import Tangent
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
-# Of the coordinates, which are of order 1. The tangent of a step before contracts what is stiff
-# slower than the rest, so the first small change is not the last.
-_NEWTON = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
+# Of the coordinates, which are of order 1.
+_NEWTON = Newton(converged=1e-13, slow=0.2, steps=12)
+# The tangent of a step before contracts what is stiff slower than the rest, so the first small
+# change is not the last.
+_OF_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
 
 
 class Collocation:
@@ -100,7 +102,8 @@ class Collocation:
             at = tangent(*state(z))
             return factored(self.matrix(h, at)), at.residual.ravel()
 
-        found = _NEWTON.root(
+        newton = _NEWTON if factors is None else _OF_BEFORE
+        found = newton.root(
             guess.ravel(),
             lambda z: residual(*state(z)).ravel(),
             linearized,

@@ -31,15 +31,18 @@ from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
 
-def hold_root(mbs: exudyn.MainSystem, chain: Chain, element: Formulation) -> None:
-    """Hold the root at its reference values: its place and its direction."""
+def hold_root(
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation
+) -> list[exudyn.ObjectIndex]:
+    """Hold the root at its reference values, its place and its direction; return the constraint."""
     root = chain.reference(mbs)[0]
-    _hold(mbs, chain, np.vstack((np.eye(element.dimensions, root.size), element.held(root))))
+    rows = np.vstack((np.eye(element.dimensions, root.size), element.held(root)))
+    return [_hold(mbs, chain, rows)]
 
 
-def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> None:
+def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> exudyn.ObjectIndex:
     """Hold the root's coordinates at their reference values in the directions of `rows`."""
-    mbs.AddObject(
+    return mbs.AddObject(
         items.ObjectConnectorCoordinateVector(
             markerNumbers=_markers(mbs, chain),
             scalingMarker0=np.zeros((len(rows), 0)),
@@ -57,11 +60,15 @@ def _markers(mbs: exudyn.MainSystem, chain: Chain) -> list[exudyn.MarkerIndex]:
 
 def prescribe_rotation(
     mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation, radius: float
-) -> None:
-    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame)."""
+) -> list[exudyn.ObjectIndex]:
+    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame); return the constraints.
+
+    Their rows are those of the place, and then those of the direction.
+    """
     root = chain.reference(mbs)[0]
+    constraints = []
     if not radius:
-        _hold(mbs, chain, np.eye(element.dimensions, root.size))
+        constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
     # Each constraint holds a few coordinates, the same at every angle.
     rows_at_1 = _clamp(element, root, radius, 1.0)[0]
     held = [np.flatnonzero(row).tolist() for row in rows_at_1]
@@ -91,16 +98,16 @@ def prescribe_rotation(
             turn_to(t)
         return gradient
 
-    mbs.AddObject(
-        items.ObjectConnectorCoordinateVector(
-            markerNumbers=_markers(mbs, chain),
-            scalingMarker0=np.zeros((len(held), 3)),
-            scalingMarker1=np.zeros((len(held), root.size)),
-            constraintUserFunction=residual,
-            jacobianUserFunction=jacobian,
-        )
+    turning = items.ObjectConnectorCoordinateVector(
+        markerNumbers=_markers(mbs, chain),
+        scalingMarker0=np.zeros((len(held), 3)),
+        scalingMarker1=np.zeros((len(held), root.size)),
+        constraintUserFunction=residual,
+        jacobianUserFunction=jacobian,
     )
+    constraints.append(mbs.AddObject(turning))
     add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
+    return constraints
 
 
 def _clamp(

@@ -32,6 +32,8 @@ class RotatingBeam:
         Positions, to which forces and other bodies can be attached.
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
+    clamp : tuple
+        Constraints of the root, whose forces are what the blade exerts on the clamp.
     mass : csr_array
         Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
         chain's turning nodes.
@@ -46,6 +48,7 @@ class RotatingBeam:
     root_marker: exudyn.MarkerIndex
     tip_marker: exudyn.MarkerIndex
     tip_sensor: exudyn.SensorIndex
+    clamp: tuple[exudyn.ObjectIndex, ...]
     mass: sparse.csr_array
     rotation: Rotation
     loading: Loading
@@ -111,9 +114,9 @@ def add_rotating_beam(
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
     if frame == "inertial":
-        drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
+        clamp = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
     else:
-        drive.hold_root(mbs, chain, model)
+        clamp = drive.hold_root(mbs, chain, model)
         drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
         model.add_spin_forces(mbs, chain, beam, rotation)
     loading = Loading(model, beam, elements, mass, loads)
@@ -131,6 +134,6 @@ def add_rotating_beam(
         )
     )
     return RotatingBeam(
-        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor, mass=mass,
-        rotation=rotation, loading=loading,
+        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor,
+        clamp=tuple(clamp), mass=mass, rotation=rotation, loading=loading,
     )  # fmt: skip

@@ -91,9 +91,12 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. In space also w [m] and w_dot [m/s] of the tip out of the plane,
-        normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section about
-        its normal; axis [m], the places of the nodes, and upright, the third axes of their
+        jacobi_energy changes. Forces of the clamp's constraints: root_force_x (tension),
+        root_force_y [N] and root_moment_z [N m] of the blade on the clamp, in the clamp's frame;
+        clamp_torque [N m] of the clamp on the blade about the axis of rotation. In space also
+        root_force_z, root_moment_x, root_moment_y; w [m] and w_dot [m/s] of the tip out of the
+        plane, normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section
+        about its normal; axis [m], the places of the nodes, and upright, the third axes of their
         sections, (time, node, direction) in that frame. The attributes hold every input, versions,
         settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
         is known and planar orbits as large as the motion after the ramp leave the plane.
@@ -138,7 +141,7 @@ def run_case(
             mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
-        sensors = Sensors(mbs, built.chain)
+        sensors = Sensors(mbs, built.chain, built.clamp)
         coordinates, velocities = _start(case, units, built.chain.reference(mbs), initial_state)
         if case.frame == "inertial":
             velocities = velocities + built.rotation.rate(0.0) * model.spun(coordinates)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -169,6 +169,8 @@ class Trajectory:
         Reference values included.
     reference : ndarray (nodes, n)
     elastic_energy : ndarray (samples,)
+    multipliers : ndarray (samples, constraints)
+        Lagrange multipliers of the clamp: of the root's place, then of its direction.
     """
 
     time: FloatArray
@@ -176,12 +178,15 @@ class Trajectory:
     velocities: FloatArray
     reference: FloatArray
     elastic_energy: FloatArray
+    multipliers: FloatArray
 
 
 class Sensors:
-    """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
+    """Coordinates and velocities of all nodes, energy and the clamp's forces, sampled in C++."""
 
-    def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
+    def __init__(
+        self, mbs: exudyn.MainSystem, chain: Chain, clamp: Sequence[exudyn.ObjectIndex]
+    ) -> None:
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
@@ -196,6 +201,10 @@ class Sensors:
         self._elastic = [
             mbs.AddSensor(items.SensorBody(bodyNumber=body, outputVariableType=energy, **kept))
             for body in chain.bodies
+        ]
+        self._clamp = [
+            mbs.AddSensor(items.SensorObject(objectNumber=o, outputVariableType=kind.Force, **kept))
+            for o in clamp
         ]
 
     def read(self) -> Trajectory:
@@ -212,4 +221,5 @@ class Sensors:
             velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
             reference=self._reference,
             elastic_energy=elastic,
+            multipliers=np.hstack([table(s)[:, 1:] for s in self._clamp]),
         )

@@ -25,7 +25,7 @@ acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear ha
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -73,7 +73,11 @@ class Continuum(Kinematics):
     outboard : dict
         Mass, length and tip beyond each Gauss point, times its weight (points,), by the names
         "mass", "length" and "tip": a load acts on one of them.
+    has_dear_tangent : bool
+        Whether one costs many residuals, so that it serves in the steps of time after it.
     """
+
+    has_dear_tangent: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -259,6 +263,31 @@ class Continuum(Kinematics):
         """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
         at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
         return -at.force.real / self.weights
+
+    def section_loads(
+        self,
+        x: FloatArray,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return N and Q (samples, places, 2) and M (samples, places) at `x`, by d'Alembert.
+
+        Of all inertia and all loads beyond, in the section's axes.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
+        if self._turns:
+            along, dj = self.blade.turning(2 * self._across.a_panel + 1)
+            euler = np.asarray(self.blade.setting * np.asarray(rate_dot))[..., None]
+            spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
+            moment = moment + (spin_rate * dj) @ self.grid.integral(along)
+        onto = -self.grid.interpolation(x).T / self.weights[:, None]
+        force = at.force @ onto
+        return np.stack((force.real, force.imag), axis=-1), moment @ onto
 
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -45,6 +45,9 @@ class SpaceContinuum:
     functions : StrainFunctions
         The strains, and what the sections weigh.
     """
+
+    has_dear_tangent: ClassVar[bool] = True
+    """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
     def __init__(self, functions: StrainFunctions) -> None:
         self.functions = functions
@@ -183,6 +186,30 @@ class SpaceContinuum:
         motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
         _, force, moment = self._forces(at, motion, push)
         return self._work(at, q, q_dot, force, moment)
+
+    def section_loads(
+        self,
+        x: FloatArray,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: FloatArray | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in the section's axes, each (samples, places, 3).
+
+        By d'Alembert, of all inertia and all loads beyond.
+        """
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
+        onto = self.functions.grid.interpolation(x).T / self.weights[:, None]
+        sections = self.blade.section_frames(x)[:, :, None]
+        force, moment = (
+            np.moveaxis(turned_back(sections, turned_back(at.frame, one) @ onto), 0, -1)
+            for one in self._forces(at, motion, push)[1:]
+        )
+        return force, moment
 
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray

@@ -194,6 +194,15 @@ class Formulation(Described, abstract=True):
     ) -> None:
         """Add the inertial forces of the rotating frame on coordinates without constant mass."""
 
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment about the root of a force on its coordinates, both (samples, n).
+
+        About z, (samples, 1), in space about all axes, (samples, 3).
+        """
+        turning = slice(self.dimensions, None)
+        about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
+        return np.asarray(about_z)
+
     def sections(self, coordinates: FloatArray) -> FloatArray | None:
         """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""
         return None

@@ -62,6 +62,10 @@ class SpaceSlopeNodes(SlopeNodes, abstract=True):
     angles: ClassVar[FloatArray] = np.zeros(6)
     clamped: ClassVar[tuple[int, ...]] = (4, 5)
 
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment of a force on the slope."""
+        return np.cross(root[:, 3:], force[:, 3:])
+
 
 class SectionSlopeNodes(Formulation, abstract=True):
     """Nodes carry r and the slope r_y of the section; the clamp holds it, Eq. 14."""
@@ -125,6 +129,13 @@ class FrameNodes(Formulation, abstract=True):
         a, b, c, d = root[3:]
         across = np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
         return np.hstack((np.zeros((3, 3)), across))
+
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment of a force on p, which a rotation δα changes by ½ δα ∘ p."""
+        p, onto = root[:, 3:], force[:, 3:]
+        scalar, vector = p[:, :1], p[:, 1:]
+        about = scalar * onto[:, 1:] - onto[:, :1] * vector + np.cross(vector, onto[:, 1:])
+        return np.asarray(0.5 * about)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and p of a section turned by φ in the plane and tilted out of it by β.
