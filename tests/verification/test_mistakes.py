@@ -278,7 +278,6 @@ def test_all_that_was_handed_in_is_searched(exact):
     assert found[1].after < 1e-2
 
 
-@pytest.mark.slow
 def test_a_ramp_is_looked_for_beside_a_right_case(exact):
     """A history that is right in S1 says nothing of the ramp in S3."""
     name, time = next(iter(RAMPS)), TIME[TIME <= 2.0]
