@@ -45,6 +45,15 @@ def static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
     return settings
 
 
+def newton_tolerance(beam: AnyBlade, elements: int) -> float:
+    """Return the residual force at which Newton stops, for a beam of unit length.
+
+    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
+    the round-off is never met, whereupon adaptive stepping halves steps silently.
+    """
+    return max(_TOLERANCE, round_off(beam, elements))
+
+
 def round_off(beam: AnyBlade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
@@ -75,40 +84,43 @@ def solver_settings(
     every: int,
     frame: Frame,
     *,
-    round_off: float,
+    tolerance: float,
     new_jacobians: bool = False,
     spectral_radius: float = 0.9,
-) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
-    """Solver settings, and the same as a plain record, all in the beam's units.
+) -> exudyn.SimulationSettings:
+    """Return settings of fixed steps, in which Newton stops at a force `tolerance`.
 
-    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
-    the round-off is never met, whereupon adaptive stepping halves steps silently: Newton stops at
-    an absolute force. In the rotating frame each iteration calls back into Python, and a new
-    Jacobian for each step saves iterations; so it does where an element asks for `new_jacobians`.
-    An element may also ask for another `spectral_radius` in the inertial frame.
+    In the rotating frame each iteration calls back into Python, and a new Jacobian for each step
+    saves iterations; so it does where an element asks for `new_jacobians`. An element may also ask
+    for another `spectral_radius` in the inertial frame.
     """
-    described: dict[str, Any] = {
-        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
-        "spectral_radius": spectral_radius if frame == "inertial" else 1.0,
-        "relative_tolerance": 1e-14,
-        "absolute_tolerance": max(_TOLERANCE, round_off),
-        "sample_every": every,
-    }
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
     integration.endTime = steps * step
     integration.numberOfSteps = steps
     integration.adaptiveStep = False
-    integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
-    integration.newton.relativeTolerance = described["relative_tolerance"]
-    integration.newton.absoluteTolerance = described["absolute_tolerance"]
+    integration.generalizedAlpha.spectralRadius = spectral_radius if frame == "inertial" else 1.0
+    integration.newton.relativeTolerance = 1e-14
+    integration.newton.absoluteTolerance = tolerance
     integration.newton.modifiedNewtonJacUpdatePerStep = new_jacobians or frame == "rotating"
     integration.verboseMode = 0
     settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False
     # Exactly the interval: a little under it, samples would drift off the grid.
     settings.solution.sensors.writePeriod = every * step
-    return settings, described
+    return settings
+
+
+def described(settings: exudyn.SimulationSettings, frame: Frame, every: int) -> dict[str, Any]:
+    """Return what a run says of its settings, in the beam's units."""
+    integration = settings.timeIntegration
+    return {
+        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
+        "spectral_radius": integration.generalizedAlpha.spectralRadius,
+        "relative_tolerance": integration.newton.relativeTolerance,
+        "absolute_tolerance": integration.newton.absoluteTolerance,
+        "sample_every": every,
+    }
 
 
 def solve(
@@ -221,5 +233,5 @@ class Sensors:
             velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
             reference=self._reference,
             elastic_energy=elastic,
-            multipliers=np.hstack([table(s)[:, 1:] for s in self._clamp]),
+            multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
         )

@@ -101,6 +101,8 @@ class Formulation(Described, abstract=True):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
+    joint: ClassVar[tuple[int, ...]] = ()
+    """Axes that a GenericJoint of the root with a rigid body holds; none if it has no frame."""
 
     @property
     def order(self) -> float | None:

@@ -42,6 +42,7 @@ class SlopeNodes(Formulation, abstract=True):
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
     angles: ClassVar[FloatArray] = np.zeros(4)
     clamped: ClassVar[tuple[int, ...]] = (3,)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and slopes, (x + u, v, 1 + u', v') in the plane, and their rates."""
@@ -61,6 +62,7 @@ class SpaceSlopeNodes(SlopeNodes, abstract=True):
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), ABOUT_Z)
     angles: ClassVar[FloatArray] = np.zeros(6)
     clamped: ClassVar[tuple[int, ...]] = (4, 5)
+    joint: ClassVar[tuple[int, ...]] = ()
 
     def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
         """Return the moment of a force on the slope."""
@@ -93,6 +95,7 @@ class AngleNodes(Formulation, abstract=True):
     quarter_turn: ClassVar[FloatArray] = ABOUT_Z
     angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
     clamped: ClassVar[tuple[int, ...]] = (2,)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and the angle of the section, and their rates."""
@@ -113,6 +116,7 @@ class FrameNodes(Formulation, abstract=True):
     )
     pace: ClassVar[FloatArray] = np.array(3 * [1.0] + 4 * [0.5])
     angles: ClassVar[FloatArray] = np.zeros(7)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 1)
 
     def setting(self, blade: AnyBlade) -> float:
         """All turns about z."""
