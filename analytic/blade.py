@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -310,6 +311,45 @@ class Blade(Variations):
         )
         turned = zip(places, np.broadcast_to(angle, at.shape).tolist(), strict=True)
         return cls(length=places[-1], section=section, line=Line(twist=tuple(turned)))
+
+    @classmethod
+    def from_shapes(
+        cls,
+        x: ArrayLike,
+        shapes: Sequence[SectionShape],
+        youngs_modulus: ArrayLike,
+        density: ArrayLike,
+        *,
+        twist: ArrayLike = 0.0,
+    ) -> Blade:
+        """Return a blade in space from shapes and materials, linear in stiffness between stations.
+
+        Parameters
+        ----------
+        x : array_like (stations,)
+            From the clamp, 0, to the tip [m].
+        shapes : sequence of SectionShape
+            At each station, with all its lengths; its height is along the chord, which moves in
+            the plane of rotation.
+        youngs_modulus, density : array_like (stations,)
+            E [N/m²] and ρ [kg/m³], or one number for all.
+        twist : array_like (stations,)
+            [rad], from the chord towards the thickness.
+
+        Examples
+        --------
+        >>> from analytic import Blade, Rectangle
+        >>> shapes = Rectangle(height=0.08, width=0.01), Rectangle(height=0.04, width=0.008)
+        >>> blade = Blade.from_shapes([0.0, 2.0], shapes, youngs_modulus=7e10, density=2700.0)
+        >>> print(f"{blade.mass:.3f} kg")
+        3.024 kg
+        """
+        materials = np.broadcast_arrays(youngs_modulus, density, np.asarray(x, dtype=float))
+        sections = zip(shapes, *(one.tolist() for one in materials[:2]), strict=True)
+        stiffness, mass = zip(
+            *(shape.of_material(E, rho) for shape, E, rho in sections), strict=True
+        )
+        return cls.from_stations(x, stiffness, mass, twist=twist)
 
     @property
     def blade(self) -> Blade:

@@ -19,6 +19,7 @@ from analytic.section_shapes import SectionShape
 
 from . import beam_tables as tables
 from .beam_tables import Table, require_keys
+from .stations_file import blade_of_csv
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
@@ -53,9 +54,10 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
-    [blade.stations], in place of length and section, the keywords of `Blade.from_stations`;
-    [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
-    and not of point masses, each zero where it is not given.
+    [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
+    `Blade.from_shapes`, or the name of a `file` that `blade_of_csv` reads; [blade.damping] ratio,
+    of mode 1 at rest, or bending [s], axial [s] and external [kg/(m s)], relative to the turning
+    frame and not of point masses, each zero where it is not given.
 
     Raises
     ------
@@ -186,21 +188,35 @@ def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
     if not isinstance(masses, list):
         raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
     if "stations" in table:
-        blade = _at_stations(parts.pop("stations"), source)
-        parts |= {"length": blade.length, "section": blade.section}
-        line = {"twist": blade.line.twist, **line}
+        at = _at_stations(parts.pop("stations"), source)
+        parts |= {"length": at.length, "section": at.section}
+        line = {"twist": at.line.twist, **line}
     else:
         parts["section"], shape = _section(table["section"], source)
-    parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
+    damping = parts.pop("damping", {})
+    ratio = isinstance(damping, dict) and "ratio" in damping
+    title, keys = "[blade.damping]", tables.DAMPING_BY_RATIO if ratio else tables.table_of(Damping)
+    require_keys(damping, title, source, keys)
     parts["line"] = _part(Line, line, "[blade.line]", source)
     parts["point_masses"] = tuple(
         _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )
-    return _shaped(Blade(**parts), shape)
+    blade = _shaped(Blade(**parts), shape).blade
+    if ratio:
+        return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
+    return blade.with_damping(Damping(**damping))
 
 
 def _at_stations(table: dict[str, Any], source: Path) -> Blade:
-    require_keys(table, "[blade.stations]", source, tables.STATIONS)
+    title = "[blade.stations]"
+    if "file" in table:
+        require_keys(table, title, source, tables.STATIONS_OF_FILE)
+        return blade_of_csv(source.parent / str(table["file"]))
+    if "shapes" in table:
+        require_keys(table, title, source, tables.STATIONS_OF_SHAPES)
+        shapes = list(map(_shape, table["shapes"]))
+        return Blade.from_shapes(**{**table, "shapes": shapes})
+    require_keys(table, title, source, tables.STATIONS)
     return Blade.from_stations(**table)
 
 
@@ -219,11 +235,13 @@ def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
 
 def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
     """Return the beam with the shape of a table, or itself without one."""
-    if shape is None:
-        return beam
+    return beam if shape is None else beam.with_shape(_shape(shape))
+
+
+def _shape(shape: object) -> SectionShape:
     if not isinstance(shape, dict):
         raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    return beam.with_shape(from_description(shape, SectionShape))
+    return from_description(shape, SectionShape)
 
 
 def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:

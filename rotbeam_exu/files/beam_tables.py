@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, fields
 from pathlib import Path
 from types import NoneType
@@ -50,15 +50,18 @@ SECTION = Table(
     | {"shape": SectionShape},
 )
 STATIONS = _table_of_call(Blade.from_stations)
+STATIONS_OF_SHAPES = _table_of_call(Blade.from_shapes)
+STATIONS_OF_FILE = Table({"file": str}, {})
+DAMPING_BY_RATIO = Table({"ratio": float}, {})
 _BLADE = {
     "hub_radius": float,
     "setting_angle": float,
     "point_mass": list[PointMass],
-    "damping": table_of(Damping),
+    "damping": (table_of(Damping), DAMPING_BY_RATIO),
     "line": table_of(Line),
 }
 BLADE = Table({"length": float, "section": SECTION}, _BLADE)
-BLADE_AT_STATIONS = Table({"stations": STATIONS}, _BLADE)
+BLADE_AT_STATIONS = Table({"stations": (STATIONS, STATIONS_OF_SHAPES, STATIONS_OF_FILE)}, _BLADE)
 MOTION = Table({}, {"omega": float, "ramp_time": float})
 NUMERICS = Table(
     {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
@@ -142,7 +145,11 @@ def _schema_of(told: Any) -> dict[str, Any]:
         return _schema_of(table_of(told) if own else tuple(map(_with_kind, kinds.values())))
     parts = tuple(one for one in get_args(told) if one not in (NoneType, Ellipsis))
     choice = _schema_of(tuple(dict.fromkeys(parts)))
-    return {"type": "array", "items": choice} if get_origin(told) in (list, tuple) else choice
+    return (
+        {"type": "array", "items": choice}
+        if get_origin(told) in (list, tuple, Sequence)
+        else choice
+    )
 
 
 def _with_kind(cls: type[Any]) -> Table:

@@ -125,7 +125,7 @@ PLANE = f"{MASS}\n[blade.section.out_of_plane]\n"
         ("0.5", "-0.5", "hub_radius must not be negative"),
         ("[blade.section]", "[beam]", r"has both \[beam\] and \[blade\]"),
         ("bending = 1e-3", "bendin = 1", "'bendin' in .blade.damping.; did you mean 'bending'"),
-        ("bending = 1e-3", "ratio = 1e-3", "in .blade.damping.; known are bending, axial, ext"),
+        ("bending = 1e-3", "loss = 1e-3", "in .blade.damping.; known are bending, axial, ext"),
         ("bending = 1e-3", "bending = -1.0", "bending must not be negative, .* it gives none"),
         ("[blade.damping]", "[blade.dampings]", "'dampings' in .blade.; did you mean 'damping'"),
         ("[blade.damping]", "[[blade.damping]]", "write .blade.damping. as a table"),

@@ -11,6 +11,7 @@ from rotbeam_exu.files.beam_file import load_run_file
 from rotbeam_exu.files.beam_tables import schema
 from tests.beams import BLADE_TOML
 from tests.exudyn.test_beam_file import DAMPED, GOOD, PLANE, WHOLE
+from tests.exudyn.test_stations_file import SHAPES
 
 ROOT = Path(__file__).parents[2]
 TYPES = {"number": (int, float), "integer": int, "string": str, "array": list, "object": dict}
@@ -35,7 +36,7 @@ STATIONS = (
 RUN = '[motion]\nomega = 4\n[numerics]\nelement = "cable"\nelements = 2\n'
 TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, SHAPED, LINE,
          WHOLE.replace("mass_per_length = [0.2, -0.02]", PLANE + "bending_ratio = 1.0"),
-         STATIONS, RUN]  # fmt: skip
+         STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN]  # fmt: skip
 
 
 def fits(value, told):
