@@ -8,6 +8,7 @@ cells each cell is integrated by Gauss points of its own.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
@@ -18,6 +19,8 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from .arrays import FloatArray
+
+_STRETCH = 20  # points: integrals are dense within a stretch, and sums from one to the next
 
 
 class BasisValues(NamedTuple):
@@ -156,6 +159,81 @@ class Grid:
         result = np.where(before, self.weights, 0.0)
         for rows, own, part in parts:
             result[rows[:, None], own] = part
+        return result
+
+
+class Stretch(NamedTuple):
+    """Some cells of a grid, and the places in them.
+
+    Attributes
+    ----------
+    own : slice
+        Points of the grid.
+    places : slice or ndarray
+    onto : ndarray (points, places)
+        Transpose of the matrix from values at these points to integrals from the first cell's
+        start up to these places.
+    weights : ndarray (points,)
+    """
+
+    own: slice
+    places: slice | NDArray[np.intp]
+    onto: FloatArray
+    weights: FloatArray
+
+
+class Running:
+    """Integrals from 0 up to some places, as sums that run from stretch to stretch of a grid.
+
+    Fields (..., points or places) have the points last.
+
+    Parameters
+    ----------
+    grid : Grid
+    places : ndarray (places,)
+    cuts : sequence
+        Ends of cells at which a stretch has to end.
+    """
+
+    def __init__(self, grid: Grid, places: FloatArray, cuts: Sequence[float] = ()) -> None:
+        cells = grid.counts.size
+        self.count, self._points = places.size, grid.points.size
+        ends = {int(np.argmin(np.abs(grid.ends - cut))) for cut in cuts}
+        cell = np.clip(np.searchsorted(grid.ends, places, side="right") - 1, 0, cells - 1)
+        self.stretches = list[Stretch]()
+        first = begin = 0
+        for end in range(1, cells + 1):
+            count = int(grid.counts[begin:end].sum())
+            if end < cells and count < _STRETCH and end not in ends:
+                continue
+            part = Grid(grid.ends[begin : end + 1], grid.counts[begin:end])
+            rows = np.flatnonzero((cell >= begin) & (cell < end))
+            onto = part.integral(places[rows]).T
+            ahead = rows.size and rows[-1] + 1 - rows[0] == rows.size
+            inside = slice(int(rows[0]), int(rows[-1]) + 1) if ahead else rows
+            self.stretches.append(Stretch(slice(first, first + count), inside, onto, part.weights))
+            first, begin = first + count, end
+
+    def of(self, field: FloatArray) -> FloatArray:
+        """Return the integrals up to each place of a field at the grid's points."""
+        result = np.empty((*field.shape[:-1], self.count))
+        before: FloatArray | float = 0.0
+        for own, places, onto, weights in self.stretches:
+            result[..., places] = field[..., own] @ onto + before
+            before = before + (field[..., own] @ weights)[..., None]
+        return result
+
+    def beyond(self, field: FloatArray) -> FloatArray:
+        """Return the sums of a field at the places beyond each point, times its weight.
+
+        By the transpose of `of`, so that work is the same from both sides.
+        """
+        result = np.empty((*field.shape[:-1], self._points))
+        after: FloatArray | float = 0.0
+        for own, places, onto, weights in reversed(self.stretches):
+            values = field[..., places]
+            result[..., own] = values @ onto.T + after * weights
+            after = after + values.sum(axis=-1, keepdims=True)
         return result
 
 

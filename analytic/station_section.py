@@ -127,7 +127,7 @@ class StationSection(Section):
     def matrices(self, x: FloatArray) -> FloatArray:
         """Return stiffness and mass at `x` between stations, in their unit, (2, places, 6, 6)."""
         at = np.array(self.x)
-        first = np.searchsorted(at, x, side="right") - 1
+        first = np.minimum(np.searchsorted(at, x, side="right"), at.size - 1) - 1
         share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
         return np.asarray(
             (1.0 - share) * self._arrays[:, first] + share * self._arrays[:, first + 1]

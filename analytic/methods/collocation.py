@@ -16,7 +16,7 @@ from numpy.polynomial import legendre
 
 from ..arrays import FloatArray
 from ..lazily import special
-from .newton import Newton, factored
+from .newton import Newton, Root, factored
 from .system import Tangent
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
@@ -24,6 +24,9 @@ Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
 # Of the coordinates, which are of order 1.
 _NEWTON = Newton(converged=1e-13, slow=0.2, steps=12)
+# The tangent of a step before contracts what is stiff slower than the rest, so the first small
+# change is not the last.
+_OF_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
 
 
 class Collocation:
@@ -85,8 +88,12 @@ class Collocation:
         *,
         residual: Residual,
         tangent: Linearization,
-    ) -> FloatArray | None:
-        """Return the accelerations (stages, n) that make the residuals zero, None if not found."""
+        factors: Any = None,
+    ) -> Root | None:
+        """Return the accelerations (stages, n) that make the residuals zero, None if not found.
+
+        The factors of a step's tangent may serve in the next one of the same length.
+        """
 
         def state(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             return self.stages(h, q, q_dot, z.reshape(guess.shape))
@@ -95,13 +102,15 @@ class Collocation:
             at = tangent(*state(z))
             return factored(self.matrix(h, at)), at.residual.ravel()
 
-        found = _NEWTON.root(
+        newton = _NEWTON if factors is None else _OF_BEFORE
+        found = newton.root(
             guess.ravel(),
             lambda z: residual(*state(z)).ravel(),
             linearized,
             size=lambda _, z: float(np.abs(h**2 * self.position @ z.reshape(guess.shape)).max()),
+            factors=factors,
         )
-        return None if found is None else found.z.reshape(guess.shape)
+        return None if found is None else found._replace(z=found.z.reshape(guess.shape))
 
 
 @lru_cache(maxsize=8)

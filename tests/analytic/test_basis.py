@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from analytic.quadrature import axial_basis, gauss_points, transverse_basis
+from analytic.quadrature import Grid, Running, axial_basis, gauss_points, transverse_basis
 
 
 @pytest.mark.parametrize("basis", [transverse_basis, axial_basis])
@@ -41,3 +41,15 @@ def test_cantilever_frequencies_converge_spectrally():
     assert errors[3] < 1e-8
     # The literature's ten digits: half a unit in the last of 22.03449156 is 2.3e-10.
     assert errors[-1] < 2.3e-10
+
+
+def test_running_sums_are_the_matrix_of_all_points():
+    """Also cut at the end of a cell, to places out of order and on ends; and its transpose."""
+    rng = np.random.default_rng(0)
+    grid = Grid(np.sort(np.append(rng.uniform(size=11), (0.0, 1.0))), rng.integers(4, 9, size=12))
+    places = np.concatenate((grid.points, [1.0, 0.7, grid.ends[3], 0.0]))
+    running, whole = Running(grid, places, [grid.ends[1]]), grid.integral(places)
+    assert running.stretches[0].own == slice(0, grid.counts[0])
+    inner, outer = rng.normal(size=(2, 3, grid.points.size)), rng.normal(size=(2, 3, places.size))
+    assert running.of(inner) == pytest.approx(inner @ whole.T, abs=1e-14)
+    assert running.beyond(outer) == pytest.approx(outer @ whole, abs=1e-14)

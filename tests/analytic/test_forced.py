@@ -107,7 +107,7 @@ def by_collocation(orbit):
             h, q, q_dot, acceleration,
             residual=partial(system.residual, phase=phase, frequency=w),
             tangent=partial(system.tangent, phase=phase, frequency=w),
-        )  # fmt: skip
+        ).z  # fmt: skip
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
     return start, np.concatenate((q, q_dot))

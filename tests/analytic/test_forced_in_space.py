@@ -75,8 +75,9 @@ def test_a_small_force_gives_the_transfer_function_of_the_linearization(coned, i
     along = steady.model.tip_gradient(at)[0]
     q = np.linalg.solve(K + 1j * nu * C - nu**2 * M, 1e-5 * along[1])
     lag, flap = np.abs(along[1:] @ q)
-    torsion = abs(steady.model.weights @ steady.model.strains.K[0] @ q)
-    wanted = [lag, flap, torsion]
+    steps = 1e-5 * np.eye(len(q))
+    turns = [steady.model.tip_turn(at + sign * steps) for sign in (1.0, -1.0)]
+    wanted = [lag, flap, abs((turns[0] - turns[1]) @ q) / 2e-5]
     assert [coned.lag[i], coned.flap[i], coned.twist[i]] == pytest.approx(wanted, rel=2e-5)
     assert coned.amplitude[i] == pytest.approx(flap, rel=1e-4)  # to one side
     assert coned.phase[i] == pytest.approx(-np.angle(along[2] @ q), abs=1e-5)

@@ -204,9 +204,8 @@ def test_the_unloaded_line_is_that_of_the_equations_kinks_included():
 def test_frames_of_a_helix(turns):
     """With constant curvatures the frame turns evenly about them, wound up by several turns too."""
     model = space(SpaceUnit(flap=0.5, torsion=0.1), bending=12)
-    frames = Frames(model.functions.grid, np.array([0.5, 1.0]))
+    frames = Frames(model.blade.running(model.functions.grid, np.array([0.5, 1.0])))
     K = turns * np.array([0.5, -2.0, 3.0])
-    at, places = frames.of(np.broadcast_to(K[:, None, None], (3, 1, model.points.size)))
-    found = np.concatenate((at, places), axis=-1)[:, :, 0]
+    found = frames.of(np.broadcast_to(K[:, None, None], (3, 1, model.points.size)))[:, :, 0]
     for x, R in zip([*model.points, 0.5, 1.0], np.moveaxis(found, -1, 0), strict=True):
         assert pytest.approx(Rotation.from_rotvec(x * K).as_matrix(), abs=1e-12) == R

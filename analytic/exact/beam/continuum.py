@@ -25,7 +25,7 @@ acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear ha
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -73,7 +73,11 @@ class Continuum(Kinematics):
     outboard : dict
         Mass, length and tip beyond each Gauss point, times its weight (points,), by the names
         "mass", "length" and "tip": a load acts on one of them.
+    has_dear_tangent : bool
+        Whether one costs many residuals, so that it serves in the steps of time after it.
     """
+
+    has_dear_tangent: ClassVar[bool] = False
 
     def __init__(
         self,

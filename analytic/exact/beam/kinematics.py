@@ -158,7 +158,7 @@ class Kinematics:
         """Return the tip's position z(1), (samples,)."""
         return self.slope(q) @ self.weights
 
-    def twist(self, q: FloatArray) -> FloatArray:
+    def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return zero, (samples,): in its plane a beam does not twist."""
         return np.zeros(len(q))
 

@@ -25,6 +25,7 @@ from .transient import BladeMotion, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
+_MANY_CELLS = 16
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
@@ -209,9 +210,11 @@ def spin_up_response(
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
+    fewest = math.ceil(_A_DIGIT * digits)
+    # The kinks of a table leave an algebraic tail.
+    more = fewest // 2 if beam.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
     for level in range(_REFINEMENTS):
-        functions = math.ceil(_A_DIGIT * digits)
-        functions += max(_MORE_FUNCTIONS, beam.unit.panel_count) * level
+        functions = fewest + max(more, beam.unit.panel_count) * level
         model: Any = (
             space_continuum(beam, theory, functions) if space
             else blade_continuum(beam, theory, functions, functions // 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
@@ -19,6 +20,8 @@ from ..space.continuum import SpaceContinuum
 from .loading import pushes, unit_load
 
 _STAGES = 8
+_CREDIT = 3  # failures, before a tangent of the steps before is no longer tried
+
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
@@ -78,9 +81,11 @@ def integrated(
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot, twist = np.zeros_like(z), np.repeat(model.twist(q[None]), time.size)
+    z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
-    previous = 0.0
+    previous, factors = 0.0, None
+    # Tangents of the steps before are tried until they have failed more often than they served.
+    credit = _CREDIT if model.has_dear_tangent else 0
     ahead = list(pairwise(grid))[::-1]
     while ahead:
         begin, end = ahead.pop()
@@ -90,10 +95,14 @@ def integrated(
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
         found, driven = None, drive(stages)
+        if not math.isclose(h, previous):
+            factors = None
         residual = partial(model.residual, **driven)
         tangent = partial(model.tangent, **driven)
         for guess in guesses:
-            found = method.step(h, q, q_dot, guess, residual=residual, tangent=tangent)
+            found = method.step(
+                h, q, q_dot, guess, residual=residual, tangent=tangent, factors=factors
+            )
             if found is not None:
                 break
         if found is None:
@@ -102,19 +111,19 @@ def integrated(
             middle = 0.5 * (begin + end)
             ahead += [(middle, end), (begin, middle)]
             continue
-        acceleration, previous = found, h
+        acceleration, previous = found.z, h
+        if factors is not None:
+            credit += 1 if found.factors is factors else -1
+        factors = found.factors if credit > 0 else None
         inside = slice(*np.searchsorted(time, (begin, end), side="right"))
         at = (time[inside] - begin) / (end - begin)
-        velocities = q_dot + h * method.integral(at) @ acceleration
-        positions = (
-            q
-            + h * at[:, None] * q_dot
-            + h**2 * method.integral(at) @ method.velocity @ acceleration
-        )
-        z[inside] = model.tip(positions)
-        z_dot[inside] = model.tip_rate(positions, velocities)
-        twist[inside] = model.twist(positions)
-        if points.size:
+        if at.size:
+            onto = h * method.integral(at)
+            velocities = q_dot + onto @ acceleration
+            positions = q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration)
+            z[inside] = model.tip(positions)
+            z_dot[inside] = model.tip_rate(positions, velocities)
+            twist[inside] = model.tip_turn(positions)
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]

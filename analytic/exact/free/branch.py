@@ -169,7 +169,7 @@ class SpaceOrbitSet(OrbitSet):
 
     @property
     def twist(self) -> FloatArray:
-        """Half the swing of the torsion along all of the blade, ∫(κ1 - κ01) dx [rad]."""
+        """Half the swing of the tip's section about the clamp's axis [rad]."""
         return self._swings[:, 2]
 
     @cached_property
@@ -179,7 +179,7 @@ class SpaceOrbitSet(OrbitSet):
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
-            series = np.fft.rfft(np.column_stack((model.tip(q)[:, 1:], model.twist(q))), axis=0)
+            series = np.fft.rfft(np.column_stack((model.tip(q)[:, 1:], model.tip_turn(q))), axis=0)
             found.append(np.ptp(np.fft.irfft(series, _SAMPLES, axis=0), axis=0) / count)
         return 0.5 * _SAMPLES * np.array(found)
 

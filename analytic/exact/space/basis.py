@@ -219,7 +219,9 @@ class StrainFunctions:
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
         soft = self._flexibility(x)
-        strains = np.moveaxis(soft @ (self._forces(x) @ self._own[0]), 1, 0).copy()
+        # In memory the places come last, as in all fields.
+        found = (soft @ (self._forces(x) @ self._own[0])).transpose(1, 2, 0).copy()
+        strains = np.swapaxes(found, 1, 2)
         # Bending stiffness about the center of tension, and compliance to axial force there.
         bends = np.linalg.inv(soft[:, 4:, 4:])
         beside = soft[:, 0, 4:]

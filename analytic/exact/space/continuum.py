@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -46,21 +46,24 @@ class SpaceContinuum:
         The strains, and what the sections weigh.
     """
 
+    has_dear_tangent: ClassVar[bool] = True
+    """Whether one costs many residuals, so that it serves in the steps of time after it."""
+
     def __init__(self, functions: StrainFunctions) -> None:
         self.functions = functions
         self.size = functions.size
         self.blade = functions.blade
         grid, masses = functions.grid, functions.masses
         self.points, self.weights = grid.points, grid.weights
-        self.inner = grid.integral(grid.points)
-        self.outer = grid.integral(masses.places)
-        self._frames = Frames(grid, masses.places, self.blade.kinks)
+        self.integrals = self.blade.running(grid, masses.places[grid.points.size :])
+        self._frames = Frames(self.integrals, self.blade.kinks)
         self.masses = masses
         self.strains = functions.at(grid.points)
-        self.outboard = {
-            "length": self.inner.T @ self.weights,
-            "tip": self.weights,
-        }
+        self.outboard = {"length": self.weights * (1.0 - self.points), "tip": self.weights}
+
+    def at_points(self, field: FloatArray) -> FloatArray:
+        """Return the part at the grid's points of a field at the masses, (..., points)."""
+        return field[..., : self.points.size]
 
     def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
@@ -80,10 +83,11 @@ class SpaceContinuum:
 
     def _state(self, q: FloatArray) -> State:
         gamma, K = self._strains(q)
-        frame, frame_m = self._frames.of(K)
+        frame_m = self._frames.of(K)
+        frame = self.at_points(frame_m)
         slope = turned(frame, gamma)
         return State(
-            frame, frame_m, K, slope, slope @ self.outer.T,
+            frame, frame_m, K, slope, self.integrals.of(slope),
             turned(frame_m, self.masses.offset[:, None]),
         )  # fmt: skip
 
@@ -103,25 +107,26 @@ class SpaceContinuum:
         rate: float | FloatArray,
         rate_dot: float | FloatArray,
     ) -> Rates:
-        inner, outer = self.inner.T, self.outer.T
+        integral = self.integrals.of
         stretch, bend = self._rates(at.K, q_dot)
         stretch_rate, bend_rate = self._rates(at.K, q_ddot)
         stretch_rate[0] -= self.strains.trapeze * bend[0] ** 2
         turning, stretching = turned(at.frame, bend), turned(at.frame, stretch)
         twisting, speeding = turned(at.frame, bend_rate), turned(at.frame, stretch_rate)
-        spin, spin_m = turning @ inner, turning @ outer
-        velocity_m = (cross(spin, at.slope) + stretching) @ outer
-        spin_change = twisting + cross(spin, turning)
-        spin_rate = spin_change @ inner
-        acceleration = (
+        spin_m = integral(turning)
+        spin = self.at_points(spin_m)
+        velocity_m = integral(cross(spin, at.slope) + stretching)
+        spin_rate_m = integral(twisting + cross(spin, turning))
+        spin_rate = self.at_points(spin_rate_m)
+        acceleration = integral(
             cross(spin_rate, at.slope)
             + cross(spin, cross(spin, at.slope) + 2.0 * stretching)
             + speeding
-        ) @ outer
+        )
         W, W_dot, hub = self._clamp(rate, rate_dot)
         place = hub + at.place_m
         total = spin_m + W
-        total_rate = spin_change @ outer + cross(W, spin_m) + W_dot
+        total_rate = spin_rate_m + cross(W, spin_m) + W_dot
         acceleration = (
             acceleration
             + cross(W, 2.0 * velocity_m + cross(W, place))
@@ -135,11 +140,8 @@ class SpaceContinuum:
         )  # fmt: skip
 
     def inertia(self, at: State, vector: FloatArray) -> FloatArray:
-        """Return R J Rᵀ times vectors (3, samples, masses, ...)."""
-        extra = vector.ndim - 3
-        frame = at.frame_m.reshape(*at.frame_m.shape, *(1,) * extra)
-        J = self.masses.inertia.reshape(3, 3, 1, -1, *(1,) * extra)
-        return turned(frame, turned(J, turned_back(frame, vector)))
+        """Return R J Rᵀ times vectors (3, ..., masses)."""
+        return turned(at.frame_m, turned(self.masses.inertia, turned_back(at.frame_m, vector)))
 
     def _forces(
         self, at: State, motion: Rates, push: FloatArray | None
@@ -153,13 +155,17 @@ class SpaceContinuum:
             rotary = self.inertia(at, motion.total_spin_rate) + cross(
                 motion.total_spin, self.inertia(at, motion.total_spin)
             )
-        force = -pulled @ self.outer
-        couple = -(rotary + cross(at.offset_m, pulled)) @ self.outer
+        held = pulled
         if self.masses.drag is not None:
-            force = force - (self.masses.drag * motion.velocity_m) @ self.outer
+            held = pulled + self.masses.drag * motion.velocity_m
+        force = -self.integrals.beyond(held)
         if push is not None:
-            force, couple = force + push[0], couple + push[2]
-        moment = cross(at.slope, force) @ self.inner + couple
+            force += push[0]
+        twist = rotary + cross(at.offset_m, pulled)
+        self.at_points(twist)[:] -= cross(at.slope, force)
+        moment = -self.integrals.beyond(twist)
+        if push is not None:
+            moment += push[2]
         return pulled, force, moment
 
     def residual(
@@ -232,12 +238,12 @@ class SpaceContinuum:
 
     @cached_property
     def _tip_frame(self) -> Frames:
-        return Frames(self.functions.grid, np.array([1.0]), self.blade.kinks)
+        return Frames(self.blade.running(self.functions.grid, np.ones(1)), self.blade.kinks)
 
-    def twist(self, q: FloatArray) -> FloatArray:
+    def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return how far the load turns the tip's section out of its upright, (samples,)."""
         loaded, unloaded = (
-            self._tip_frame.of(self._strains(one)[1])[1][..., 0]
+            self._tip_frame.of(self._strains(one)[1])[..., -1]
             for one in (q, np.zeros((1, self.size)))
         )
         turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
@@ -247,7 +253,7 @@ class SpaceContinuum:
         """Return the tip's velocity in the root frame, (samples, 3)."""
         at = self._state(q)
         stretch, bend = self._rates(at.K, q_dot)
-        spin = turned(at.frame, bend) @ self.inner.T
+        spin = self.at_points(self.integrals.of(turned(at.frame, bend)))
         return np.asarray(((cross(spin, at.slope) + turned(at.frame, stretch)) @ self.weights).T)
 
     def axis(self, q: FloatArray, x: FloatArray) -> FloatArray:
@@ -256,11 +262,7 @@ class SpaceContinuum:
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
-        return np.moveaxis(self.weights @ self.changes(q).slope, 0, 1)
-
-    def twist(self, q: FloatArray) -> FloatArray:
-        """Return the torsion along all of the blade, ∫(κ1 - κ01) dx [rad], (samples,)."""
-        return np.asarray(self._strains(q)[1][0] @ self.weights)
+        return np.moveaxis(self.changes(q).slope @ self.weights, 0, 1)
 
     @property
     def setting(self) -> float:

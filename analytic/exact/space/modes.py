@@ -83,9 +83,11 @@ class SpaceModes:
         at = np.append(points_of_beam("x", x, length), 1.0)
         change = self.model.changes(self._steady[None])
         onto = self.model.functions.grid.integral(at)
-        places, turns = onto @ change.slope[:, 0], onto @ change.bend[:, 0]
-        shapes = self.coordinates.T
-        place, turn = length * places @ shapes, turns @ shapes
+        moved, turn = (
+            onto @ np.swapaxes(self.coordinates @ field[:, 0], 1, 2)
+            for field in (change.slope, change.bend)
+        )
+        place = length * moved
         tip = place[1:, -1]
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
         largest = np.where(largest == 0.0, turn[0, -1], largest)
@@ -214,8 +216,8 @@ def orbit_modes(
 def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:
     """Return the shares of flap, lag and torsion in the kinetic energy, (modes, 3)."""
     change, masses = steady.model.changes(steady.equilibrium[None]), steady.model.masses
-    moved = masses.mass @ np.abs(change.center[:, 0] @ coordinates) ** 2
-    turned = change.turn_m[:, 0] @ coordinates
-    twist = np.einsum("ipk,ijp,jpk->k", turned.conj(), masses.inertia, turned).real
+    moved = np.abs(coordinates.T @ change.center[:, 0]) ** 2 @ masses.mass
+    turned = coordinates.T @ change.turn_m[:, 0]
+    twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
     parts = np.stack((moved[2], moved[1], twist), axis=-1)
     return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])

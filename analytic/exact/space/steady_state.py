@@ -124,5 +124,5 @@ def steady_state(
     return SteadyState(
         blade=blade, omega=omega, theory=theory, force=force, moment=moment,
         tip=blade.length * steady.tip, error=error, _steady=steady,
-        twist=float(steady.model.twist(steady.equilibrium[None])[0]),
+        twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip

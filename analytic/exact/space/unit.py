@@ -13,6 +13,7 @@ from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...line import STRAIGHT, Line, Offset, scaled
 from ...profiles import Profile, evaluated
+from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
 from ...station_section import StationSection
 from ...theory import Theory
@@ -149,10 +150,16 @@ class SpaceUnit(UnitBlade):
         From the clamp and over L, in the root frame; axes in columns.
         """
         grid = self.grid(_POINTS, 0)
-        frame, frame_x = Frames(grid, x, self.kinks).of(self.bent(grid.points)[:, None])
-        place = grid.integral(x) @ frame[:, 0, 0].T
-        sections = np.einsum("ijp,jkp->pik", frame_x[:, :, 0], self.section_frames(x))
+        running = self.running(grid, x)
+        frame = Frames(running, self.kinks).of(self.bent(grid.points)[:, None])[:, :, 0]
+        count = grid.points.size
+        place = running.of(frame[:, 0, :count])[:, count:].T
+        sections = np.einsum("ijp,jkp->pik", frame[:, :, count:], self.section_frames(x))
         return place, sections
+
+    def running(self, grid: Grid, x: FloatArray) -> Running:
+        """Return integrals up to the grid's points and then up to `x`, for `Frames`."""
+        return Running(grid, np.concatenate((grid.points, x)), [at for at, *_ in self.line.kinks])
 
     @property
     def bodies(self) -> list[tuple[float, float, float, Offset]]:

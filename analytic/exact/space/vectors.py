@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
-from ...quadrature import Grid
+from ...quadrature import Running
 
 _PICARD, _SETTLED = 40, 2e-15  # iterations at most, and the change after which the next is less
-_WOUND = 4.0  # ∫|K|dx of a cell
+_WOUND = 4.0  # ∫|K|dx of a stretch
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -66,102 +66,95 @@ def frames(quaternion: FloatArray) -> FloatArray:
 
 
 class Frames:
-    """Solution of R' = R K̂, R(0) = 1, on the cells of a grid, and at places on it.
+    """Solution of R' = R K̂, R(0) = 1, at a grid's points and at further places.
 
-    Unit quaternions obey Q' = ½ Q ∘ (0, K): collocation at the Gauss points of each cell, and the
-    product of the cells before.
+    Unit quaternions obey Q' = ½ Q ∘ (0, K): collocation at the Gauss points of each stretch, and
+    the product of the stretches before.
 
     Parameters
     ----------
-    grid : Grid
-        On whose points the curvatures are given.
-    places : ndarray (places,)
-        Further material points at which the frames are wanted.
+    running : Running
+        To the points of the grid first, and to the places; its stretches end at the kinks.
     kinks : list
-        Ends of cells, and rotation vectors (3,) by which the frame jumps there.
+        Material points, and rotation vectors (3,) by which the frame jumps there.
     """
 
-    def __init__(
-        self, grid: Grid, places: FloatArray, kinks: Sequence[tuple[float, FloatArray]] = ()
-    ) -> None:
-        self._grid, self._places = grid, places
-        self._cell = np.clip(
-            np.searchsorted(grid.ends, places, side="right") - 1, 0, grid.counts.size - 1
-        )
-        # Integrals from the start of each cell, to its own points, to its end, and to the places.
-        inside = grid.integral(np.concatenate((grid.points, grid.ends[1:], places)))
-        self._kinks = {
-            int(np.argmin(np.abs(grid.ends - x))) - 1: _quaternion(vector) for x, vector in kinks
-        }
-        self._parts = []
-        first = 0
-        for k, count in enumerate(grid.counts.tolist()):
-            own = slice(first, first + count)
-            rows = np.concatenate(
-                (
-                    np.arange(first, first + count),
-                    [grid.points.size + k],
-                    grid.points.size + grid.counts.size + np.flatnonzero(self._cell == k),
-                )
+    def __init__(self, running: Running, kinks: Sequence[tuple[float, FloatArray]] = ()) -> None:
+        parts = running.stretches
+        self._count, self._stretches = running.count, len(parts)
+        ends = np.cumsum([part.weights.sum() for part in parts])
+        self._kinks = {int(np.argmin(np.abs(ends - x))): _quaternion(vector) for x, vector in kinks}
+        # Stretches with as many points and places go together, their ends behind their places.
+        self._together = []
+        for shape in {part.onto.shape for part in parts}:
+            which = [k for k, part in enumerate(parts) if part.onto.shape == shape]
+            own, places, onto = zip(
+                *(
+                    (np.r_[one.own], np.r_[one.places], np.column_stack((one.onto, one.weights)))
+                    for one in (parts[k] for k in which)
+                ),
+                strict=True,
             )
-            self._parts.append((own, inside[rows][:, own]))
-            first += count
+            self._together.append((which, np.array(own), np.array(places), np.array(onto)))
 
-    def of(self, curvature: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return R at the grid's points and at the places, (3, 3, samples, points or places).
+    def of(self, curvature: FloatArray) -> FloatArray:
+        """Return R at the points and the places, (3, 3, samples, points and places).
 
         From curvatures (3, samples, points) in the moving frame.
         """
         samples = curvature.shape[1]
-        at = np.empty((4, samples, self._grid.points.size))
-        extra = np.empty((4, samples, self._places.size))
-        before = np.zeros((4, samples, 1))
-        before[0] = 1.0
-        for k, (own, integral) in enumerate(self._parts):
-            local = _from_unit(curvature[:, :, own], integral)
-            count = own.stop - own.start
-            here = product(before, local)
-            at[:, :, own] = here[:, :, :count]
-            extra[:, :, self._cell == k] = here[:, :, count + 1 :]
-            before = here[:, :, count : count + 1]
-            if k in self._kinks:
-                before = product(before, self._kinks[k])
-        return frames(at), frames(extra)
+        turns = np.empty((4, self._stretches, samples))
+        begins = np.zeros_like(turns)
+        begins[0, 0] = 1.0
+        alone = []
+        for which, own, _, onto in self._together:
+            alone.append(_from_unit(np.swapaxes(curvature[:, :, own], 1, 2), onto))
+            turns[:, which] = alone[-1][..., -1]
+        for k in range(1, self._stretches):
+            begins[:, k] = product(begins[:, k - 1], turns[:, k - 1])
+            if k - 1 in self._kinks:
+                begins[:, k] = product(begins[:, k], self._kinks[k - 1])
+        found = np.empty((4, samples, self._count))
+        for (which, _, places, _), local in zip(self._together, alone, strict=True):
+            here = product(begins[:, which, :, None], local[..., :-1])
+            found[:, :, places] = np.swapaxes(here, 1, 2)
+        return frames(found)
 
 
 def _quaternion(vector: FloatArray) -> FloatArray:
-    """Return the quaternion (4, 1, 1) of a rotation vector (3,)."""
+    """Return the quaternion (4, 1) of a rotation vector (3,)."""
     half = 0.5 * float(np.linalg.norm(vector))
     # sin(x)/x, of numpy in units of π.
-    return np.array([math.cos(half), *(0.5 * np.sinc(half / math.pi) * vector)])[:, None, None]
+    return np.array([math.cos(half), *(0.5 * np.sinc(half / math.pi) * vector)])[:, None]
 
 
 def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
-    """Return Q (4, samples, rows) that starts at 1, by collocation on one cell.
+    """Return Q (4, stretches, samples, places) that starts at 1, by collocation on each stretch.
 
     As u + vj with complex u and v. Picard's iteration finds the collocated solution itself: on one
-    cell its errors fall as the terms of exp(|K|/2). Beyond a turn or so round-off grows as that.
+    stretch its errors fall as the terms of exp(|K|/2). Beyond a turn or so round-off grows as that.
     """
     k1, k2, k3 = 0.5 * curvature
-    turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.T.astype(np.complex128)
-    count = len(onto)
+    turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.astype(np.complex128)
+    back, count = bend.conj(), onto.shape[1]
     found = np.zeros((2, *k1.shape), dtype=np.complex128)
     found[0] = 1.0
 
     def rates(of: ComplexArray) -> ComplexArray:
         u, v = of
-        return np.stack((u * turn - v * bend.conj(), u * bend - v * turn))
+        return np.stack((u * turn - v * back, u * bend - v * turn))
 
-    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=0).max() > _WOUND:
-        parts = [[turn, -bend.conj()], [bend, -turn]]
-        system = np.block([[-one[:, None] * integral[:count] for one in row] for row in parts])
+    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=1).max() > _WOUND:
+        inside = np.swapaxes(integral[..., :count], 1, 2)[:, None]
+        parts = [[turn, -back], [bend, -turn]]
+        system = np.block([[-one[..., None, :] * inside for one in row] for row in parts])
         system += np.eye(2 * count)
         begin = np.repeat([1.0, 0.0], count)[:, None]
-        solved = np.linalg.solve(system, np.broadcast_to(begin, (len(k1), 2 * count, 1)))
-        found = np.moveaxis(solved.reshape(len(k1), 2, count), 1, 0)
+        solved = np.linalg.solve(system, np.broadcast_to(begin, (*k1.shape[:2], 2 * count, 1)))
+        found = np.moveaxis(solved.reshape(*k1.shape[:2], 2, count), 2, 0)
     else:
         for _ in range(_PICARD):
-            last, found = found, rates(found) @ onto[:, :count]
+            last, found = found, rates(found) @ onto[..., :count]
             found[0] += 1.0
             if np.abs(found - last).max(initial=0.0) < _SETTLED:
                 break
