@@ -80,6 +80,8 @@ for _order, _command in enumerate(_COMMANDS):
         help_epilogue="Examples:\n\n" + "  \n".join(_examples),
     )  # fmt: skip
 
+app.register_install_completion_command("--complete", help="Let the shell complete commands.")
+
 _SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * math.pi}
 """Options that do not exist, and their units in rad/s."""
 

@@ -14,6 +14,7 @@ from cyclopts import Parameter, Token
 import analytic
 from analytic import AnyBlade
 from analytic.description import kinds_of
+from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
@@ -147,7 +148,7 @@ class Discretization:
         """Formulation and options for a reader."""
         return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
 
-    def case(self, beam: AnyBlade, motion: ChosenMotion) -> RunCase:
+    def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
         from ..fem.case import RunCase
         from ..fem.elements import formulation
@@ -155,7 +156,7 @@ class Discretization:
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
         return RunCase(
             beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
-            element=formulation(f"{self.element}", self.options), **mesh,
+            element=formulation(f"{self.element}", self.options), loads=loads, **mesh,
         )  # fmt: skip
 
 

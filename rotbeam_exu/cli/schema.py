@@ -7,9 +7,9 @@ import sys
 
 
 def schema() -> None:
-    """Print the JSON schema of the files that --config takes.
+    """Print the JSON schema of beam files.
 
-    An editor completes and checks a file whose first line is `#:schema beam.schema.json`.
+    By it, an editor completes and checks a file whose first line is `#:schema beam.schema.json`.
 
     Examples
     --------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
 from analytic.line import Line
+from analytic.loads import Load
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
@@ -34,12 +35,14 @@ class RunFile:
         The paper's beam, where the file has none.
     motion : dict
         `omega` [rad/s] and `ramp_time` [s], if the file holds them.
+    loads : sequence of Load
     numerics : dict
         `element`, `elements`, `step` [s], `duration` [s] and `frame`, if it holds them.
     """
 
     beam: AnyBlade
     motion: Mapping[str, float] = field(default_factory=dict)
+    loads: Sequence[Load] = ()
     numerics: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -82,16 +85,17 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     """
     source = Path(path)
     document = _read_toml(source)
-    for others in ("motion", "numerics"):  # of a run, which `load_run_file` reads
+    for others in ("motion", "numerics", "loads"):  # of a run, which `load_run_file` reads
         document.pop(others, None)
     return _beam_from(document, source)
 
 
 def load_run_file(path: str | os.PathLike[str]) -> RunFile:
-    """Read [beam] or [blade], as `load_beam` does, and the tables [motion] and [numerics].
+    """Read [beam] or [blade], as `load_beam` does, and the tables [motion], [numerics], [[loads]].
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
-    duration [s] and frame. A file with one of these may do without a beam.
+    duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
+    these may do without a beam.
 
     Raises
     ------
@@ -103,13 +107,24 @@ def load_run_file(path: str | os.PathLike[str]) -> RunFile:
     """
     source = Path(path)
     document = _read_toml(source)
-    run = {
+    run: dict[str, Any] = {
         name: _checked(document.pop(name), f"[{name}]", source, keys)
         for name, keys in (("motion", tables.MOTION), ("numerics", tables.NUMERICS))
         if name in document
     }
+    if "loads" in document:
+        run["loads"] = _loads(document.pop("loads"), source)
     beam = _beam_from(document, source) if document or not run else Beam.reference()
     return RunFile(beam=beam, **run)
+
+
+def _loads(told: Any, source: Path) -> list[Load]:
+    if not (isinstance(told, list) and all(isinstance(one, dict) for one in told)):
+        raise ValueError(f'{source}: write each [[loads]] as a table, with kind = "Gravity"')
+    try:
+        return [from_description(one, Load) for one in told]
+    except (OverflowError, TypeError, ValueError) as error:
+        raise ValueError(f"{source}: [[loads]]: {error}") from error
 
 
 def _checked(table: Any, title: str, source: Path, keys: Table) -> dict[str, Any]:
@@ -154,8 +169,8 @@ def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
                 f"{source}: unknown table or key {name!r}; "
                 + (
                     tables.home(name)
-                    or "the beam is in [beam], a blade in [blade], a run's motion and numerics in "
-                    "[motion] and [numerics]"
+                    or "the beam is in [beam], a blade in [blade], what a run needs in "
+                    "[motion], [numerics] and [[loads]]"
                 )
             )
     if len(document) == 2:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from analytic import Beam, Blade, Damping, PointMass, Section
 from analytic.description import Described, kinds_of
 from analytic.line import Line
+from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 
@@ -73,6 +74,7 @@ _DOCUMENT = Table(
         "blade": (BLADE, BLADE_AT_STATIONS),
         "motion": MOTION,
         "numerics": NUMERICS,
+        "loads": list[Load],
     },
 )
 

@@ -34,9 +34,10 @@ STATIONS = (
     "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
 )
 RUN = '[motion]\nomega = 4\n[numerics]\nelement = "cable"\nelements = 2\n'
+LOADS = f'{RUN}[[loads]]\nkind = "TipForce"\namplitude = 0.5\nfrequency = 3\n'
 TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, SHAPED, LINE,
          WHOLE.replace("mass_per_length = [0.2, -0.02]", PLANE + "bending_ratio = 1.0"),
-         STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN]  # fmt: skip
+         STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN, LOADS]  # fmt: skip
 
 
 def fits(value, told):
