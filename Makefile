@@ -4,13 +4,14 @@ VENV ?= .venv
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 OLDEST := .venv-oldest
+CODES := .codes
 # Linear algebra here is small: threads would only get in each other's way.
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 # Tests are compiled once, not again by each worker and child.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run figures images golden references test test-all test-oldest coverage bench bench-peers lint docs docs-draft check-site check clean
+.PHONY: run figures images golden references codes test test-all test-oldest coverage bench bench-peers lint docs docs-draft check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -28,6 +29,11 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
 	$(BIN)/python -m rotbeam_exu.verification.regenerate
 	$(BIN)/python -m rotbeam_exu.verification.kit
+
+codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++ and CalculiX's ccx
+	for script in models/codes/*/run.py; do \
+	  rm -rf $$(dirname $$script)/submission; $(CODES)/bin/python $$script || exit 1; done
+	$(CODES)/bin/python models/codes/overview.py
 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
@@ -89,6 +95,12 @@ $(VENV)/.peers: $(VENV)/.dev
 	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev
 	touch $@
 
+$(CODES)/.made: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(CODES)
+	$(CODES)/bin/python -m pip install -q "pip>=25.1"
+	$(CODES)/bin/python -m pip install -q -c constraints.txt -e ".[peers]" --group codes
+	touch $@
+
 $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
 	$(PIP) install -c constraints.txt uv
 	$(BIN)/uv venv -q --clear --python 3.11 $(OLDEST)  # the lowest, too
@@ -96,4 +108,4 @@ $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(CODES) results docs/_build docs/gallery docs/reference/api docs/_static/figures docs/_static/explorer.html docs/_static/spin_up.gif .pytest_cache .mypy_cache .ruff_cache

@@ -1,0 +1,109 @@
+"""Other codes: today's judge says of their folders what their records say."""
+
+import shutil
+import sys
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic import Theory, linear_modes
+from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.judgement import judged
+from rotbeam_exu.verification.submission_files import read_submission
+
+CODES = Path(__file__).parents[2] / "models" / "codes"
+sys.path.insert(0, str(CODES))
+import common  # noqa: E402
+import overview  # noqa: E402
+
+# Of several cases each; a folder that is new is judged in the default suite.
+SLOW = {"chain", "exudyn_cable", "rod"}
+NAMES = sorted(path.parent.name for path in CODES.glob("*/submission"))
+
+
+def record(name):
+    return tomllib.loads((CODES / name / "record.toml").read_text())
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=[pytest.mark.slow] * (one in SLOW)) for one in NAMES]
+)
+def test_a_folder_gets_the_outcomes_of_its_record(name):
+    """If this fails after the judge has changed: python models/codes/common.py NAME."""
+    submission = read_submission(CODES / name / "submission")
+    assert common.outcomes(judged(submission)) == record(name)["outcomes"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_folder_is_whole(name):
+    assert common.digest(CODES / name / "submission") == record(name)["digest"]
+    assert record(name)["calibration_s"] > 0.0
+    readme = (CODES / name / "README.md").read_text(encoding="utf-8").splitlines()
+    assert 3 <= len(readme) <= 8
+    size = sum(path.stat().st_size for path in (CODES / name / "submission").rglob("*.csv"))
+    assert size < 500_000
+
+
+def test_rigid_links_tend_to_the_inextensible_beam():
+    found = judged(read_submission(CODES / "mujoco" / "submission")).findings["L"]
+    beam = CASES["L"].blade
+    rigid, exact = (
+        linear_modes(beam, 8.0, 1, theory=Theory(extension=extends)).frequencies[0]
+        for extends in (False, True)
+    )
+    # The bar of the limit is 1e-5.
+    limit = found["linear frequency"].model_difference
+    assert limit == pytest.approx(rigid / exact - 1.0, abs=3e-5)
+    assert limit == pytest.approx(1.6e-4, abs=1e-5)
+
+
+def test_a_changed_file_is_noticed(tmp_path):
+    folder = shutil.copytree(CODES / "mujoco" / "submission", tmp_path / "submission")
+    table = folder / "L.csv"
+    table.write_text(table.read_text().replace("9", "8", 1))
+    assert common.digest(folder) != record("mujoco")["digest"]
+
+
+def test_times_at_equal_error_are_read_between_the_best_runs():
+    class Stub(overview.Code):
+        runs = ((1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3))
+
+    code = Stub(None, None, 1.0)
+    assert code.front == [(1.0, 1e-1), (4.0, 1e-3)]
+    # Half of the way in logarithms.
+    assert code.cost(1e-2) == "2"
+    assert code.cost(0.5) == "< 1"
+    assert code.cost(1e-4) == "> 4"
+
+
+def test_a_code_without_times_has_outcomes_only():
+    handed = read_submission(CODES / "rod" / "submission")
+    handed = replace(handed, runs=(), frequencies=handed.frequencies[:2])
+    code = overview.Code(handed, judged(handed), 1.0)
+    assert overview.costs([code])[1] == []
+    (row,) = overview.verdicts([code])[1]
+    assert row[-1] == "undecided (only at 0, 2 rad/s)"
+
+
+@pytest.mark.slow
+def test_the_unit_of_time_is_a_run_of_the_starter():
+    (starter,) = (code for code in overview.codes() if code.name == "starter in C++")
+    runs = starter.found.histories["S1"].runs
+    (run,) = (one for one in runs if (one.elements, one.step) == (128, 4e-3))
+    # On a machine that others use, too.
+    assert run.cpu / starter.unit == pytest.approx(1.0, abs=0.5)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("g++") is None, reason="there is no g++")
+def test_the_rod_computes_what_its_folder_holds(monkeypatch):
+    monkeypatch.syspath_prepend(str(CODES / "rod"))
+    import run as rod
+
+    held = np.loadtxt(CODES / "rod/submission/S1/m008_h2e-3.csv", delimiter=",", skiprows=1)
+    found = rod.history(CASES["S1"], 8, 2e-3)
+    # Nine digits are written.
+    assert found == pytest.approx(held[:, 1], abs=1e-8)
