@@ -17,7 +17,7 @@ from .driving import DAMPINGS, LOADS, Dampings, Loads, option_of
 from .job import Job, UnfinishedError
 from .motion import Config, configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
-from .output import formatted, print_columns
+from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
@@ -86,9 +86,10 @@ def respond(
         theory = analytic.Theory(extension=not inextensible)
         how: Any = {"theory": theory, "functions": functions}
         try:
-            if omega is None:
-                return analytic.forced_response(beam, frequencies, load, **how)
-            return analytic.forced_response(beam, omega, load, frequencies, **how)
+            with bar("following the curve"):
+                if omega is None:
+                    return analytic.forced_response(beam, frequencies, load, **how)
+                return analytic.forced_response(beam, omega, load, frequencies, **how)
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
                 raise

@@ -72,7 +72,8 @@ def run(
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
-        found = assess(case, steady, exact=not no_exact)
+        with bar("exact frequencies"):
+            found = assess(case, steady, exact=not no_exact)
         for title, text in (*_inputs(case, numerics.title, chosen), *_results(data, steady, found)):
             print_line(title, text)
         return found
