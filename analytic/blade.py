@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import finite_number, not_negative, positive, shown
+from .input_checks import finite_array, finite_number, not_negative, positive, shown
 from .line import STRAIGHT, Line, Offset
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units
@@ -299,7 +299,7 @@ class Blade(Variations):
         >>> linear_modes(blade.with_hub_radius(1.0), omega=6.0, count=2).frequencies.round(3)
         array([5.356, 6.891])
         """
-        at, angle = np.asarray(x, dtype=float).ravel(), np.asarray(twist, dtype=float)
+        at, angle = finite_array("x", x, "m").ravel(), finite_array("twist", twist, "rad")
         S, M = np.asarray(stiffness, dtype=float), np.asarray(mass, dtype=float)
         if S.ndim == 2:
             S = stiffness_of(S, tension, shear)
@@ -344,7 +344,11 @@ class Blade(Variations):
         >>> print(f"{blade.mass:.3f} kg")
         3.024 kg
         """
-        materials = np.broadcast_arrays(youngs_modulus, density, np.asarray(x, dtype=float))
+        materials = np.broadcast_arrays(
+            finite_array("youngs_modulus", youngs_modulus, "Pa"),
+            finite_array("density", density, "kg/m^3"),
+            finite_array("x", x, "m"),
+        )
         sections = zip(shapes, *(one.tolist() for one in materials[:2]), strict=True)
         stiffness, mass = zip(
             *(shape.of_material(E, rho) for shape, E, rho in sections), strict=True

@@ -24,7 +24,7 @@ _SPEEDS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rad/s": 1.0}
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
-def _magnitude(name: str, value: object, unit: str) -> object:
+def bare(name: str, value: object, unit: str) -> object:
     """Return a quantity of a units library as its number in `unit`, anything else as it is."""
     own = getattr(value, "units", getattr(value, "unit", None))
     if own is None:
@@ -82,7 +82,7 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
-    value = _magnitude(name, value, unit)
+    value = bare(name, value, unit)
     # NumPy registers durations as numbers, and Python's float() takes none of them.
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
@@ -168,9 +168,9 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
 
 def float_array(name: str, values: object, unit: str = "") -> FloatArray:
     """Return numbers as `finite_array` does, for callers that look for NaN themselves."""
-    values = _magnitude(name, values, unit)
+    values = bare(name, values, unit)
     if isinstance(values, (list, tuple)):
-        values = [_magnitude(name, item, unit) for item in values]
+        values = [bare(name, item, unit) for item in values]
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged

@@ -108,7 +108,10 @@ class SectionShape(Described, ABC, abstract=True):
         ValueError
             If the shape does not tell all its lengths.
         """
-        E, rho = positive("youngs_modulus", youngs_modulus), positive("density", density)
+        E, rho = (
+            positive("youngs_modulus", youngs_modulus, "Pa"),
+            positive("density", density, "kg/m^3"),
+        )
         names = [field.name for field in fields(self) if field.name not in _NO_LENGTHS]
         if missing := [name for name in names if name not in self._given]:
             raise ValueError(f"{self!r} along a blade needs {' and '.join(missing)} [m]")
