@@ -152,6 +152,21 @@ class Grid:
             result[rows] += np.einsum("xp,xpn->xn", part, values[own])
         return np.asarray(result)
 
+    def interpolation(self, x: FloatArray) -> FloatArray:
+        """Return the matrix (places, points) from values at the points to those at `x`.
+
+        By the polynomial on each cell; the end of a cell belongs to the next one, but the last.
+        """
+        cell = np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.counts.size - 1)
+        result = np.zeros((x.size, self.points.size))
+        for row, k in enumerate(cell.tolist()):
+            count, first, start = self.counts[k], self._first[k], self.ends[k]
+            points, weights = gauss_points(int(count))
+            here = np.append(points, (x[row] - start) / (self.ends[k + 1] - start))
+            waves = axial_basis(int(count), here).slope
+            result[row, first : first + count] = weights * (waves[:-1] @ waves[-1])
+        return result
+
     def integral(self, x: FloatArray) -> FloatArray:
         """Return the matrix (places, points) from values at the points to integrals up to `x`."""
         cell, parts = self._inside(x)

@@ -74,9 +74,9 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, with the names of a run by `simulate`; a ForcedResponse, with its
-        stability and its backbone; a PlanarStability, or both it and its StabilityLimit, which
-        becomes attributes; a Campbell diagram.
+        A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too; a
+        ForcedResponse, with its stability and its backbone; a PlanarStability, or both it and its
+        StabilityLimit, which becomes attributes; a Campbell diagram.
 
     Returns
     -------
@@ -99,8 +99,10 @@ def dataset_of(*results: Any) -> xr.Dataset:
     >>> from rotbeam_exu import dataset_of
     >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
     >>> data = dataset_of(spin_up_response(Beam.reference(), spin_up, [0.0, 1.5, 3.0]))
-    >>> print(", ".join(f"{name} [{data[name].units}]" for name in data))
-    q [m], q_dot [m/s], tip_x [m], tip_y [m], angle [rad]
+    >>> print(*data)
+    q q_dot tip_x tip_y angle root_force_x root_force_y root_moment_z
+    >>> print(data.root_moment_z.long_name, data.root_moment_z.units)
+    bending moment at the root N m
     """
     first, *more = map(_described, results)
     for other in more:
@@ -119,6 +121,14 @@ def _(response: SpinUpResponse) -> xr.Dataset:
     theory = response.theory
     sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     angle = rippled(response.spin_up, response.loads).angle(response.time)
+    at_root = {}
+    if response.tip.shape[1] == 2:
+        root = response.section_loads([0.0])
+        at_root = {
+            "root_force_x": ("time", root.force[:, 0, 0], "tension at the root [N]"),
+            "root_force_y": ("time", root.force[:, 0, 1], "shear force at the root [N]"),
+            "root_moment_z": ("time", root.moment[:, 0], "bending moment at the root [N m]"),
+        }
     return dataset(
         {
             "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
@@ -126,6 +136,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
             "tip_x": ("time", response.tip[:, 0], "tip position x, inertial frame [m]"),
             "tip_y": ("time", response.tip[:, 1], "tip position y, inertial frame [m]"),
             "angle": ("time", angle, "rotation angle θ [rad]"),
+            **at_root,
         },
         {"time": (response.time, "time t [s]")},
         {

@@ -142,6 +142,8 @@ def _results(
         float(data["clamp_residual"].max()) / data.attrs["beam_length"],
     )
     drift, ripple = energy_drift(data)
+    about = [name for name in data.data_vars if str(name).startswith("root_moment_")]
+    largest = float((data[about].to_array() ** 2).sum("variable").max()) ** 0.5
     plane = [("plane", data.attrs["out_of_plane"])] if "out_of_plane" in data.attrs else []
     return [
         ("natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)"),
@@ -157,6 +159,7 @@ def _results(
             f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
         ),
         *found.lines(),
+        ("largest root moment", f"{largest:.6g} N m"),
         ("constraint residual", f"{worst:.2g} (worst)"),
         ("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy"),
         *plane,

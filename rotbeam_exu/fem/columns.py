@@ -66,12 +66,14 @@ def columns(
         ),
         "axial_strain": (strain, "1", "largest axial strain along the beam"),
     }  # fmt: skip
+    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], frame)
+    t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
+    if setting != 1.0:
+        across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
+        torque, unit, label = values["clamp_torque"]
+        values["clamp_torque"] = setting * torque + across, unit, label
     if case.exchanges_energy:
-        t = time / units.time
-        power = built.loading.power(t, angle, relative)
-        if built.chain.dissipation is not None:
-            power = power - built.chain.dissipation(coordinates, relative)
-        power -= units.time**2 * case.rotation.acceleration(time) * momentum
+        power = _power(built, t, angle, coordinates, relative) - rate_dot * momentum
         supplied = _integral(t, power)
         values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
     turn = model.sections(np.concatenate((trajectory.reference[None], coordinates)))
@@ -79,6 +81,7 @@ def columns(
         turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
         values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
+    scale |= {"N": units.energy / units.length, "N m": units.energy}
     run = xr.Dataset(
         {
             name: ("time", scale.get(unit, 1.0) * column, {"units": unit, "long_name": label})
@@ -96,6 +99,79 @@ def columns(
         label = "third axis of the sections, across their chord"
         run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
     return run.assign_coords(direction=["x", "y", "z"])
+
+
+def _clamp_loads(
+    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
+) -> dict[str, tuple[FloatArray, str, str]]:
+    """Return what the blade exerts on the clamp, by the constraints' Lagrange multipliers.
+
+    `root` (samples, n) has the root's coordinates in the frame of the clamp, `frame` its axes.
+    """
+    model, count = case.model, case.model.dimensions
+    onto = np.zeros_like(root)
+    onto[:, :count] = trajectory.multipliers[:, :count]
+    if case.frame == "inertial":
+        onto = model.turned(onto[:, None], -angle)[:, 0]
+    onto += trajectory.multipliers[:, count:] @ model.held(trajectory.reference[0])
+    force, moment = onto[:, :count] @ frame, model.root_moment(root, onto)
+    if model.leaves_plane:
+        moment = moment @ frame
+    kinds = (
+        ("force", "N", "xyz"[:count], force),
+        ("moment", "N m", "xyz"[-moment.shape[1] :], moment),
+    )
+    values = {
+        f"root_{kind}_{axis}": (column, unit, f"{kind} of the blade on the clamp, {axis}")
+        for kind, unit, axes, along in kinds
+        for axis, column in zip(axes, along.T, strict=True)
+    }
+    torque = -np.sum(onto * model.spun(root), axis=1)
+    values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
+    return values
+
+
+def _power(
+    built: RotatingBeam,
+    t: FloatArray,
+    angle: FloatArray,
+    coordinates: FloatArray,
+    relative: FloatArray,
+) -> FloatArray:
+    """Return the power (samples,) that loads bring, less what damping takes."""
+    power = built.loading.power(t, angle, relative)
+    if built.chain.dissipation is not None:
+        power = power - built.chain.dissipation(coordinates, relative)
+    return power
+
+
+def _torque_across(
+    built: RotatingBeam,
+    setting: float,
+    t: FloatArray,
+    angle: FloatArray,
+    coordinates: FloatArray,
+    relative: FloatArray,
+    rate: FloatArray,
+    rate_dot: FloatArray,
+) -> FloatArray:
+    """Return the torque of what holds a set blade in its plane of bending, (samples,).
+
+    d(s²w∫x²dm)/dt, and the moment c s²w²∫xy dm of the centrifugal forces along the clamp's line,
+    less that of the loads across the plane.
+    """
+    model, samples = built.model, rate.size
+    x, x_dot, turned = (
+        v.reshape(samples, -1)
+        for v in (coordinates * model.radial, relative * model.radial, model.spun(coordinates))
+    )
+    second, change, mixed = (np.sum((x @ built.mass) * v, axis=1) for v in (x, x_dot, turned))
+    along = rate_dot * second + 2.0 * rate * change + setting * rate**2 * mixed
+    lever = model.spun(coordinates * model.radial).reshape(samples, -1)
+    # Of a weight W in the plane of rotation cW acts in that of bending; s²W = (1 + c)(W - cW).
+    weight = built.loading.forces(t, angle, 1.0) - built.loading.forces(t, angle)
+    held = (1.0 + setting) * np.sum(lever * weight, axis=1)
+    return np.asarray((1.0 - setting**2) * along - held)
 
 
 def twist(turns: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The clamp and its prescribed rotation, in the inertial and in the rotating frame.
+"""The clamp: a body, or a prescribed rotation in the inertial and in the rotating frame.
 
 In the inertial frame the root's direction follows θ(t) of Eq. 1 by a rheonomic constraint. In the
 rotating frame the root stands still and the beam carries the inertial forces of the frame,
@@ -17,6 +17,7 @@ Sections with an inertia of their own are laminae in the plane of bending if slo
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,16 +31,130 @@ from .elements.formulation import Chain, Formulation
 from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
+Torque = Callable[[Any, float], float]
+"""Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""
 
-def hold_root(mbs: exudyn.MainSystem, chain: Chain, element: Formulation) -> None:
-    """Hold the root at its reference values: its place and its direction."""
+
+def set_state(
+    mbs: exudyn.MainSystem,
+    chain: Chain,
+    element: Formulation,
+    coordinates: FloatArray,
+    velocities: FloatArray,
+    *,
+    angle: float,
+    rate: float,
+    place: FloatArray | float = 0.0,
+    velocity: FloatArray | float = 0.0,
+) -> None:
+    """Start the nodes from what they have, (nodes, n), in a clamp at an angle and in motion."""
+    coordinates, velocities = element.turned(np.stack((coordinates, velocities)), np.full(2, angle))
+    coordinates = coordinates + angle * element.angles
+    velocities = velocities + rate * element.spun(coordinates)
+    coordinates[:, : element.dimensions] += place
+    velocities[:, : element.dimensions] += velocity
+    moved = coordinates - chain.reference(mbs)
+    for node, at, moving in zip(chain.nodes, moved, velocities, strict=True):
+        mbs.SetNodeParameter(node, "initialCoordinates", at)
+        mbs.SetNodeParameter(node, "initialVelocities", moving)
+
+
+def clamp_to_body(
+    mbs: exudyn.MainSystem,
+    chain: Chain,
+    element: Formulation,
+    marker: exudyn.MarkerIndex,
+    azimuth: float,
+) -> tuple[list[exudyn.ObjectIndex], Torque]:
+    """Join the root to the body of `marker`, at the axis; return the joint and its torque.
+
+    The blade starts with the body's place and velocity, as a part of it.
+    """
+    body = mbs.GetMarker(marker)
+    if body["markerType"] != "BodyRigid":
+        raise ValueError(
+            f"the marker of a clamp must be a MarkerBodyRigid, got a Marker{body['markerType']}: "
+            "add one to your hub, at its axis"
+        )
+    reference = chain.reference(mbs)
+    c, s, sections = math.cos(azimuth), math.sin(azimuth), element.sections(reference)
+    about, seat = np.eye(4), np.eye(4)
+    about[:2, :2] = [[c, -s], [s, c]]
+    seat[: element.dimensions, 3] = reference[0, : element.dimensions]
+    if sections is not None:
+        seat[:3, :3] = sections[0]
+    ends = (
+        items.MarkerBodyRigid(
+            bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ about @ seat
+        ),
+        items.MarkerNodeRigid(nodeNumber=chain.nodes[0]),
+    )
+    joint = mbs.AddObject(
+        items.ObjectJointGeneric(
+            markerNumbers=[mbs.AddMarker(end) for end in ends], constrainedAxes=element.joint
+        )
+    )
+    add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
+    mbs.Assemble()  # so that it knows where the marker is
+    kind = exudyn.OutputVariableType
+    turn, place, spin, velocity = (
+        np.array(mbs.GetMarkerOutput(marker, variable, exudyn.ConfigurationType.Initial))
+        for variable in (kind.RotationMatrix, kind.Position, kind.AngularVelocity, kind.Velocity)
+    )
+    if turn[8] < 1.0 - 1e-9:
+        raise ValueError(
+            "the blade begins in the global x-y plane, and the z axis of its marker is "
+            f"{turn[2::3].round(6)}: turn the marker by its localHT"
+        )
+    set_state(
+        mbs, chain, element, reference, np.zeros_like(reference),
+        angle=azimuth + math.atan2(turn[3], turn[0]), rate=float(spin[2]),
+        place=place[: element.dimensions], velocity=velocity[: element.dimensions],
+    )  # fmt: skip
+
+    def torque(mbs: Any, t: float) -> float:
+        # Exudyn reports multipliers: the moment on the blade but for a sign, the force on the body.
+        moment = seat[:3, :3] @ (
+            [-1.0, 1.0, 1.0] * np.array(mbs.GetObjectOutput(joint, kind.TorqueLocal))
+        )
+        force = seat[:3, :3] @ mbs.GetObjectOutput(joint, kind.ForceLocal)
+        return float((moment - np.cross(seat[:3, 3], force))[2])
+
+    return [joint], torque
+
+
+def torque_of(
+    mbs: exudyn.MainSystem,
+    chain: Chain,
+    element: Formulation,
+    constraints: Sequence[exudyn.ObjectIndex],
+    angle: Callable[[float], float],
+) -> Torque:
+    """Return the torque by which the constraints of the root, at `angle`, turn it."""
+    root, kind = chain.reference(mbs)[0], exudyn.OutputVariableType
+    place = np.eye(element.dimensions, root.size)
+
+    def torque(mbs: Any, t: float) -> float:
+        along = mbs.GetNodeOutput(chain.nodes[0], kind.Coordinates) + root
+        rows = np.vstack((place, element.clamp(root, angle(t))[0]))
+        multipliers = [np.atleast_1d(mbs.GetObjectOutput(one, kind.Force)) for one in constraints]
+        return -float(np.concatenate(multipliers) @ rows @ element.spun(along))
+
+    return torque
+
+
+def hold_root(
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation
+) -> list[exudyn.ObjectIndex]:
+    """Hold the root at its reference values, its place and its direction; return the constraint."""
     root = chain.reference(mbs)[0]
-    _hold(mbs, chain, np.vstack((np.eye(element.dimensions, root.size), element.held(root))))
+    rows = np.vstack((np.eye(element.dimensions, root.size), element.held(root)))
+    return [_hold(mbs, chain, rows)]
 
 
-def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> None:
+def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> exudyn.ObjectIndex:
     """Hold the root's coordinates at their reference values in the directions of `rows`."""
-    mbs.AddObject(
+    return mbs.AddObject(
         items.ObjectConnectorCoordinateVector(
             markerNumbers=_markers(mbs, chain),
             scalingMarker0=np.zeros((len(rows), 0)),
@@ -57,11 +172,15 @@ def _markers(mbs: exudyn.MainSystem, chain: Chain) -> list[exudyn.MarkerIndex]:
 
 def prescribe_rotation(
     mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation, radius: float
-) -> None:
-    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame)."""
+) -> list[exudyn.ObjectIndex]:
+    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame); return the constraints.
+
+    Their rows are those of the place, and then those of the direction.
+    """
     root = chain.reference(mbs)[0]
+    constraints = []
     if not radius:
-        _hold(mbs, chain, np.eye(element.dimensions, root.size))
+        constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
     # Each constraint holds a few coordinates, the same at every angle.
     rows_at_1 = _clamp(element, root, radius, 1.0)[0]
     held = [np.flatnonzero(row).tolist() for row in rows_at_1]
@@ -91,16 +210,21 @@ def prescribe_rotation(
             turn_to(t)
         return gradient
 
-    mbs.AddObject(
-        items.ObjectConnectorCoordinateVector(
-            markerNumbers=_markers(mbs, chain),
-            scalingMarker0=np.zeros((len(held), 3)),
-            scalingMarker1=np.zeros((len(held), root.size)),
-            constraintUserFunction=residual,
-            jacobianUserFunction=jacobian,
-        )
+    turning = items.ObjectConnectorCoordinateVector(
+        markerNumbers=_markers(mbs, chain),
+        scalingMarker0=np.zeros((len(held), 3)),
+        scalingMarker1=np.zeros((len(held), root.size)),
+        constraintUserFunction=residual,
+        jacobianUserFunction=jacobian,
     )
+    constraints.append(mbs.AddObject(turning))
+    reference = chain.reference(mbs)
+    set_state(
+        mbs, chain, element, reference, np.zeros_like(reference),
+        angle=rotation.angle(0.0), rate=rotation.rate(0.0),
+    )  # fmt: skip
     add_point_inertias(mbs, chain.nodes, chain.turning, lambda t: 0.0)
+    return constraints
 
 
 def _clamp(

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from analytic import AnyBlade
-from analytic.input_checks import whole_number
+from analytic.input_checks import finite_number, whole_number
 from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
+from ..runs.resolution import whole_steps
 from . import drive
-from .elements import Chain, Formulation, formulation, require_modeled
+from .elements import Chain, Formulation, formulation, require_joint, require_modeled
 from .frame import Frame
 from .lazily import exudyn, items
 from .loading import Loading
-from .solver import mass_matrix
+from .solver import mass_matrix, newton_tolerance, solver_settings
+from .units import Restated, Units
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,22 +35,32 @@ class RotatingBeam:
         Positions, to which forces and other bodies can be attached.
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
+    torque : callable
+        Torque [N m] that the clamp exerts on the blade about the axis of rotation, or with a
+        setting angle about the normal of the plane of bending: ``torque(mbs, t)`` in your own user
+        functions. `add_torque_sensor` stores it.
+    clamp : tuple
+        Constraints of the root, or its joint with the body.
     mass : csr_array
         Mass matrix over the coordinates of the nodes, root first, but for the inertia of the
         chain's turning nodes.
-    rotation : Rotation
-        Of the clamp, ripples of its speed included.
+    beam, elements, frame
+        As given.
     loading : Loading
         Loads and external damping.
     """
 
     model: Formulation
+    beam: AnyBlade
+    elements: int
+    frame: Frame
     chain: Chain
     root_marker: exudyn.MarkerIndex
     tip_marker: exudyn.MarkerIndex
     tip_sensor: exudyn.SensorIndex
+    torque: drive.Torque
+    clamp: tuple[exudyn.ObjectIndex, ...]
     mass: sparse.csr_array
-    rotation: Rotation
     loading: Loading
 
     @property
@@ -60,32 +73,72 @@ class RotatingBeam:
         """The elements, where they are Exudyn's."""
         return self.chain.bodies
 
+    def add_torque_sensor(self, mbs: exudyn.MainSystem) -> exudyn.SensorIndex:
+        """Add a sensor of the clamp's torque, stored in the sensor itself."""
+
+        def read(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
+            return [self.torque(mbs, t)]
+
+        return mbs.AddSensor(
+            items.SensorUserFunction(sensorUserFunction=read, storeInternal=True, writeToFile=False)
+        )
+
+    def solver_settings(
+        self, *, duration: float, step: float, every: int = 1
+    ) -> exudyn.SimulationSettings:
+        """Return settings for `mbs.SolveDynamic`, those of `simulate`: fixed steps, no files.
+
+        Newton stops at a force that is small for the blade. Exudyn's own settings ask for a
+        relative residual that round-off does not reach, and halve steps in vain.
+
+        Parameters
+        ----------
+        duration, step : float
+            In the system's unit of time; the one holds a whole number of the other.
+        every : int
+            Of how many steps sensors keep one.
+        """
+        units = Units.of(self.beam, step)
+        tolerance = newton_tolerance(units.beam(self.beam), self.elements)
+        return solver_settings(
+            whole_steps(duration, step), step, every, self.frame,
+            tolerance=units.energy / units.length * tolerance,
+            new_jacobians=self.model.new_jacobians, spectral_radius=self.model.spectral_radius,
+        )  # fmt: skip
+
 
 def add_rotating_beam(
     mbs: exudyn.MainSystem,
     beam: AnyBlade,
-    rotation: Rotation,
+    clamp: Rotation | exudyn.MarkerIndex,
     *,
+    azimuth: float = 0.0,
     element: str | Formulation = "cable",
     elements: int = 16,
     frame: Frame = "inertial",
     loads: Sequence[Load] = (),
 ) -> RotatingBeam:
-    """Put a beam whose clamped end follows `rotation` into an Exudyn system.
+    """Put a beam with a rotating clamp into an Exudyn system.
 
-    The system is not assembled yet. The beam lies along its x axis, clamped at the origin or on its
-    hub, straight and at rest. It bends in the direction y, out of the plane of rotation by the
-    setting angle. `simulate` builds its model by this.
+    The system is to be assembled afterwards. The beam lies along its x axis, turned by `azimuth`,
+    clamped at the origin or on its hub, straight and at rest in the clamp. It bends in the
+    direction y, out of the plane of rotation by the setting angle. `simulate` builds its model by
+    this.
 
     Parameters
     ----------
     mbs : exudyn.MainSystem
     beam : Beam or Blade
         In the units of the system, SI as a rule.
-    rotation : SpinUp, FourierRamp, SpeedTable or SteadyRotation
-        Angle of the clamp over time.
+    clamp : SpinUp, FourierRamp, SpeedTable, SteadyRotation or MarkerIndex
+        Angle over time; or a MarkerBodyRigid on a body of yours, such as a hub that turns freely or
+        by a drive. Its origin is the axis, its z axis at first the global one. The hub's radius is
+        that of the blade, and the blade starts moving with the body.
+    azimuth : float
+        Angle of the clamp's line [rad] before it turns; from the x axis of a marker.
     element, elements, frame, loads
-        As in `simulate`; loads in the units of the system.
+        As in `simulate`; loads in the units of the system. At a marker the frame is inertial, and
+        loads and external damping are Exudyn's own, on `bodies` or `nodes`.
 
     Raises
     ------
@@ -103,22 +156,40 @@ def add_rotating_beam(
     >>> mbs.Assemble()
     >>> len(numbers.nodes), len(numbers.bodies), numbers.tip_marker
     (9, 8, 3)
+    >>> mbs.SolveDynamic(numbers.solver_settings(duration=0.5, step=5e-3))
+    True
     """
     model, elements = formulation(element), whole_number("elements", elements)
     require_modeled(beam, model, frame)
-    loads = loads_in_time(loads)
-    rotation = rippled(rotation, loads)
+    loads, azimuth = loads_in_time(loads), finite_number("azimuth", azimuth)
+    on_body = isinstance(clamp, exudyn.MarkerIndex)
+    if on_body:
+        require_joint(model)
+        if loads or beam.damping.external or frame != "inertial":
+            raise ValueError(
+                "at a marker the angle of the clamp is not known beforehand: take "
+                "frame='inertial', a blade without external damping, and for loads Exudyn's own "
+                "on bodies or nodes"
+            )
+    elif not hasattr(clamp, "angle"):
+        raise TypeError(f"clamp must be a rotation, or a marker that AddMarker gave, got {clamp!r}")
     chain = model.lay(mbs, beam, elements)
     mass = mass_matrix(model, beam, elements)
-    if frame == "inertial":
-        drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
-    else:
-        drive.hold_root(mbs, chain, model)
-        drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
-        model.add_spin_forces(mbs, chain, beam, rotation)
     loading = Loading(model, beam, elements, mass, loads)
-    if loading:
-        loading.add(mbs, chain, rotation, frame)
+    if on_body:
+        constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
+    else:
+        rotation = Restated(rippled(clamp, loads), azimuth=azimuth)
+        if frame == "inertial":
+            constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
+        else:
+            constraints = drive.hold_root(mbs, chain, model)
+            drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
+            model.add_spin_forces(mbs, chain, beam, rotation)
+        seen = rotation.angle if frame == "inertial" else lambda t: 0.0
+        torque = drive.torque_of(mbs, chain, model, constraints, seen)
+        if loading:
+            loading.add(mbs, chain, rotation, frame)
     root, tip = (
         mbs.AddMarker(items.MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1)
     )
@@ -131,6 +202,7 @@ def add_rotating_beam(
         )
     )
     return RotatingBeam(
-        model=model, chain=chain, root_marker=root, tip_marker=tip, tip_sensor=sensor, mass=mass,
-        rotation=rotation, loading=loading,
+        model=model, beam=beam, elements=elements, frame=frame, chain=chain, root_marker=root,
+        tip_marker=tip, tip_sensor=sensor, torque=torque, clamp=tuple(constraints),
+        mass=mass, loading=loading,
     )  # fmt: skip

@@ -22,12 +22,13 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..runs.check import SimulationError, check_run, remedy
 from ..runs.versions import versions
+from . import drive
 from .case import RunCase
 from .columns import columns
 from .elements import Formulation
 from .frame import Frame
 from .rotating_beam import add_rotating_beam
-from .solver import Sensors, exudyn_system, round_off, solve, solver_settings
+from .solver import Sensors, described, exudyn_system, solve
 from .units import Units
 
 
@@ -91,9 +92,12 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. In space also w [m] and w_dot [m/s] of the tip out of the plane,
-        normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section about
-        its normal; axis [m], the places of the nodes, and upright, the third axes of their
+        jacobi_energy changes. Forces of the clamp's constraints: root_force_x (tension),
+        root_force_y [N] and root_moment_z [N m] of the blade on the clamp, in the clamp's frame;
+        clamp_torque [N m] of the clamp on the blade about the axis of rotation. In space also
+        root_force_z, root_moment_x, root_moment_y; w [m] and w_dot [m/s] of the tip out of the
+        plane, normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section
+        about its normal; axis [m], the places of the nodes, and upright, the third axes of their
         sections, (time, node, direction) in that frame. The attributes hold every input, versions,
         settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
         is known and planar orbits as large as the motion after the ramp leave the plane.
@@ -138,21 +142,19 @@ def run_case(
             mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
-        sensors = Sensors(mbs, built.chain)
+        sensors = Sensors(mbs, built.chain, built.clamp)
         coordinates, velocities = _start(case, units, built.chain.reference(mbs), initial_state)
-        if case.frame == "inertial":
-            velocities = velocities + built.rotation.rate(0.0) * model.spun(coordinates)
-        moved = coordinates - built.chain.reference(mbs)
-        for node, at, moving in zip(built.nodes, moved, velocities, strict=True):
-            mbs.SetNodeParameter(node, "initialCoordinates", at)
-            mbs.SetNodeParameter(node, "initialVelocities", moving)
-        mbs.Assemble()
-        steps, every = case.steps_and_sampling
-        settings, described = solver_settings(
-            steps, case.step / units.time, every, case.frame,
-            round_off=round_off(beam, case.elements), new_jacobians=model.new_jacobians,
-            spectral_radius=model.spectral_radius,
+        inertial = case.frame == "inertial"
+        drive.set_state(
+            mbs, built.chain, model, coordinates, velocities,
+            angle=case.rotation.angle(0.0) if inertial else 0.0,
+            rate=units.time * case.rotation.rate(0.0) if inertial else 0.0,
         )  # fmt: skip
+        mbs.Assemble()
+        step, every = case.step / units.time, case.steps_and_sampling[1]
+        settings = built.solver_settings(
+            duration=case.steps_and_sampling[0] * step, step=step, every=every
+        )
         started = clock.perf_counter()
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
@@ -161,7 +163,7 @@ def run_case(
     run.attrs = {
         **case.describe(),
         "divergence_speed": model.divergence_speed(case.beam, case.elements),
-        "settings": json.dumps(described),
+        "settings": json.dumps(described(settings, case.frame, every)),
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -45,6 +45,15 @@ def static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
     return settings
 
 
+def newton_tolerance(beam: AnyBlade, elements: int) -> float:
+    """Return the residual force at which Newton stops, for a beam of unit length.
+
+    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
+    the round-off is never met, whereupon adaptive stepping halves steps silently.
+    """
+    return max(_TOLERANCE, round_off(beam, elements))
+
+
 def round_off(beam: AnyBlade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
@@ -75,40 +84,43 @@ def solver_settings(
     every: int,
     frame: Frame,
     *,
-    round_off: float,
+    tolerance: float,
     new_jacobians: bool = False,
     spectral_radius: float = 0.9,
-) -> tuple[exudyn.SimulationSettings, dict[str, Any]]:
-    """Solver settings, and the same as a plain record, all in the beam's units.
+) -> exudyn.SimulationSettings:
+    """Return settings of fixed steps, in which Newton stops at a force `tolerance`.
 
-    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
-    the round-off is never met, whereupon adaptive stepping halves steps silently: Newton stops at
-    an absolute force. In the rotating frame each iteration calls back into Python, and a new
-    Jacobian for each step saves iterations; so it does where an element asks for `new_jacobians`.
-    An element may also ask for another `spectral_radius` in the inertial frame.
+    In the rotating frame each iteration calls back into Python, and a new Jacobian for each step
+    saves iterations; so it does where an element asks for `new_jacobians`. An element may also ask
+    for another `spectral_radius` in the inertial frame.
     """
-    described: dict[str, Any] = {
-        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
-        "spectral_radius": spectral_radius if frame == "inertial" else 1.0,
-        "relative_tolerance": 1e-14,
-        "absolute_tolerance": max(_TOLERANCE, round_off),
-        "sample_every": every,
-    }
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
     integration.endTime = steps * step
     integration.numberOfSteps = steps
     integration.adaptiveStep = False
-    integration.generalizedAlpha.spectralRadius = described["spectral_radius"]
-    integration.newton.relativeTolerance = described["relative_tolerance"]
-    integration.newton.absoluteTolerance = described["absolute_tolerance"]
+    integration.generalizedAlpha.spectralRadius = spectral_radius if frame == "inertial" else 1.0
+    integration.newton.relativeTolerance = 1e-14
+    integration.newton.absoluteTolerance = tolerance
     integration.newton.modifiedNewtonJacUpdatePerStep = new_jacobians or frame == "rotating"
     integration.verboseMode = 0
     settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False
     # Exactly the interval: a little under it, samples would drift off the grid.
     settings.solution.sensors.writePeriod = every * step
-    return settings, described
+    return settings
+
+
+def described(settings: exudyn.SimulationSettings, frame: Frame, every: int) -> dict[str, Any]:
+    """Return what a run says of its settings, in the beam's units."""
+    integration = settings.timeIntegration
+    return {
+        "solver": "GeneralizedAlpha" if frame == "inertial" else "trapezoidal rule",
+        "spectral_radius": integration.generalizedAlpha.spectralRadius,
+        "relative_tolerance": integration.newton.relativeTolerance,
+        "absolute_tolerance": integration.newton.absoluteTolerance,
+        "sample_every": every,
+    }
 
 
 def solve(
@@ -169,6 +181,8 @@ class Trajectory:
         Reference values included.
     reference : ndarray (nodes, n)
     elastic_energy : ndarray (samples,)
+    multipliers : ndarray (samples, constraints)
+        Lagrange multipliers of the clamp: of the root's place, then of its direction.
     """
 
     time: FloatArray
@@ -176,12 +190,15 @@ class Trajectory:
     velocities: FloatArray
     reference: FloatArray
     elastic_energy: FloatArray
+    multipliers: FloatArray
 
 
 class Sensors:
-    """Coordinates and velocities of all nodes, and the elastic energy, sampled in C++."""
+    """Coordinates and velocities of all nodes, energy and the clamp's forces, sampled in C++."""
 
-    def __init__(self, mbs: exudyn.MainSystem, chain: Chain) -> None:
+    def __init__(
+        self, mbs: exudyn.MainSystem, chain: Chain, clamp: Sequence[exudyn.ObjectIndex]
+    ) -> None:
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
@@ -196,6 +213,10 @@ class Sensors:
         self._elastic = [
             mbs.AddSensor(items.SensorBody(bodyNumber=body, outputVariableType=energy, **kept))
             for body in chain.bodies
+        ]
+        self._clamp = [
+            mbs.AddSensor(items.SensorObject(objectNumber=o, outputVariableType=kind.Force, **kept))
+            for o in clamp
         ]
 
     def read(self) -> Trajectory:
@@ -212,4 +233,5 @@ class Sensors:
             velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
             reference=self._reference,
             elastic_energy=elastic,
+            multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
         )

@@ -54,7 +54,7 @@ class Units:
 
     def rotation(self, rotation: Rotation) -> Rotation:
         """Return the rotation over time in these units."""
-        return _Rescaled(rotation, self.time)
+        return Restated(rotation, unit=self.time)
 
     def state(self, state: BeamState) -> BeamState:
         """Return the state in these units; slopes and angles have none."""
@@ -68,17 +68,21 @@ class Units:
 
 
 @dataclass(frozen=True)
-class _Rescaled:
-    """A rotation whose time is counted in units of `unit` [s]."""
+class Restated:
+    """A rotation whose time is counted in units of `unit` [s], from another angle on [rad]."""
 
     rotation: Rotation
-    unit: float
+    unit: float = 1.0
+    azimuth: float = 0.0
 
     def angle(self, t: Any) -> Any:
-        return self.rotation.angle(self.unit * t)
+        """Return the angle [rad] at `t`."""
+        return self.azimuth + self.rotation.angle(self.unit * t)
 
     def rate(self, t: Any) -> Any:
+        """Return its rate."""
         return self.unit * self.rotation.rate(self.unit * t)
 
     def acceleration(self, t: Any) -> Any:
+        """Return its acceleration."""
         return self.unit**2 * self.rotation.acceleration(self.unit * t)

@@ -59,8 +59,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
     `Blade.from_shapes`, or the name of a `file` that `blade_of_csv` reads; [blade.damping] ratio,
-    of mode 1 in the plane at rest, or bending [s], axial [s] and external [kg/(m s)], relative to the turning
-    frame and not of point masses, each zero where it is not given.
+    of mode 1 in the plane at rest, or bending [s], axial [s] and external [kg/(m s)], relative to
+    the turning frame and not of point masses, each zero where it is not given.
 
     Raises
     ------

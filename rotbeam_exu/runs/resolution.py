@@ -47,6 +47,15 @@ def checked_steps(
             f"duration {duration:g} s ends before the steady rotation, which begins at "
             f"ramp_time {ramp_time:g} s; take a longer duration"
         )
+    steps = whole_steps(duration, step)
+    require_stretch(beam)
+    require_resolved_ramp(ramp_time, step)
+    require_feasible(elements, steps)
+    return steps, sampling(beam, omega, steps, step, driven)
+
+
+def whole_steps(duration: float, step: float) -> int:
+    """Return how many steps a duration has, or refuse a broken number of them."""
     steps = round(duration / step)
     if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
         steps = max(steps, 1)
@@ -54,10 +63,7 @@ def checked_steps(
             f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step of "
             f"{duration / steps:.12g} s or a duration of {steps * step:.12g} s"
         )
-    require_stretch(beam)
-    require_resolved_ramp(ramp_time, step)
-    require_feasible(elements, steps)
-    return steps, sampling(beam, omega, steps, step, driven)
+    return steps
 
 
 def sampling(

@@ -73,6 +73,31 @@ def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
         own_part = getattr(other, name)[:, own[:, None], own]
         assert own_part == pytest.approx(getattr(one, name), abs=1e-11)
     assert model.residual(*X, w, w_dot)[:, own] == pytest.approx(one.residual, abs=1e-12)
+    places = np.array([0.0, 0.4, 1.0])
+    force, moment = model.section_loads(places, *X, w, w_dot)
+    planar_force, planar_moment = planar.section_loads(places, *x, w, w_dot)
+    scale = np.abs(planar_force).max()
+    assert force[..., :2] == pytest.approx(planar_force, abs=1e-10 * scale)
+    assert moment[..., 2] == pytest.approx(planar_moment, abs=1e-10 * scale)
+    assert max(np.abs(force[..., 2]).max(), np.abs(moment[..., :2]).max()) < 1e-13
+
+
+def test_loads_of_the_sections_are_those_of_their_strains():
+    """All six of a rotating blade that has all there is but point masses, by the section's law."""
+    model = space(
+        replace(ALL, masses=(), body_offsets=()),
+        Theory(shear=0.3, rotary_inertia=True, trapeze=False), bending=14, torsion=12, axial=12,
+    )  # fmt: skip
+    steady = SpaceBlade(model, 2.0)
+    q, x = steady.equilibrium[None], np.array([0.0, 0.2, 0.5, 0.9])
+    found = np.concatenate(steady.section_loads(x, q, 0.0 * q, 0.0 * q), axis=-1)[0]
+    functions, at = model.functions, model.functions.at(x)
+    strains = np.concatenate((at.gamma @ q[0], at.K @ q[0]))
+    turned = functions.blade.section_frames(x)
+    law = np.linalg.solve(functions._flexibility(x), strains.T[..., None])[..., 0]
+    law = np.einsum("jip,pkj->pki", turned, law.reshape(-1, 2, 3)).reshape(-1, 6)
+    # The law's are projected on functions, those by d'Alembert are not.
+    np.testing.assert_allclose(found, law, atol=1e-6 * np.abs(law).max())
 
 
 @pytest.mark.parametrize("theory", THEORIES)

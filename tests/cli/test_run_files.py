@@ -181,6 +181,10 @@ def test_the_reference_is_the_exact_spin_up(call, tmp_path):
     for name in ("q", "q_dot", "tip_x", "tip_y", "angle"):
         there = np.interp(data["time"], run["time"], run[name])
         assert data[name].to_numpy() == pytest.approx(there, abs=1e-3)
+    for name in ("root_force_x", "root_force_y", "root_moment_z"):
+        there = np.interp(data["time"], run["time"], run[name])
+        largest = np.abs(there).max()
+        assert data[name].to_numpy() == pytest.approx(there, abs=1e-3 * largest)
     assert data.attrs["error"] <= 1e-6
     code, _, error = call("reference", *quick[:6], "--samples", "8", "-o", tmp_path)
     assert code == 2

@@ -26,7 +26,7 @@ def test_the_script_is_the_command_that_prints_a_summary_and_writes_four_files(
     printed = capsys.readouterr()
     for word in (
         "natural frequency", "steady amplitude", "steady frequency", "exact ω_n", "exact ω_NL",
-        "nonlinear effect", "constraint residual",
+        "nonlinear effect", "largest root moment", "constraint residual",
         "energy drift", "wall time", "verdict               checks passed",
     ):  # fmt: skip
         assert word in printed.out

@@ -114,6 +114,14 @@ def test_blade_in_exudyn(run):
     assert run("blade_in_exudyn")["pull"][-100:].mean() == pytest.approx(8.2, rel=0.25)
 
 
+def test_hub_with_blades(run):
+    found = run("hub_with_blades")
+    into_blades = sum(np.trapezoid(torque, found["time"]) for torque in found["torques"])
+    # The motor's impulse; 20 ms between the samples leave 5e-5 of it.
+    momentum = found["inertia"] * found["speed"][-1] + into_blades
+    assert momentum == pytest.approx(found["impulse"], rel=1e-4)
+
+
 def test_softening_map(run):
     found = run("softening_map")
     # Another code's 3.59302.

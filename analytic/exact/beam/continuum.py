@@ -264,6 +264,31 @@ class Continuum(Kinematics):
         at = self._fields(q, q_dot, q_ddot, rate, 0.0, None)
         return -at.force.real / self.weights
 
+    def section_loads(
+        self,
+        x: FloatArray,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: ComplexArray | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return N and Q (samples, places, 2) and M (samples, places) at `x`, by d'Alembert.
+
+        Of all inertia and all loads beyond, in the section's axes.
+        """
+        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
+        if self._turns:
+            along, dj = self.blade.turning(2 * self._across.a_panel + 1)
+            euler = np.asarray(self.blade.setting * np.asarray(rate_dot))[..., None]
+            spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
+            moment = moment + (spin_rate * dj) @ self.grid.integral(along)
+        onto = -self.grid.interpolation(x).T / self.weights[:, None]
+        force = at.force @ onto
+        return np.stack((force.real, force.imag), axis=-1), moment @ onto
+
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.
 

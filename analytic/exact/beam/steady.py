@@ -61,6 +61,13 @@ class AtConstantRate(Discretized):
         tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate, push=self.push)
         return tangent
 
+    def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
+        found: tuple[FloatArray, FloatArray] = self.model.section_loads(
+            x, *state, self.rate, push=self.push
+        )
+        return found
+
     def potential(self, q: FloatArray) -> FloatArray:
         """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
         return np.asarray(self.model.amended_potential(q, self.rate))

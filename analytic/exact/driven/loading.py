@@ -146,3 +146,8 @@ class DrivenBlade(Discretized):
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
         return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
+
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
+        q, q_dot, q_ddot, phase, frequency = state
+        return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))

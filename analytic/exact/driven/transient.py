@@ -34,16 +34,18 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 class BladeMotion(NamedTuple):
     """The tip's place, rate and twist (times, ...), and places (times, points, ...), without units.
 
-    In the rotating frame: complex numbers in the plane, three components in space.
+    In the rotating frame: complex numbers in the plane, three components in space. `state` has q,
+    q̇ and q̈, (3, times, n).
     """
 
     tip: Any
     tip_rate: Any
     twist: FloatArray
     axis: Any
+    state: FloatArray
 
 
-def _drive(
+def drive(
     beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
 ) -> Callable[[FloatArray], dict[str, Any]]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
@@ -77,12 +79,13 @@ def integrated(
     not swing, in the state `q` (n,).
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
-    drive = _drive(beam, rotation, loads, model)
+    driven_at = drive(beam, rotation, loads, model)
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     z = np.repeat(model.tip(q[None]), time.size, axis=0)
     z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
     axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
+    state = np.repeat(np.stack((q, 0.0 * q, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None
     # Tangents of the steps before are tried until they have failed more often than they served.
     credit = _CREDIT if model.has_dear_tangent else 0
@@ -94,7 +97,7 @@ def integrated(
         guesses = [np.broadcast_to(acceleration[-1], acceleration.shape)]
         if previous:
             guesses.insert(0, method.values(1.0 + method.nodes * h / previous) @ acceleration)
-        found, driven = None, drive(stages)
+        found, driven = None, driven_at(stages)
         if not math.isclose(h, previous):
             factors = None
         residual = partial(model.residual, **driven)
@@ -115,16 +118,18 @@ def integrated(
         if factors is not None:
             credit += 1 if found.factors is factors else -1
         factors = found.factors if credit > 0 else None
-        inside = slice(*np.searchsorted(time, (begin, end), side="right"))
+        before = -np.inf if begin == grid[0] else begin  # the first step has its start as well
+        inside = slice(*np.searchsorted(time, (before, end), side="right"))
         at = (time[inside] - begin) / (end - begin)
         if at.size:
             onto = h * method.integral(at)
             velocities = q_dot + onto @ acceleration
             positions = q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration)
+            state[:, inside] = positions, velocities, method.values(at) @ acceleration
             z[inside] = model.tip(positions)
             z_dot[inside] = model.tip_rate(positions, velocities)
             twist[inside] = model.tip_turn(positions)
             axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return BladeMotion(z, z_dot, twist, axis)
+    return BladeMotion(z, z_dot, twist, axis, state)

@@ -14,6 +14,7 @@ from ...beam import AnyBlade
 from ...input_checks import finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
+from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.state import BeamState
 from ..beam.steady import orbit_state
 
@@ -100,6 +101,16 @@ class OrbitSet:
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
         z = length * orbit.system.model.axis(q, at)
         return z.real, z.imag
+
+    def section_loads(self, i: int, x: ArrayLike, phase: ArrayLike) -> SectionLoads:
+        """Return force and moment in the sections at `x` [m] of orbit `i` at phases [rad].
+
+        The first dimension of both is that of the phases.
+        """
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        phases = finite_values("phase", phase, "rad")
+        state = (*orbit.coordinates(phases), *orbit.drive(phases))
+        return in_newtons(self.beam, at, orbit.system.section_loads(at, *state))
 
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:

@@ -187,6 +187,30 @@ class SpaceContinuum:
         _, force, moment = self._forces(at, motion, push)
         return self._work(at, q, q_dot, force, moment)
 
+    def section_loads(
+        self,
+        x: FloatArray,
+        q: FloatArray,
+        q_dot: FloatArray,
+        q_ddot: FloatArray,
+        rate: float | FloatArray,
+        rate_dot: float | FloatArray = 0.0,
+        push: FloatArray | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in the section's axes, each (samples, places, 3).
+
+        By d'Alembert, of all inertia and all loads beyond.
+        """
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
+        onto = self.functions.grid.interpolation(x).T / self.weights[:, None]
+        sections = self.blade.section_frames(x)[:, :, None]
+        force, moment = (
+            np.moveaxis(turned_back(sections, turned_back(at.frame, one) @ onto), 0, -1)
+            for one in self._forces(at, motion, push)[1:]
+        )
+        return force, moment
+
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
     ) -> FloatArray:

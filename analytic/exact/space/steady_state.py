@@ -13,6 +13,7 @@ from ...input_checks import finite_array, points_of_beam, rotation_speed
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..beam.section_loads import SectionLoads, in_newtons
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 
@@ -53,6 +54,14 @@ class SteadyState:
         return np.asarray(
             self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
         )
+
+    def section_loads(self, x: ArrayLike) -> SectionLoads:
+        """Return force and moment in the sections at `x` [m], each (points, 3)."""
+        at = points_of_beam("x", x, self.blade.length)
+        state = self._steady.equilibrium[None]
+        still = np.zeros_like(state)
+        force, moment = self._steady.section_loads(at, state, still, still)
+        return in_newtons(self.blade, at, (force[0], moment[0]))
 
 
 def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:

@@ -106,6 +106,15 @@ def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial
         )
 
 
+def require_joint(model: Formulation) -> None:
+    """Refuse a formulation whose root no joint of Exudyn's holds."""
+    if not model.joint:
+        raise ValueError(
+            f"no joint clamps element {model.name!r} to the marker of a body: take "
+            f"{_any_of(lambda cls: bool(cls.joint))}, or a prescribed rotation"
+        )
+
+
 def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
     names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls) and not cls.leaves_plane]
     return f"{', '.join(names[:-1])} or {names[-1]}"
@@ -114,5 +123,5 @@ def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
 __all__ = [
     "ALIASES", "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
     "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
-    "require_modeled",
+    "require_joint", "require_modeled",
 ]  # fmt: skip

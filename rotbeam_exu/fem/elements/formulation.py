@@ -101,6 +101,8 @@ class Formulation(Described, abstract=True):
     """The vector a, (n,): one for coordinates that are angles of the section, else zero."""
     clamped: ClassVar[tuple[int, ...]]
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
+    joint: ClassVar[tuple[int, ...]] = ()
+    """Axes that a GenericJoint of the root with a rigid body holds; none if it has no frame."""
 
     @property
     def order(self) -> float | None:
@@ -193,6 +195,15 @@ class Formulation(Described, abstract=True):
         self, mbs: exudyn.MainSystem, chain: Chain, beam: Any, rotation: Rotation
     ) -> None:
         """Add the inertial forces of the rotating frame on coordinates without constant mass."""
+
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment about the root of a force on its coordinates, both (samples, n).
+
+        About z, (samples, 1), in space about all axes, (samples, 3).
+        """
+        turning = slice(self.dimensions, None)
+        about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
+        return np.asarray(about_z)
 
     def sections(self, coordinates: FloatArray) -> FloatArray | None:
         """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""

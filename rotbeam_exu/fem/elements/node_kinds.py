@@ -42,6 +42,7 @@ class SlopeNodes(Formulation, abstract=True):
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), QUARTER_TURN)
     angles: ClassVar[FloatArray] = np.zeros(4)
     clamped: ClassVar[tuple[int, ...]] = (3,)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and slopes, (x + u, v, 1 + u', v') in the plane, and their rates."""
@@ -61,6 +62,11 @@ class SpaceSlopeNodes(SlopeNodes, abstract=True):
     quarter_turn: ClassVar[FloatArray] = np.kron(np.eye(2), ABOUT_Z)
     angles: ClassVar[FloatArray] = np.zeros(6)
     clamped: ClassVar[tuple[int, ...]] = (4, 5)
+    joint: ClassVar[tuple[int, ...]] = ()
+
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment of a force on the slope."""
+        return np.cross(root[:, 3:], force[:, 3:])
 
 
 class SectionSlopeNodes(Formulation, abstract=True):
@@ -89,6 +95,7 @@ class AngleNodes(Formulation, abstract=True):
     quarter_turn: ClassVar[FloatArray] = ABOUT_Z
     angles: ClassVar[FloatArray] = np.array([0.0, 0.0, 1.0])
     clamped: ClassVar[tuple[int, ...]] = (2,)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and the angle of the section, and their rates."""
@@ -109,6 +116,7 @@ class FrameNodes(Formulation, abstract=True):
     )
     pace: ClassVar[FloatArray] = np.array(3 * [1.0] + 4 * [0.5])
     angles: ClassVar[FloatArray] = np.zeros(7)
+    joint: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 1)
 
     def setting(self, blade: AnyBlade) -> float:
         """All turns about z."""
@@ -125,6 +133,13 @@ class FrameNodes(Formulation, abstract=True):
         a, b, c, d = root[3:]
         across = np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
         return np.hstack((np.zeros((3, 3)), across))
+
+    def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
+        """Return the moment of a force on p, which a rotation δα changes by ½ δα ∘ p."""
+        p, onto = root[:, 3:], force[:, 3:]
+        scalar, vector = p[:, :1], p[:, 1:]
+        about = scalar * onto[:, 1:] - onto[:, :1] * vector + np.cross(vector, onto[:, 1:])
+        return np.asarray(0.5 * about)
 
     def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
         """Positions and p of a section turned by φ in the plane and tilted out of it by β.

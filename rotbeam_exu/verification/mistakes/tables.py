@@ -47,7 +47,7 @@ _STEADY_SIGNS = {
     "sign of the precone": ("the precone tilts the blade down: it lifts it", (-1.0, -1.0, 1.0)),
     "sign of the blade's twist": (f"the blade's {TWISTED}", (-1.0, 1.0, -1.0)),
 }
-"""What a half turn about the blade, and a mirror, make of a steady tip."""
+"""Signs of a steady tip after a half turn about the blade, and after a mirror."""
 
 
 def mistake_in_frequencies(
