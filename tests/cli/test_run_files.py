@@ -196,7 +196,7 @@ def test_the_motion_of_the_file_is_that_of_ramp_and_stability(call, config, monk
     seen = []
 
     def stopped(_, omega, *__, **options):
-        seen.append((omega, options.get("element"), options.get("elements")))
+        seen.append((omega, getattr(options.get("element"), "name", None), options.get("elements")))
         raise KeyboardInterrupt
 
     monkeypatch.setattr(comparison, "residual", stopped)
