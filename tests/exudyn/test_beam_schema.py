@@ -15,7 +15,7 @@ from tests.exudyn.test_stations_file import SHAPES
 
 ROOT = Path(__file__).parents[2]
 TYPES = {"number": (int, float), "integer": int, "string": str, "array": list, "object": dict}
-FILES = sorted((ROOT / "models").rglob("*.toml"))
+FILES = sorted((ROOT / "models" / "blades").glob("*.toml"))
 PAGES = sorted(p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts)
 BLOCKS = [
     text
