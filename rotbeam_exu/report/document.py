@@ -25,7 +25,7 @@ SCHEMA = "rotbeam judgement 2"
 
 
 def _versions() -> dict[str, str]:
-    names = ("numpy", "scipy", "xarray")
+    names = ("numpy", "scipy")
     own = {"rotbeam_exu": version("rotbeam-exu"), "python": platform.python_version()}
     return {**own, **{name: version(name) for name in names}}
 

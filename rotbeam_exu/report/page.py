@@ -6,6 +6,7 @@ import json
 import math
 import re
 from importlib import resources
+from importlib.util import find_spec
 
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
@@ -19,6 +20,9 @@ from .latex import BIBTEX, latex_table
 
 TITLE = "rotbeam judgement"
 """Beginning of each page's title, by which a page is known."""
+
+_DRAWS = all(find_spec(name) for name in ("matplotlib", "xarray"))
+"""Whether figures can be drawn: who judges only may do without."""
 
 _PIXELS = 1.75
 """Pixels to a point of a figure: its letters are then as large as the text's."""
@@ -53,7 +57,8 @@ def report_page(record: Record) -> str:
         quantities=[
             name for name in THRESHOLDS if any(name in of for of in found.findings.values())
         ],
-        figures={name: _figures(name, record) for name in found.findings},
+        draws=_DRAWS,
+        figures={name: _figures(name, record) if _DRAWS else [] for name in found.findings},
         runs=_runs(record),
         zip=zip,
         bibtex=BIBTEX,

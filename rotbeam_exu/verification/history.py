@@ -11,13 +11,14 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
+from analytic.threads import one_thread
 
-from ..runs.oscillation import SteadyOscillation, oscillation_of
+from ..runs.oscillation import NoOscillationError, SteadyOscillation, oscillation_of
 from .cases import TIP, Case
 from .convergence import Convergence, converged
 from .outcomes import Finding, Outcome, found_of
 from .references import Reference
-from .submission import Declaration, Run
+from .submission import Declaration, Frequency, Run
 
 HISTORY_FLOOR = 1e-6
 """Changes of q(t), over max|q|, in which no order is looked for: a ten-thousandth of what passes,
@@ -30,6 +31,15 @@ over ten cycles."""
 COPY = 1e-7
 """Difference from the reference over max|q| below which q(t) is taken for a copy: no mesh reaches a
 hundred-thousandth of what passes."""
+
+FREE_FOR = 20.0
+"""Length of a free vibration [s]: nine turns or more of the first mode."""
+
+FREE_SWING = 0.01
+"""Largest |q|/L of a free vibration: its frequency is within 3e-6 of the linear one."""
+
+FREE_KNOWN = 2e-5
+"""Relative uncertainty of the frequency of a free vibration: a tenth of what passes."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -180,6 +190,48 @@ class Histories:
             return oscillation_of(time, q / case.blade.length, case.ramp_time, first)
         except ValueError as error:
             return str(error)
+
+
+@one_thread
+def free_frequency(
+    case: Case, elements: int, speed: float, time: FloatArray, q: FloatArray
+) -> Frequency:
+    """Return the natural frequency that a small free vibration in steady rotation has.
+
+    Parameters
+    ----------
+    case : Case
+    elements : int
+    speed : float
+        Of the steady rotation [rad/s].
+    time, q : ndarray (samples,)
+        [s], and q of Eq. 16 [m].
+
+    Raises
+    ------
+    ValueError
+        If q swings too far, or its frequency is not known well enough, as where it is damped.
+    """
+    try:
+        found = oscillation_of(time, q / case.blade.length, 0.0, None)
+    except NoOscillationError as error:
+        begin = f"start in the first mode, at up to {FREE_SWING:g} L, and let go"
+        raise ValueError(f"{str(error).partition(':')[0]}: {begin}") from error
+    if found.amplitude > FREE_SWING:
+        raise ValueError(
+            f"swings by {found.amplitude:.2g} L, where the frequency is no longer the linear one: "
+            f"start at {FREE_SWING:g} L or less"
+        )
+    known = found.frequency_error / found.frequency
+    if known > FREE_KNOWN:
+        raise ValueError(
+            f"leaves the frequency known to {known:.0e} only, {FREE_KNOWN:.0e} are needed: take "
+            "out all damping, and start in the first mode"
+        )
+    return Frequency(
+        case=case.name, elements=elements, speed=speed, frequency=found.frequency,
+        rounding=found.frequency_error,
+    )  # fmt: skip
 
 
 def finest_of(runs: Sequence[Run]) -> Run:

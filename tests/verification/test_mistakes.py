@@ -10,11 +10,14 @@ from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.exact.beam.discretization import continuum
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification.cases import CASES, SHEAR
+from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.mistakes.forces import FORCES, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
+from rotbeam_exu.verification.mistakes.mistake import most_left
 from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
+from rotbeam_exu.verification.outcomes import found_of
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import (
     BackbonePoint,
@@ -99,7 +102,9 @@ def test_another_ramp(named, name):
 
 @pytest.mark.parametrize("force", FORCES)
 def test_a_force_that_is_left_out(named, force):
-    assert named(without(force, S1, TIME)) == force
+    q = without(force, S1, TIME)
+    assert named(q) == force
+    assert np.ptp(q[S1.ramp_time < TIME]) > 0.1 * np.ptp(q)  # it swings on after the ramp
 
 
 def test_forces_that_are_left_out_are_those_of_a_turning_frame():
@@ -246,6 +251,16 @@ def test_backbones(orbits, backbone_reference, name):
     assert (found and found.name) == name
 
 
+def test_a_mistake_may_leave_a_third_and_the_error_of_the_finest_run():
+    """Of meshes of second order, which tend to 0.1 with an error of 1e-3 on the finest."""
+    n = np.array([8, 16, 32, 64])
+    runs = converged(n.tolist(), None, (0.1 + 1e-3 * (64 / n) ** 2).tolist())
+    finding = found_of(runs, tolerance=1e-2, bound=0.0, where="here")
+    assert most_left(1e-2, finding) == pytest.approx(1e-2 / 3.0 + 1e-3, rel=1e-3)
+    assert most_left(1e-4, finding) == pytest.approx(1e-4 / 3.0 + 1e-4, rel=1e-9)
+    assert most_left(1e-2, None) == pytest.approx(1e-2 / 3.0, rel=1e-9)
+
+
 def test_all_that_was_handed_in_is_searched(exact):
     """Frequencies in Hz and the sign of q, each named in its case with what is left."""
     rows = tuple(
@@ -261,6 +276,20 @@ def test_all_that_was_handed_in_is_searched(exact):
     assert "hand in rad/s" in str(found[0])
     assert found[1].before == pytest.approx(2.0, abs=1e-2)
     assert found[1].after < 1e-2
+
+
+def test_a_ramp_is_looked_for_beside_a_right_case(exact):
+    """A history that is right in S1 says nothing of the ramp in S3."""
+    name, time = next(iter(RAMPS)), TIME[TIME <= 2.0]
+    wrong = response(RAMPS[name](omega=4.0, ramp_time=2.0), time).q
+    runs = tuple(
+        Run(case=case, elements=n, step=h, time=t, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))
+        for n, h in ((8, 1e-3), (16, 1e-3), (16, 5e-4))
+        for case, t, q in (("S1", TIME, exact.q), ("S3", time, wrong))
+    )
+    submission = Submission(declaration=Declaration(code="mine"), runs=runs)
+    found = mistakes_in(submission, judged(submission))
+    assert [(one.case, one.name) for one in found] == [("S3", name)]
 
 
 REISSNER = Theory(shear=SHEAR, rotary_inertia=True)

@@ -15,6 +15,7 @@ from rotbeam_exu.verification.submission import (
     Declaration,
     Frequency,
     Run,
+    SteadyTip,
     Submission,
 )
 from rotbeam_exu.verification.submission_files import digests, read_submission, write_submission
@@ -311,7 +312,32 @@ def test_nothing_to_judge(tmp_path):
         read_submission(tmp_path / "none")
 
 
-FILES = ["entry.toml", "L.csv", "B.csv", "runs.csv", S1, "S2/m016_h2e-3.csv"]
+FILES = ["entry.toml", "L.csv", "B.csv", "runs.csv", S1, "S2/m016_h2e-3.csv",
+         "F.csv", "P.csv", "W/m016_h1e-3.csv", "L/m016_w6.csv"]  # fmt: skip
+
+
+@pytest.fixture
+def of_every_kind(tmp_path):
+    """A folder with all kinds of files: tables and a history in space, a free vibration."""
+    plane, time = whole(), np.arange(0.0, 20.01, 0.02)
+    tip = np.outer(np.sin(3.1 * time[:751]), (0.1, 0.02, 0.3))
+    turning = Frequency(case="F", elements=8, speed=1.0, number=7, frequency=61.803398875)
+    mine = replace(
+        plane,
+        frequencies=(*plane.frequencies, turning),
+        steady=(
+            SteadyTip(case="P", elements=8, speed=1.0, lag=1e-3 / 3, flap=0.1 / 3, twist=0.7 / 3),
+        ),
+        runs=(*plane.runs, Run(case="W", elements=16, step=1e-3, time=time[:751], q=tip)),
+    )
+    folder = write_submission(mine, tmp_path / "every")
+    (folder / "L").mkdir()
+    free = np.column_stack([time, 0.01 * np.cos(3.73 * time)])
+    np.savetxt(folder / "L/m016_w6.csv", free, "%.12g", ",", header="time,q", comments="")
+    assert set(FILES) <= set(digests(folder, read_submission(folder)))
+    return folder
+
+
 CELLS = ["nan", "-inf", "1e999", "1e308", "-1e308", "", "0", "-1", "1,2", '"', '""', "1_0", "1;2",
          "1,5", "٣", "0x10", "1+2j", "True", "S1", "#", "\t", "9" * 5000, "1e", "..", "\0", "a\rb",
          "[[", "= =", "5e-324", "\u2028", "{}", "m1_h1.csv", "1.0D+00"]  # fmt: skip
@@ -350,10 +376,10 @@ def mutation(draw):
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )  # fmt: skip
 @given(mutations=st.lists(mutation(), min_size=1, max_size=4))
-def test_malformed_submissions_give_sentences(good, tmp_path_factory, mutations):
+def test_malformed_submissions_give_sentences(of_every_kind, tmp_path_factory, mutations):
     """Never a traceback: it reads, or each fault names a file and says what is wrong."""
     folder = tmp_path_factory.mktemp("mutated") / "copy"
-    shutil.copytree(good, folder)
+    shutil.copytree(of_every_kind, folder)
     for file, change in mutations:
         path = folder / file
         if not path.is_file():

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import os
+import re
 from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
@@ -14,6 +16,7 @@ import numpy as np
 
 from ...files.results import whole_folder
 from ..cases import CASES, TIP, Asked, Case
+from ..history import FREE_FOR, free_frequency
 from ..submission import BackbonePoint, Frequency, Run, SteadyTip, Submission
 from . import entry, runs
 from .content import OUTSIDE, below, content_of
@@ -34,6 +37,10 @@ from .tables import (
 )
 
 _positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
+_not_negative = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
+_ROUNDING = Column("rounding", _not_negative, "rad/s", needed=False)
+_VIBRATION = re.compile(r"m([0-9]{1,9})_w([0-9.]{1,9})\.csv")
+"""Name of a free vibration's file: elements, and speed [rad/s]."""
 
 
 def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = ()) -> Submission:
@@ -42,7 +49,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     Parameters
     ----------
     folder : path
-        With entry.toml and at least one of L.csv, B.csv, and runs.csv, which lists the histories.
+        With entry.toml and a table as L.csv, a free vibration as L/m032_w6.csv, or runs.csv, which
+        lists the histories.
     only : collection of str, optional
         Names of the cases whose histories are read, all by default. Histories are most of the work.
 
@@ -66,8 +74,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     >>> with TemporaryDirectory() as folder:
     ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
     ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
-    ...     print(read_submission(folder).frequencies)
-    (Frequency(elements=8, speed=6.0, frequency=3.731123456, failure=''),)
+    ...     print(read_submission(folder).frequencies[0].frequency)
+    3.731123456
     """
     root, faults = Path(folder), Faults()
     if not root.is_dir():
@@ -77,6 +85,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     for file, case in _tables().items():
         if os.path.lexists(root / file):
             points[case.asked] += _points(root, file, case, faults)
+    for file, case in _vibrations(root):
+        points[case.asked] += _vibration(root, file, case, points[case.asked], faults)
     histories = runs.runs_of(root, faults, only)
     _strangers(root, faults)
     frequencies, steady = points[Asked.FREQUENCIES], points[Asked.STEADY]
@@ -143,7 +153,11 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     for table, case in _tables().items():
         points: list[Any] = [row for row in submission.rows if row.case == case.name]
         points += submission.backbone if case.asked is Asked.BACKBONE else ()
-        texts |= {table: written(_columns(case), points)} if points else {}
+        columns = [
+            one for one in _columns(case)
+            if one is not _ROUNDING or any(point.rounding for point in points)
+        ]  # fmt: skip
+        texts |= {table: written(columns, points)} if points else {}
     texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
     for name in (*texts, *(run.case for run in named)):
         if (root / name).exists():
@@ -171,7 +185,8 @@ def _write_history(run: Run, folder: Path) -> None:
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
     root = Path(folder)
-    files = [entry.FILE, *_tables(), runs.FILE, *(run.file for run in submission.runs)]
+    free = (file for file, _ in _vibrations(root))
+    files = [entry.FILE, *_tables(), *free, runs.FILE, *(run.file for run in submission.runs)]
     found = {}
     for file in files:
         with suppress(OSError, ValueError):  # not there, or told as a fault
@@ -193,7 +208,7 @@ def _columns(case: Case) -> tuple[Column, ...]:
         places.append(Column("number", asked(range(1, case.count + 1))))
     if case.asked is Asked.STEADY:
         return (*places, *(replace(one, measured=True) for one in runs.TIP_COLUMNS), FAILURE)
-    return (*places, Column("frequency", _positive, "rad/s", measured=True), FAILURE)
+    return (*places, Column("frequency", _positive, "rad/s", measured=True), _ROUNDING, FAILURE)
 
 
 def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
@@ -219,8 +234,41 @@ def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[st
         return []
     for row in measured:
         errors = tuple(rounding(most[name], abs(row[name])) for name in names)
-        row["rounding"] = errors if len(errors) > 1 else errors[0]
+        told = row.get("rounding", 0.0)
+        row["rounding"] = errors if len(errors) > 1 else max(errors[0], told)
     return list(found.values())
+
+
+def _vibrations(root: Path) -> list[tuple[str, Case]]:
+    """Return the files of free vibrations, each in place of a row of a table, and their cases."""
+    return [
+        (f"{name}/{printable(path.name)}", case)
+        for name, case in CASES.items()
+        if case.quantities == ("linear frequency",) and below(root, name)
+        for path in sorted((root / name).glob("*.csv"))
+    ]
+
+
+def _vibration(
+    root: Path, file: str, case: Case, rows: list[dict[str, Any]], faults: Faults
+) -> list[dict[str, Any]]:
+    """Return the row that a free vibration stands for, if it is right and is not in the table."""
+    place = _VIBRATION.fullmatch(file.partition("/")[2])
+    try:
+        if place is None:
+            remedy = f"write {case.name}/m032_w6.csv, of 32 elements at 6 rad/s"
+            raise ValueError(f"is no name of a free vibration: {remedy}")
+        elements, speed = whole("elements", place[1]), asked(case.speeds)("speed", place[2])
+        mine = case.name, elements, speed
+        if mine in [(one["case"], one["elements"], one["speed"]) for one in rows]:
+            raise ValueError("the same mesh and speed are handed in twice: keep one")
+        lasting = replace(case, duration=FREE_FOR)
+        held = runs.history_of(root, file, lasting, math.nan, faults)
+        if held is not None:
+            return [vars(free_frequency(case, elements, speed, held["time"], held["q"]))]
+    except ValueError as error:
+        faults.add(file, str(error))
+    return []
 
 
 def _strangers(root: Path, faults: Faults) -> None:
