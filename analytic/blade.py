@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike
 from .arrays import FloatArray
 from .damping import UNDAMPED, Damping
 from .description import Described
-from .input_checks import finite_number, not_negative, positive, shown
+from .input_checks import finite_array, finite_number, not_negative, positive, shown
 from .line import STRAIGHT, Line, Offset
 from .point_mass import PointMass
 from .profiles import Profile, evaluated, in_units
@@ -298,7 +299,7 @@ class Blade(Variations):
         >>> linear_modes(blade.with_hub_radius(1.0), omega=6.0, count=2).frequencies.round(3)
         array([5.356, 6.891])
         """
-        at, angle = np.asarray(x, dtype=float).ravel(), np.asarray(twist, dtype=float)
+        at, angle = finite_array("x", x, "m").ravel(), finite_array("twist", twist, "rad")
         S, M = np.asarray(stiffness, dtype=float), np.asarray(mass, dtype=float)
         if S.ndim == 2:
             S = stiffness_of(S, tension, shear)
@@ -310,6 +311,49 @@ class Blade(Variations):
         )
         turned = zip(places, np.broadcast_to(angle, at.shape).tolist(), strict=True)
         return cls(length=places[-1], section=section, line=Line(twist=tuple(turned)))
+
+    @classmethod
+    def from_shapes(
+        cls,
+        x: ArrayLike,
+        shapes: Sequence[SectionShape],
+        youngs_modulus: ArrayLike,
+        density: ArrayLike,
+        *,
+        twist: ArrayLike = 0.0,
+    ) -> Blade:
+        """Return a blade in space from shapes and materials, linear in stiffness between stations.
+
+        Parameters
+        ----------
+        x : array_like (stations,)
+            From the clamp, 0, to the tip [m].
+        shapes : sequence of SectionShape
+            At each station, with all its lengths; its height is along the chord, which moves in
+            the plane of rotation.
+        youngs_modulus, density : array_like (stations,)
+            E [N/m²] and ρ [kg/m³], or one number for all.
+        twist : array_like (stations,)
+            [rad], from the chord towards the thickness.
+
+        Examples
+        --------
+        >>> from analytic import Blade, Rectangle
+        >>> shapes = Rectangle(height=0.08, width=0.01), Rectangle(height=0.04, width=0.008)
+        >>> blade = Blade.from_shapes([0.0, 2.0], shapes, youngs_modulus=7e10, density=2700.0)
+        >>> print(f"{blade.mass:.3f} kg")
+        3.024 kg
+        """
+        materials = np.broadcast_arrays(
+            finite_array("youngs_modulus", youngs_modulus, "Pa"),
+            finite_array("density", density, "kg/m^3"),
+            finite_array("x", x, "m"),
+        )
+        sections = zip(shapes, *(one.tolist() for one in materials[:2]), strict=True)
+        stiffness, mass = zip(
+            *(shape.of_material(E, rho) for shape, E, rho in sections), strict=True
+        )
+        return cls.from_stations(x, stiffness, mass, twist=twist)
 
     @property
     def blade(self) -> Blade:

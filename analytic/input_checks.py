@@ -7,6 +7,7 @@ the same everywhere: what, where, by how much, what to try.
 from __future__ import annotations
 
 import math
+import re
 import reprlib
 from numbers import Integral, Real
 
@@ -19,10 +20,11 @@ from .warning import warn
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
+_SPEEDS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rad/s": 1.0}
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
-def _magnitude(name: str, value: object, unit: str) -> object:
+def bare(name: str, value: object, unit: str) -> object:
     """Return a quantity of a units library as its number in `unit`, anything else as it is."""
     own = getattr(value, "units", getattr(value, "unit", None))
     if own is None:
@@ -80,7 +82,7 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
-    value = _magnitude(name, value, unit)
+    value = bare(name, value, unit)
     # NumPy registers durations as numbers, and Python's float() takes none of them.
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
@@ -136,6 +138,14 @@ def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None
 
 def rotation_speed(omega: object, name: str = "omega") -> float:
     """Return the rotation speed [rad/s] as a float; by mirror symmetry it is never negative."""
+    told = (
+        re.fullmatch(r"([\d.]+)\s*(rpm|hz|rad/s)", omega.lower())
+        if isinstance(omega, str)
+        else None
+    )
+    if told:
+        meant = float(told[1]) * _SPEEDS[told[2]]
+        raise ValueError(f"{name} must be a number in rad/s, got {omega!r}: write {meant:.6g}")
     return not_negative(
         name,
         omega,
@@ -158,9 +168,9 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
 
 def float_array(name: str, values: object, unit: str = "") -> FloatArray:
     """Return numbers as `finite_array` does, for callers that look for NaN themselves."""
-    values = _magnitude(name, values, unit)
+    values = bare(name, values, unit)
     if isinstance(values, (list, tuple)):
-        values = [_magnitude(name, item, unit) for item in values]
+        values = [bare(name, item, unit) for item in values]
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged

@@ -79,9 +79,9 @@ class Line(Described):
 
     def __post_init__(self) -> None:
         self._keep(
-            twist=checked_profile("twist", self.twist),
-            prebend=checked_profile("prebend", self.prebend),
-            sweep=checked_profile("sweep", self.sweep),
+            twist=checked_profile("twist", self.twist, "rad"),
+            prebend=checked_profile("prebend", self.prebend, "1/m"),
+            sweep=checked_profile("sweep", self.sweep, "1/m"),
             precone=finite_number("precone", self.precone, "rad"),
             mass_offset=checked_offset("mass_offset", self.mass_offset),
             tension_offset=checked_offset("tension_offset", self.tension_offset),

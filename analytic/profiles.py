@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
-from .input_checks import finite_number
+from .input_checks import bare, finite_number
 
 Profile = float | tuple[float, ...] | tuple[tuple[float, float], ...]
 """A number, coefficients of 1, x/L, (x/L)² ..., or stations (x [m], value), linear in between."""
@@ -67,20 +67,21 @@ def times(profile: Profile, factor: Any) -> Profile:
     return tuple(np.polynomial.polynomial.polymul(polynomial, factor).tolist())
 
 
-def checked_profile(name: str, profile: object) -> Profile:
+def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
     """Return a profile of plain numbers and tuples, so that it hashes."""
+    profile = bare(name, profile, unit)
     if not isinstance(profile, tuple | list | np.ndarray):
-        return finite_number(name, profile)
+        return finite_number(name, profile, unit)
     items = list(profile)
     if not items:
         raise ValueError(f"{name} is empty: give a number, coefficients or stations")
     if not isinstance(items[0], tuple | list | np.ndarray):
-        return tuple(_entry(f"{name}[{k}]", value) for k, value in enumerate(items))
+        return tuple(_entry(f"{name}[{k}]", value, unit) for k, value in enumerate(items))
     pairs: list[tuple[float, float]] = []
     for k, pair in enumerate(items):
-        if np.shape(pair) != (2,):
+        if not isinstance(pair, tuple | list | np.ndarray) or len(pair) != 2:
             raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
-        pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1])))
+        pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1], unit)))
     _require_ascending(name, [x for x, _ in pairs])
     return tuple(pairs)
 

@@ -106,7 +106,11 @@ class Section(Described):
         return replace(self, out_of_plane=out_of_plane)
 
     def __post_init__(self) -> None:
-        self._keep(**{name: checked_profile(name, p) for name, p in self.profiles().items()})
+        units = dict(zip(self.profiles(), ("N", "N m^2", "kg/m", "kg m"), strict=False))
+        checked = {
+            name: checked_profile(name, p, units[name]) for name, p in self.profiles().items()
+        }
+        self._keep(**checked)
         root = np.zeros(1)
         stiffness, mass = (
             float(evaluated(profile, root)[0])

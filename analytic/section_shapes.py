@@ -86,6 +86,43 @@ class SectionShape(Described, ABC, abstract=True):
         shear = 0.5 / (1.0 + self.poisson_ratio)
         return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
 
+    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        """Return the shear coefficients along height and width; here Cowper's of a full circle."""
+        nu = self.poisson_ratio
+        return (6.0 * (1.0 + nu) / (7.0 + 6.0 * nu),) * 2
+
+    def of_material(
+        self, youngs_modulus: float, density: float
+    ) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return a station's columns, the height along the chord: EA ... EI3, and m ... j3.
+
+        As `Blade.from_stations` takes them; GA2 and GA3 have Cowper's shear coefficients (1966).
+
+        Parameters
+        ----------
+        youngs_modulus, density : float
+            E [N/m²] and ρ [kg/m³].
+
+        Raises
+        ------
+        ValueError
+            If the shape does not tell all its lengths.
+        """
+        E, rho = (
+            positive("youngs_modulus", youngs_modulus, "Pa"),
+            positive("density", density, "kg/m^3"),
+        )
+        names = [field.name for field in fields(self) if field.name not in _NO_LENGTHS]
+        if missing := [name for name in names if name not in self._given]:
+            raise ValueError(f"{self!r} along a blade needs {' and '.join(missing)} [m]")
+        own = self._gyration(self._given)
+        A = own.area or math.nan
+        inertia, G = own.squared * A, 0.5 * E / (1.0 + self.poisson_ratio)
+        (across, torsion), (k2, k3) = self._ratios(self._given), self._shear(self._given)
+        stiffness = E * A, k2 * G * A, k3 * G * A, G * torsion * inertia, E * across * inertia
+        j2, j3 = rho * across * inertia, rho * inertia
+        return (*stiffness, E * inertia), (rho * A, j2 + j3, j2, j3)
+
     @property
     def _given(self) -> dict[str, float]:
         values = {field.name: getattr(self, field.name) for field in fields(self)}
@@ -169,6 +206,10 @@ class Rectangle(_TwoSided):
     _deep = 12.0
     _filled = 1.0
 
+    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        nu = self.poisson_ratio
+        return (10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),) * 2
+
     def _torsion(self, ratio: float) -> float:
         longer, shorter = max(ratio, 1.0), min(ratio, 1.0)  # in widths
         odd = np.arange(1, 2 * _PLACES, 2)
@@ -196,6 +237,16 @@ class Ellipse(_TwoSided):
 
     _deep = 16.0
     _filled = 0.25 * math.pi
+
+    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        nu, n = self.poisson_ratio, (lengths["height"] / lengths["width"]) ** 2
+        return self._along(n, nu), self._along(1.0 / n, nu)
+
+    @staticmethod
+    def _along(n: float, nu: float) -> float:
+        """Return the shear coefficient by the squared ratio of the sides, along over across."""
+        below = (40.0 + 37.0 * nu) * n**2 + (16.0 + 10.0 * nu) * n + nu
+        return 12.0 * (1.0 + nu) * n * (3.0 * n + 1.0) / below
 
     def _torsion(self, ratio: float) -> float:
         return 4.0 / (1.0 + ratio**2)
@@ -269,3 +320,66 @@ class Tube(SectionShape):
                 f"radius = {r:g} m: {2.0 * r:g} m is the full circle"
             )
         return Gyration(squared=0.5 * (r**2 + 0.25 * t**2), area=2.0 * math.pi * r * t)
+
+    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        nu, half = self.poisson_ratio, 0.5 * lengths["wall"]
+        hollow = ((lengths["radius"] - half) / (lengths["radius"] + half)) ** 2
+        whole = (1.0 + hollow) ** 2
+        below = (7.0 + 6.0 * nu) * whole + (20.0 + 12.0 * nu) * hollow
+        return (6.0 * (1.0 + nu) * whole / below,) * 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box(SectionShape):
+    """A rectangular tube of thin walls, with Bredt's J; the walls along a force bear its shear.
+
+    Parameters
+    ----------
+    height, width, wall : float
+        Outside, in the plane of bending and across it, and thickness of the walls [m].
+    poisson_ratio : float
+        ν, which tells the shear modulus.
+
+    Examples
+    --------
+    >>> from analytic import Blade
+    >>> from analytic.section_shapes import Box
+    >>> spar = Box(height=0.4, width=0.2, wall=0.01)
+    >>> blade = Blade.from_shapes([0.0, 10.0], [spar, spar], youngs_modulus=7e10, density=2700.0)
+    >>> print(f"{blade.mass:.0f} kg")
+    313 kg
+    """
+
+    height: float | None = None
+    width: float | None = None
+    wall: float | None = None
+
+    def _fitting(self, own: Gyration) -> dict[str, float]:
+        return {}  # height and wall do not follow from I/A and A alone
+
+    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
+        if len(lengths) < 3:
+            raise ValueError(f"{self!r} needs height, width and wall [m]")
+        h, b, t = lengths["height"], lengths["width"], lengths["wall"]
+        if 2.0 * t > min(h, b):
+            raise ValueError(
+                f"the walls of {self!r} overlap: take wall below {0.5 * min(h, b):g} m"
+            )
+        area = h * b - (h - 2.0 * t) * (b - 2.0 * t)
+        return Gyration(squared=_box_inertia(h, b, t) / area, area=area)
+
+    def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        h, b, t = lengths["height"], lengths["width"], lengths["wall"]
+        inertia = _box_inertia(h, b, t)
+        bredt = 2.0 * t * ((h - t) * (b - t)) ** 2 / (h + b - 2.0 * t)
+        return _box_inertia(b, h, t) / inertia, bredt / inertia
+
+    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        area = self._gyration(lengths).area or math.nan
+        along, across = (2.0 * lengths["wall"] * lengths[side] for side in ("height", "width"))
+        return along / area, across / area
+
+
+def _box_inertia(h: float, b: float, t: float) -> float:
+    """Return I [m⁴] of a rectangular tube, bent along h."""
+    return (b * h**3 - (b - 2.0 * t) * (h - 2.0 * t) ** 3) / 12.0

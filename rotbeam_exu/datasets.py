@@ -17,6 +17,7 @@ from analytic import AmplitudeNotReachedError, AnyBlade
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
+from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.loads import Load, rippled
@@ -75,7 +76,7 @@ def dataset_of(*results: Any) -> xr.Dataset:
     *results
         A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too; a
         ForcedResponse, with its stability and its backbone; a PlanarStability, or both it and its
-        StabilityLimit, which becomes attributes.
+        StabilityLimit, which becomes attributes; a Campbell diagram.
 
     Returns
     -------
@@ -174,6 +175,26 @@ def _(found: PlanarStability) -> xr.Dataset:
             "part": ["real", "imaginary"],
         },
         {**beam_attributes(found.blade), "omega": found.omega, "mode": found.mode},
+    )  # fmt: skip
+
+
+@_described.register
+def _(diagram: Campbell) -> xr.Dataset:
+    """Over `omega` and `mode`, and of each crossing its mode, k, speed and frequency."""
+    met = diagram.crossings
+    names = [diagram.names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
+    return dataset(
+        {
+            "frequency": (("omega", "mode"), diagram.frequencies, "frequency [rad/s]"),
+            "crossing_mode": ("crossing", np.array(names, dtype=str), "mode that crosses k ω"),
+            "crossing_order": ("crossing", np.array([one.order for one in met], int), "order k"),
+            "crossing_omega": ("crossing", np.array([one.omega for one in met], float), OMEGA),
+            "crossing_frequency": (
+                "crossing", np.array([one.frequency for one in met], float), "frequency [rad/s]"
+            ),
+        },
+        {"omega": (diagram.omegas, OMEGA), "mode": (diagram.names, "mode")},
+        beam_attributes(diagram.beam),
     )  # fmt: skip
 
 

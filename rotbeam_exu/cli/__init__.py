@@ -52,7 +52,8 @@ app = cyclopts.App(
 )
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
-    "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge", "doctor",
+    "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge", "schema",
+    "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
@@ -78,6 +79,8 @@ for _order, _command in enumerate(_COMMANDS):
         # Markdown, each in a line of its own: two spaces break one.
         help_epilogue="Examples:\n\n" + "  \n".join(_examples),
     )  # fmt: skip
+
+app.register_install_completion_command("--complete", help="Let the shell complete commands.")
 
 _SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * math.pi}
 """Options that do not exist, and their units in rad/s."""

@@ -17,7 +17,7 @@ from analytic.warning import warn
 
 from .motion import Config, Omega, configured, omega_of
 from .options import Amplitudes, Flag, VariantName, Whole
-from .output import Format, print_columns, print_note
+from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:
     from analytic.exact.free.orbits import Orbits
@@ -119,7 +119,8 @@ def _exact(
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
-        return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
+        with bar("exact orbits"):
+            return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
     except analytic.AmplitudeNotReachedError as error:
         if error.orbits is None:
             raise

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -16,10 +15,10 @@ from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from .job import require_writable
+from .job import Job
 from .motion import chosen_speeds, configured
 from .options import SECTION, Flag, SectionOptions, Whole
-from .output import Format, formatted, print_columns, print_written
+from .output import Format, bar, formatted, print_columns
 
 if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
@@ -50,7 +49,7 @@ def campbell(
     omega_min
         Lowest rotation speed [rad/s].
     omega_max
-        Highest rotation speed [rad/s], 12 for the paper's beam unless given.
+        Highest rotation speed [rad/s]; unless given, twice the file's, or the benchmark's 6 rad/s.
     points
         Number of speeds.
     count
@@ -58,15 +57,15 @@ def campbell(
     orders
         Lines k ω up to this k.
     config
-        TOML file with the beam; without it, the paper's beam. Its [motion], one speed, is not used.
+        TOML file with the beam; without it, the paper's beam.
     format
-        A table to read, or CSV.
+        A table to read, or CSV of the frequencies; the crossings are then in the folder only.
     out
-        Folder for the figure; without it none is drawn.
+        Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
         Highest frequency in the figure [rad/s]; without it all are drawn.
     force
-        Replace a figure that is there.
+        Replace a result of other inputs that has the same name.
 
     Examples
     --------
@@ -76,20 +75,25 @@ def campbell(
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    beam = shape.of(configured(config).beam)
-    highest = chosen_speeds(beam, 12.0)[0] if omega_max is None else omega_max
+    file = configured(config)
+    beam = shape.of(file.beam)
+    usual = 2.0 * file.motion.get("omega", chosen_speeds(beam, 6.0)[0])
+    highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
-    path = None if out is None else out / f"campbell-{shape.name}"
-    if path is not None:
-        require_writable(Path(f"{path}.png"), force=force)
-    diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
-    _print(diagram, format)
-    if path is not None:
-        from .. import figures
+    with bar("modes"):
+        diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
+    if out is None:
+        _print(diagram, format)
+        return
+    from ..datasets import dataset_of
 
-        written = figures.save_figure(figures.campbell(diagram, highest=frequency_max), path)
-        print_written(written, stderr=format == "csv")
+    data = dataset_of(diagram)
+    Job(
+        path=out / f"campbell-{shape.name}", inputs=data, force=force, compute=lambda: data,
+        show=lambda *_: _print(diagram, format), aside=format == "csv",
+        draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
+    ).run()  # fmt: skip
 
 
 def _families(beam: AnyBlade) -> list[Plane]:
@@ -106,7 +110,7 @@ def _print(diagram: Campbell, form: Format) -> None:
     """Print frequencies over speed, and the crossings.
 
     A table has as many digits as are known: of torsion four, for the section may be kept from
-    warping. CSV has all.
+    warping. CSV has all, and no crossings: one table a stream.
     """
     csv = form == "csv"
 
@@ -124,7 +128,7 @@ def _print(diagram: Campbell, form: Format) -> None:
         title=f"{'In-plane frequencies' if in_plane else 'Frequencies'} [rad/s]",
     )
     if csv:
-        sys.stdout.write("\n")
+        return
     met = diagram.crossings
     named = [names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
     print_columns(
@@ -134,6 +138,5 @@ def _print(diagram: Campbell, form: Format) -> None:
             omega: [cell for one in met for cell in column([one.omega], one.plane)],
             "frequency [rad/s]": [x for one in met for x in column([one.frequency], one.plane)],
         },
-        form,
         title="Crossings with the lines k ω",
     )

@@ -18,11 +18,11 @@ from ..runs.attributes import beam_attributes
 from .job import refuse_to_replace, saved
 from .motion import (
     ChosenMotion,
-    chosen_motion,
     chosen_speeds,
     chosen_times,
     configured,
     grid_motion,
+    motion_of,
 )
 from .options import RESULTS, WORKERS, Results, Workers
 from .output import formatted, print_columns, print_note, print_written
@@ -44,8 +44,8 @@ def compare(
     amplitude
         Amplitude over the length at which the models' budget is printed.
     config
-        TOML file with the beam; without it, the paper's beam. Its [motion] and [numerics] are not
-        used.
+        TOML file with the beam; without it, the paper's beam. Its [motion] is that of Figure 15,
+        its [numerics] is not used.
 
     Examples
     --------
@@ -56,7 +56,8 @@ def compare(
 
     require_exudyn()
     folder = writable_folder(results.out)
-    beam = _uniform(configured(config).beam)
+    file = configured(config)
+    beam = _uniform(file.beam)
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
@@ -64,7 +65,7 @@ def compare(
     models = models.assign_attrs(mine)
     refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
     motion = _even(grid_motion(beam, omegas, ramp_times))
-    main = chosen_motion(beam)
+    main = motion_of(file)
     with workers.counted("spin-ups") as progress:
         options: dict[str, Any] = {
             "omegas": omegas, "ramp_times": ramp_times, "duration": motion.duration,

@@ -36,7 +36,7 @@ def explore(
         HTML file to write; by default explorer.html, or explorer-NAME.html for NAME.toml.
     config
         TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's. Its
-        [motion] and [numerics] are not used.
+        [numerics] is not used.
     cache
         Folder that keeps the finite element runs for the next time.
     jobs
@@ -56,7 +56,12 @@ def explore(
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
     require_writable(out, force=force, ours="<title>Rotating beam explorer", ending=".html")
-    beam = configured(config).beam
+    file = configured(config)
+    if file.motion:
+        raise ValueError(
+            "the Explorer has sliders for speed and ramp time: leave [motion] out of the file"
+        )
+    beam = file.beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
         page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)

@@ -16,6 +16,7 @@ R = TypeVar("R")
 T = TypeVar("T")
 
 _MOST_NAMED = 4
+_LONGEST, _AHEAD = 60, 20  # letters of a value that are shown, and of what two have in common
 
 
 class UnfinishedError(Exception):
@@ -60,6 +61,8 @@ class Job(Generic[R, T]):
         Drawing of the Dataset by `figures`, which is handed over; none, unless given.
     caption
         Words about the figure, for a file of text beside it.
+    aside
+        Whether the list of files goes to standard error, as beside a CSV.
     """
 
     path: Path
@@ -71,6 +74,7 @@ class Job(Generic[R, T]):
     show: Callable[[R, xr.Dataset], T]
     draw: Callable[[Any, xr.Dataset], Any] | None = None
     caption: str = ""
+    aside: bool = False
 
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
@@ -93,7 +97,7 @@ class Job(Generic[R, T]):
                 written.append(Path(f"{self.path}.txt"))
                 with whole_file(written[-1]) as partial:
                     partial.write_text(f"{self.caption}\n", encoding="utf-8")
-        print_written(written)
+        print_written(written, stderr=self.aside)
         return shown
 
     def _kept(self, end: UnfinishedError) -> str:
@@ -131,8 +135,9 @@ def refuse_to_replace(
             what = f"is not a result that can be compared ({differing['file'][1]})"
         else:
             named = [
-                f"{name} {_short(there)} instead of {_short(mine)}"
-                for name, (mine, there) in differing.items()
+                f"{name} {there} instead of {mine}"
+                for name, pair in differing.items()
+                for mine, there in [_short(*pair)]
             ]
             more = len(named) - _MOST_NAMED
             rest = [f"{more} more"] if more > 0 else []
@@ -156,9 +161,17 @@ def require_writable(
         raise FileExistsError(f"{target} is there, from unknown inputs: {remedy}")
 
 
-def _short(value: object) -> str:
-    """Return a value as one would type it; of a long one, its beginning."""
+def _short(*values: object) -> list[str]:
+    """Return values as one would type them; of long ones, the part from where they differ."""
+    texts = [_typed(value) for value in values]
+    pairs = zip(*texts, strict=False)
+    differ = next((i for i, (one, other) in enumerate(pairs) if one != other), 0)
+    begin = max(0, differ - _AHEAD) if max(map(len, texts)) > _LONGEST else 0
+    cut = [f"...{text[begin:]}" if begin else text for text in texts]
+    return [text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..." for text in cut]
+
+
+def _typed(value: object) -> str:
     if value is None:
         return "none"
-    text = f"{value:.12g}" if isinstance(value, float) else " ".join(str(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    return f"{value:.12g}" if isinstance(value, float) else " ".join(str(value).split())

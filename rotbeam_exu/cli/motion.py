@@ -18,8 +18,8 @@ from ..files.beam_file import RunFile, load_run_file
 Config = Annotated[
     Path | None,
     Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion] and [numerics]; options "
-        "given here replace its values. Without a file: the paper's beam."
+        help="TOML file with [beam] or [blade], and optionally [motion], [numerics] and [[loads]]; "
+        "options given here replace its values. Without a file: the paper's beam."
     ),
 ]
 """The option --config; `configured` reads it."""
@@ -32,7 +32,10 @@ Omega = Annotated[
 
 SteadySpeed = Annotated[
     float | None,
-    Parameter(help="Steady angular velocity [rad/s]; by default 6 for the paper's beam."),
+    Parameter(
+        help="Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
+        "ω/ω_0 = 2.06 for any other."
+    ),
 ]
 """Speed after the ramp."""
 
@@ -131,8 +134,13 @@ def omega_of(file: RunFile, omega: float | None) -> float:
     return known
 
 
-def motion_of(file: RunFile, **options: float | None) -> ChosenMotion:
-    """Return `chosen_motion` of the options given, then of the file's [motion]."""
+def motion_of(file: RunFile, *, takes_loads: bool = False, **options: float | None) -> ChosenMotion:
+    """Return `chosen_motion` of the options given, then of the file's [motion].
+
+    Loads of the file are refused, unless the command takes them.
+    """
+    if file.loads and not takes_loads:
+        raise ValueError("the file has [[loads]], which run and sweep take only: leave them out")
     given = {name: value for name, value in options.items() if value is not None}
     return chosen_motion(file.beam, **{**file.motion, **given})
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -14,6 +16,7 @@ from cyclopts import Parameter, Token
 import analytic
 from analytic import AnyBlade
 from analytic.description import kinds_of
+from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 from ..fem.frame import Frame
@@ -23,6 +26,7 @@ from .output import counter
 
 if TYPE_CHECKING:
     from ..fem.case import RunCase
+    from ..fem.elements import Formulation
 
 
 def whole(_: Any, tokens: Sequence[Token]) -> int:
@@ -85,6 +89,23 @@ def element_names() -> tuple[str, ...]:
     return *FORMULATIONS, *ALIASES
 
 
+def element_of(name: str, options: Mapping[str, object] | None = None) -> Formulation:
+    """Return the formulation of a name, or of one's own class as module:Class."""
+    from ..fem.elements import formulation
+
+    module, colon, kind = name.partition(":")
+    if not colon:
+        return formulation(name, options)
+    sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
+    try:
+        return formulation(getattr(import_module(module), kind)(**(options or {})))
+    except (AttributeError, ImportError, TypeError) as error:
+        raise ValueError(
+            f"no element can be made of {name}: {error}; give module:Class, the module in this "
+            "folder or installed"
+        ) from error
+
+
 Element = Annotated[str, Parameter(converter=spelled_as(element_names))]
 """Name of a formulation; `formulation` refuses unknown ones."""
 
@@ -101,7 +122,7 @@ class Discretization:
     ----------
     element
         Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
-        space space_cable, space_exact.
+        space space_cable, space_exact; or one's own, as module:Class.
     option
         Option of the formulation as name=value; repeat it for several.
     elements
@@ -140,22 +161,21 @@ class Discretization:
     def name(self) -> str:
         """Formulation, options and mesh as part of a file's name."""
         options = [f"{name}-{value}" for name, value in self.options.items()]
-        return "-".join([f"{self.element}", *options, f"{self.elements}"])
+        return "-".join([f"{self.element}".rpartition(":")[2], *options, f"{self.elements}"])
 
     @property
     def title(self) -> str:
         """Formulation and options for a reader."""
         return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
 
-    def case(self, beam: AnyBlade, motion: ChosenMotion) -> RunCase:
+    def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
         from ..fem.case import RunCase
-        from ..fem.elements import formulation
 
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
         return RunCase(
             beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
-            element=formulation(f"{self.element}", self.options), **mesh,
+            element=element_of(f"{self.element}", self.options), loads=loads, **mesh,
         )  # fmt: skip
 
 

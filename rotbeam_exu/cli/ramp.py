@@ -75,7 +75,7 @@ def ramp(
     def computed() -> xr.Dataset:
         with counter("transients") as progress:
             return comparison.residual(
-                beam, omega, longest=longest, points=points, element=case.model.name,
+                beam, omega, longest=longest, points=points, element=case.element,
                 elements=case.elements, finite_element_points=finite_element_points,
                 progress=progress,
             )  # fmt: skip

@@ -13,7 +13,7 @@ from ..runs.attributes import beam_attributes
 from .job import Job
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of
 from .options import RESULTS, Results, Whole
-from .output import print_line
+from .output import bar, print_line
 
 if TYPE_CHECKING:
     from analytic.exact.driven.response import SpinUpResponse
@@ -62,11 +62,16 @@ def reference(
         "duration": motion.duration, "samples": samples, "tolerance": tolerance,
     }  # fmt: skip
     times = np.linspace(0.0, motion.duration, samples)
+
+    def computed() -> SpinUpResponse:
+        with bar("integrating"):
+            return analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
+
     Job(
         path=results.out / f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}",
         inputs=inputs,
         force=results.force,
-        compute=lambda: analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance),
+        compute=computed,
         dataset=lambda found: dataset_of(found).assign_attrs(tolerance=tolerance),
         show=lambda found, _: _print(found),
     ).run()

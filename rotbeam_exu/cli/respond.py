@@ -2,127 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, dataclass, fields, make_dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade, Damping
 from analytic.arrays import FloatArray
-from analytic.description import kinds_of
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load
 
 from ..lazily import xr
+from .driving import DAMPINGS, LOADS, Dampings, Loads, option_of
 from .job import Job, UnfinishedError
 from .motion import Config, configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
-from .output import formatted, print_columns
+from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
-
-
-def _option(kind: type[Load]) -> str:
-    """Return the name of a load without its article, as an option."""
-    return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
-
-
-def _has_default(kind: Any) -> bool:
-    """Return whether the size of a load may be left out."""
-    return fields(kind)[0].default is not MISSING
-
-
-_KINDS = {
-    f"--{_option(kind)}": kind
-    for kind in sorted(kinds_of(Load).values(), key=_has_default)
-    if kind.varied
-}
-"""Loads that have a response, by their options; loads that need no size come last."""
-
-
-class _OneLoad:
-    """Options, one of which is given: the load's size; if none, a load with a default size."""
-
-    def one(self) -> Load:
-        """Return the load."""
-        asked = {f"--{name.replace('_', '-')}": size for name, size in vars(self).items()}
-        given = {
-            name: size for name, size in asked.items() if size is not None and size is not False
-        }
-        if len(given) != 1:
-            *others, last = asked
-            raise ValueError(
-                f"give one load, {', '.join(others)} or {last}, got "
-                + (" and ".join(given) or "none")
-            )
-        ((name, size),) = given.items()
-        kind: Any = _KINDS[name]
-        load: Load = kind() if size is True else kind(**{fields(kind)[0].name: size})
-        if load.size == 0.0:
-            raise ValueError(f"{name} 0 is no load: give its amplitude")
-        return load
-
-
-def _size(kind: Any) -> tuple[str, Any, bool | None]:
-    """Return the option of a kind of load, whose size may be left out if it has a default."""
-    about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
-    about += f"; {kind.symbol} [{kind.unit}]"
-    name = _option(kind).replace("-", "_")
-    if not _has_default(kind):
-        return name, Annotated[float | None, Parameter(help=f"{about}.")], None
-    option = Parameter(
-        help=f"{about}, {size.default:g} unless given.",
-        negative=(), show_default=False, metavar="[FLOAT]",
-    )  # fmt: skip
-    return name, Annotated[bool | float, option], False
-
-
-# An option for each kind of load that is known.
-Loads: Any = Parameter(name="*")(
-    make_dataclass(
-        "Loads", map(_size, _KINDS.values()),
-        bases=(_OneLoad,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
-    )
-)  # fmt: skip
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class Dampings:
-    """Damping of the blade, in place of the damping in its file.
-
-    Parameters
-    ----------
-    damping_ratio
-        Damping ratio of mode 1 at rest, by damping of the bending.
-    external_damping
-        Force per length against the velocity in the turning frame [kg/(m s)]; point masses have
-        none.
-    """
-
-    damping_ratio: float | None = None
-    external_damping: float | None = None
-
-    def on(self, beam: AnyBlade) -> AnyBlade:
-        """Return the blade with this damping."""
-        if self.damping_ratio is not None and self.external_damping is not None:
-            raise ValueError("give --damping-ratio or --external-damping, not both")
-        if self.damping_ratio is not None:
-            return beam.with_damping(Damping.from_ratio(beam, 1, self.damping_ratio))
-        if self.external_damping is not None:
-            return beam.with_damping(Damping(external=self.external_damping))
-        if not any(beam.unit.damping):
-            raise ValueError(
-                "the blade is undamped, and at resonance its response has no end: give "
-                "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
-            )
-        return beam
-
-
-_LOADS, _DAMPINGS = Loads(), Dampings()
 
 
 def respond(
@@ -130,8 +28,8 @@ def respond(
     first: Annotated[float, Parameter(name="--from")],
     last: Annotated[float, Parameter(name="--to")],
     omega: float | None = None,
-    loads: Loads = _LOADS,
-    dampings: Dampings = _DAMPINGS,
+    loads: Loads = LOADS,
+    dampings: Dampings = DAMPINGS,
     points: Whole = 41,
     inextensible: Flag = False,
     functions: Whole = 10,
@@ -169,12 +67,12 @@ def respond(
 
     load = loads.one()
     file = configured(config)
-    beam = dampings.on(file.beam)
+    beam = dampings.required_on(file.beam)
     if load.varied == "frequency":
         omega = omega_of(file, omega)
     elif omega is not None:
         raise ValueError(
-            f"under --{_option(type(load))} the rotation speeds are those --from one --to "
+            f"under --{option_of(type(load))} the rotation speeds are those --from one --to "
             "another: leave --omega out"
         )
     frequencies = _frequencies(first, last, points)
@@ -188,9 +86,10 @@ def respond(
         theory = analytic.Theory(extension=not inextensible)
         how: Any = {"theory": theory, "functions": functions}
         try:
-            if omega is None:
-                return analytic.forced_response(beam, frequencies, load, **how)
-            return analytic.forced_response(beam, omega, load, frequencies, **how)
+            with bar("following the curve"):
+                if omega is None:
+                    return analytic.forced_response(beam, frequencies, load, **how)
+                return analytic.forced_response(beam, omega, load, frequencies, **how)
         except analytic.ResponseNotReachedError as error:
             if error.response is None:
                 raise
@@ -216,7 +115,7 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
 
 def _name(load: Load, omega: float | None) -> str:
     turning = "" if omega is None else f"omega-{omega:g}-"
-    return f"response-{turning}{_option(type(load))}-{load.size:g}"
+    return f"response-{turning}{option_of(type(load))}-{load.size:g}"
 
 
 def _print(data: xr.Dataset, title: str) -> None:

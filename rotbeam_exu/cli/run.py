@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
 
 from analytic.warning import warn
 
 from ..lazily import xr
 from ..runs.check import SimulationError, energy_drift
+from .driving import DRIVING, Driving
 from .job import Job, UnfinishedError
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
-from .options import DISCRETIZATION, RESULTS, Discretization, NoFigure, Results
+from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -25,6 +28,8 @@ def run(
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
     discretization: Discretization = DISCRETIZATION,
+    driving: Driving = DRIVING,
+    no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
     config: Config = None,
     no_figure: NoFigure = False,
     results: Results = RESULTS,
@@ -34,27 +39,42 @@ def run(
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
     another beam speed, times and step follow its ω_0.
 
+    Parameters
+    ----------
+    no_exact
+        Leave out the frequency of the exact beam at the run's amplitude.
+
     Examples
     --------
     $ rotbeam run
     $ rotbeam run --omega 4 --ramp-time 2.5 --frame rotating --elements 32 -o fine
     $ rotbeam run --config beam.toml --element exact --option nodes=3 --no-figure
+    $ rotbeam run --gravity --damping-ratio 0.01 --no-exact
     """
     from ..verification.assessment import assess
 
     file = configured(config)
     numerics = discretization.over(file.numerics)
+    beam = driving.dampings.on(file.beam)
     motion = motion_of(
-        file, omega=omega, ramp_time=ramp_time, duration=numerics.duration, step=numerics.step
+        file,
+        takes_loads=True,
+        omega=omega,
+        ramp_time=ramp_time,
+        duration=numerics.duration,
+        step=numerics.step,
     )
+    given = omega is not None or "omega" in file.motion
+    chosen = "" if given else ", the benchmark's"
     refuse_rest(motion.spin_up.omega)
-    case = numerics.case(file.beam, motion)
+    case = numerics.case(beam, motion, driving.chosen(file.loads))
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
         steady = _measured(data, path)
-        found = assess(case, steady)
-        for title, text in (*_inputs(case, numerics.title), *_results(data, steady, found)):
+        with bar("exact frequencies"):
+            found = assess(case, steady, exact=not no_exact)
+        for title, text in (*_inputs(case, numerics.title, chosen), *_results(data, steady, found)):
             print_line(title, text)
         return found
 
@@ -89,7 +109,7 @@ def _computed(case: RunCase) -> xr.Dataset:
         raise UnfinishedError(error.run, "computed") from error
 
 
-def _inputs(case: RunCase, element: str) -> list[tuple[str, str]]:
+def _inputs(case: RunCase, element: str, chosen: str) -> list[tuple[str, str]]:
     """Return the lines on the inputs of the run."""
     beam = case.beam
     return [
@@ -102,8 +122,9 @@ def _inputs(case: RunCase, element: str) -> list[tuple[str, str]]:
         (
             "spin-up",
             f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
-            f"(Ω = {case.omega / beam.omega_0:.4f})",
+            f"(Ω = {case.omega / beam.omega_0:.4f}{chosen})",
         ),
+        *([("loads", "; ".join(map(str, case.loads)))] if case.loads else []),
         (
             "discretization",
             f"{case.elements} × {element}; {case.frame} frame, "

@@ -15,7 +15,7 @@ from ..runs.attributes import beam_attributes
 from .job import Job
 from .motion import Config, Omega, configured, omega_of
 from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
-from .output import formatted, print_columns, print_text
+from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
     from analytic.exact.plane.planarity import PlanarStability
@@ -67,10 +67,11 @@ def stability(
     inputs["growth"] = growth
 
     def computed() -> tuple[PlanarStability, StabilityLimit]:
-        found = analytic.planar_stability(blade, omega, amplitudes, mode)
-        return found, analytic.stability_limit(
-            blade, omega, mode, growth=growth, largest=amplitudes[-1]
-        )
+        with bar("growth out of the plane"):
+            found = analytic.planar_stability(blade, omega, amplitudes, mode)
+            return found, analytic.stability_limit(
+                blade, omega, mode, growth=growth, largest=amplitudes[-1]
+            )
 
     Job(
         path=results.out / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}",

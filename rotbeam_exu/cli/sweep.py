@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
+from .driving import DRIVING, Driving
 from .job import Job
 from .motion import chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
 from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
@@ -23,6 +24,7 @@ def sweep(
     omega: Values = None,
     ramp_time: Values = None,
     discretization: Discretization = DISCRETIZATION,
+    driving: Driving = DRIVING,
     workers: Workers = WORKERS,
     shard: str = "1/1",
     history: Flag = False,
@@ -57,23 +59,24 @@ def sweep(
     from ..sweeps.grid import sweep as run_sweep
 
     file = configured(config)
-    beam = file.beam
+    beam = driving.dampings.on(file.beam)
     numerics = discretization.over(file.numerics)
     omegas, ramp_times = _grid(file, omega, ramp_time)
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     part = _shard(shard)
     count = len(omegas) * len(ramp_times)
-    one = numerics.case(beam, motion)
+    one = numerics.case(beam, motion, driving.chosen(file.loads))
 
     def computed() -> xr.Dataset:
         if config is not None:
             speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
-            print_text(f"ω = {speeds} rad/s, T = {times} s (by default the paper's, by ω_0)")
+            print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
         with workers.counted("spin-ups") as progress:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
+                loads=one.loads,
                 jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
                 shard=part, history=history,
             )  # fmt: skip

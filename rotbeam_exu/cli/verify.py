@@ -17,7 +17,7 @@ from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .motion import ChosenMotion, Config, configured, motion_of, slower_than_paper
-from .options import Flag, element_names, spelled_as
+from .options import Flag, element_names, element_of, spelled_as
 from .output import counter, print_columns, print_note, print_text
 
 if TYPE_CHECKING:
@@ -56,8 +56,8 @@ def verify(
     ----------
     element
         A formulation: cable, exact or reissner, ancf3, linear, substructures; in space
-        space_cable, space_exact; or another code: kratos. Repeat it for several; by default all
-        that are installed.
+        space_cable, space_exact; one's own, as module:Class; or another code: kratos. Repeat it
+        for several; by default all that are installed.
     cost
         Print the cost at equal error instead.
     error
@@ -83,12 +83,12 @@ def verify(
 
 
 def _entry(name: str) -> Entry:
-    from ..fem.elements import FORMULATIONS, formulation
+    from ..fem.elements import FORMULATIONS
     from ..verification.entries import formulation_entry
     from ..verification.peers import PEERS, peer
 
-    if name in element_names():
-        return formulation_entry(formulation(name))
+    if name in element_names() or ":" in name:
+        return formulation_entry(element_of(name))
     if name not in PEERS:
         known = ", ".join(repr(known) for known in (*FORMULATIONS, *PEERS))
         raise ValueError(f"unknown element {name!r}; known are {known}")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import os
+import re
 import tomllib
-from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,23 +14,15 @@ from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
 from analytic.line import Line
+from analytic.loads import Load
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
-_MATERIAL = tuple(field.name for field in fields(Beam))
-_STIFFNESS = ("length", "axial_stiffness", "bending_stiffness", "mass_per_length")
+from . import beam_tables as tables
+from .beam_tables import Table, require_keys
+from .stations_file import blade_of_csv
 
-_MOTION: dict[str, Callable[[Any], Any]] = {
-    "omega": rotation_speed,
-    "ramp_time": lambda value: positive("ramp_time", value, "s"),
-}
-_NUMERICS: dict[str, Callable[[Any], Any]] = {
-    "element": lambda value: _text("element", value),
-    "elements": lambda value: whole_number("elements", value),
-    "step": lambda value: positive("step", value, "s"),
-    "duration": lambda value: positive("duration", value, "s"),
-    "frame": lambda value: _text("frame", value),
-}
+_DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,12 +35,14 @@ class RunFile:
         The paper's beam, where the file has none.
     motion : dict
         `omega` [rad/s] and `ramp_time` [s], if the file holds them.
+    loads : sequence of Load
     numerics : dict
         `element`, `elements`, `step` [s], `duration` [s] and `frame`, if it holds them.
     """
 
     beam: AnyBlade
     motion: Mapping[str, float] = field(default_factory=dict)
+    loads: Sequence[Load] = ()
     numerics: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -63,9 +57,10 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
-    [blade.stations], in place of length and section, the keywords of `Blade.from_stations`;
-    [blade.damping] bending [s], axial [s] and external [kg/(m s)], relative to the turning frame
-    and not of point masses, each zero where it is not given.
+    [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
+    `Blade.from_shapes`, or the name of a `file` that `blade_of_csv` reads; [blade.damping] ratio,
+    of mode 1 in the plane at rest, or bending [s], axial [s] and external [kg/(m s)], relative to
+    the turning frame and not of point masses, each zero where it is not given.
 
     Raises
     ------
@@ -90,16 +85,17 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     """
     source = Path(path)
     document = _read_toml(source)
-    for others in ("motion", "numerics"):  # of a run, which `load_run_file` reads
+    for others in ("motion", "numerics", "loads"):  # of a run, which `load_run_file` reads
         document.pop(others, None)
     return _beam_from(document, source)
 
 
 def load_run_file(path: str | os.PathLike[str]) -> RunFile:
-    """Read [beam] or [blade], as `load_beam` does, and the tables [motion] and [numerics].
+    """Read [beam] or [blade], as `load_beam` does, and the tables [motion], [numerics], [[loads]].
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
-    duration [s] and frame. A file with one of these may do without a beam.
+    duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
+    these may do without a beam.
 
     Raises
     ------
@@ -111,29 +107,43 @@ def load_run_file(path: str | os.PathLike[str]) -> RunFile:
     """
     source = Path(path)
     document = _read_toml(source)
-    tables = {
-        name: _checked(document.pop(name), f"[{name}]", source, checks)
-        for name, checks in (("motion", _MOTION), ("numerics", _NUMERICS))
+    run: dict[str, Any] = {
+        name: _checked(document.pop(name), f"[{name}]", source, keys)
+        for name, keys in (("motion", tables.MOTION), ("numerics", tables.NUMERICS))
         if name in document
     }
-    beam = _beam_from(document, source) if document or not tables else Beam.reference()
-    return RunFile(beam=beam, **tables)
+    if "loads" in document:
+        run["loads"] = _loads(document.pop("loads"), source)
+    beam = _beam_from(document, source) if document or not run else Beam.reference()
+    return RunFile(beam=beam, **run)
 
 
-def _checked(
-    table: Any, title: str, source: Path, checks: dict[str, Callable[[Any], Any]]
-) -> dict[str, Any]:
-    _require_keys(table, title, source, (), tuple(checks))
+def _loads(told: Any, source: Path) -> list[Load]:
+    if not (isinstance(told, list) and all(isinstance(one, dict) for one in told)):
+        raise ValueError(f'{source}: write each [[loads]] as a table, with kind = "Gravity"')
     try:
-        return {name: checks[name](value) for name, value in table.items()}
+        return [from_description(one, Load) for one in told]
+    except (OverflowError, TypeError, ValueError) as error:
+        raise ValueError(f"{source}: [[loads]]: {error}") from error
+
+
+def _checked(table: Any, title: str, source: Path, keys: Table) -> dict[str, Any]:
+    require_keys(table, title, source, keys)
+    try:
+        return {name: _number(name, value, keys.optional[name]) for name, value in table.items()}
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {title}: {error}") from error
 
 
-def _text(name: str, value: object) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"{name} must be a name in quotes, got {value!r}")
-    return value
+def _number(name: str, value: object, kind: type) -> Any:
+    """Return a number or a name of [motion] and [numerics]; but for the speed, times [s]."""
+    if kind is str:
+        if not isinstance(value, str):
+            raise TypeError(f"{name} must be a name in quotes, got {value!r}")
+        return value
+    if kind is int:
+        return whole_number(name, value)
+    return rotation_speed(value) if name == "omega" else positive(name, value, "s")
 
 
 def _read_toml(source: Path) -> dict[str, Any]:
@@ -146,7 +156,9 @@ def _read_toml(source: Path) -> dict[str, Any]:
     except RecursionError as error:
         raise ValueError(f"{source} is not a beam: it is nested too deeply") from error
     except ValueError as error:  # of TOML, of UTF-8, or of an integer with too many digits
-        raise ValueError(f"{source} is not valid TOML: {error}") from error
+        comma = _DECIMAL_COMMA.search(source.read_text(encoding="utf-8", errors="replace"))
+        hint = f"; write {comma[1]}.{comma[2]} for {comma[1]},{comma[2]}" if comma else ""
+        raise ValueError(f"{source} is not valid TOML: {error}{hint}") from error
 
 
 def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
@@ -154,15 +166,19 @@ def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
     for name in document:
         if name not in ("beam", "blade"):
             raise ValueError(
-                f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
-                "[blade], a run's motion and numerics in [motion] and [numerics]"
+                f"{source}: unknown table or key {name!r}; "
+                + (
+                    tables.home(name)
+                    or "the beam is in [beam], a blade in [blade], what a run needs in "
+                    "[motion], [numerics] and [[loads]]"
+                )
             )
     if len(document) == 2:
         raise ValueError(f"{source} has both [beam] and [blade]: keep one")
     kind = "blade" if "blade" in document else "beam"
     table = document.get(kind)
     if not isinstance(table, dict):
-        raise ValueError(f"{source} has no table [beam] with {', '.join(_MATERIAL)}")
+        raise ValueError(f"{source} has no table [beam] with {', '.join(tables.BEAM.required)}")
     try:
         return _blade(table, source) if kind == "blade" else _beam(table, source)
     except (OverflowError, TypeError, ValueError) as error:
@@ -171,46 +187,57 @@ def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
 
 
 def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
-    by_stiffness = bool(set(table) & set(_STIFFNESS[1:]))
-    wanted = _STIFFNESS if by_stiffness else _MATERIAL
-    _require_keys(table, "[beam]", source, wanted, () if by_stiffness else ("shape",))
+    by_stiffness = bool(set(table) & {*tables.SECTION.required})
+    require_keys(table, "[beam]", source, tables.BEAM_BY_STIFFNESS if by_stiffness else tables.BEAM)
     if by_stiffness:
         return Beam.from_stiffness(**table)
-    return _shaped(Beam(**{name: table[name] for name in wanted}), table.get("shape"))
+    material = {name: table[name] for name in tables.BEAM.required}
+    return _shaped(Beam(**material), table.get("shape"))
 
 
 def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
-    wanted = ("stations",) if "stations" in table else ("length", "section")
-    optional = ("hub_radius", "setting_angle", "point_mass", "damping", "line")
-    _require_keys(table, "[blade]", source, wanted, optional)
+    keys = tables.BLADE_AT_STATIONS if "stations" in table else tables.BLADE
+    require_keys(table, "[blade]", source, keys)
     parts, line, shape = dict(table), table.get("line", {}), None
     masses = parts.pop("point_mass", [])
     if not isinstance(masses, list):
         raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
     if "stations" in table:
-        blade = _at_stations(parts.pop("stations"), source)
-        parts |= {"length": blade.length, "section": blade.section}
-        line = {"twist": blade.line.twist, **line}
+        at = _at_stations(parts.pop("stations"), source)
+        parts |= {"length": at.length, "section": at.section}
+        line = {"twist": at.line.twist, **line}
     else:
         parts["section"], shape = _section(table["section"], source)
-    parts["damping"] = _part(Damping, table.get("damping", {}), "[blade.damping]", source)
+    damping = parts.pop("damping", {})
+    ratio = isinstance(damping, dict) and "ratio" in damping
+    title, keys = "[blade.damping]", tables.DAMPING_BY_RATIO if ratio else tables.table_of(Damping)
+    require_keys(damping, title, source, keys)
     parts["line"] = _part(Line, line, "[blade.line]", source)
     parts["point_masses"] = tuple(
         _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
     )
-    return _shaped(Blade(**parts), shape)
+    blade = _shaped(Blade(**parts), shape).blade
+    if ratio:
+        return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
+    return blade.with_damping(Damping(**damping))
 
 
 def _at_stations(table: dict[str, Any], source: Path) -> Blade:
-    known = ("twist", "tension", "shear", "center", "axis")
-    _require_keys(table, "[blade.stations]", source, ("x", "stiffness", "mass"), known)
+    title = "[blade.stations]"
+    if "file" in table:
+        require_keys(table, title, source, tables.STATIONS_OF_FILE)
+        return blade_of_csv(source.parent / str(table["file"]))
+    if "shapes" in table:
+        require_keys(table, title, source, tables.STATIONS_OF_SHAPES)
+        shapes = list(map(_shape, table["shapes"]))
+        return Blade.from_shapes(**{**table, "shapes": shapes})
+    require_keys(table, title, source, tables.STATIONS)
     return Blade.from_stations(**table)
 
 
 def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
     """Return a section, and the table of its shape."""
-    optional = ("rotary_inertia", "out_of_plane", "shape")
-    _require_keys(table, "[blade.section]", source, _STIFFNESS[1:], optional)
+    require_keys(table, "[blade.section]", source, tables.SECTION)
     section = dict(table)
     shape = section.pop("shape", None)
     if "out_of_plane" in section:
@@ -223,33 +250,16 @@ def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
 
 def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
     """Return the beam with the shape of a table, or itself without one."""
-    if shape is None:
-        return beam
+    return beam if shape is None else beam.with_shape(_shape(shape))
+
+
+def _shape(shape: object) -> SectionShape:
     if not isinstance(shape, dict):
         raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    return beam.with_shape(from_description(shape, SectionShape))
+    return from_description(shape, SectionShape)
 
 
 def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:
     """Return the value whose fields are the keys of a table."""
-    wanted = tuple(one.name for one in fields(cls) if one.default is MISSING)
-    optional = tuple(one.name for one in fields(cls) if one.name not in wanted)
-    _require_keys(table, title, source, wanted, optional)
+    require_keys(table, title, source, tables.table_of(cls))
     return cls(**table)
-
-
-def _require_keys(
-    table: Any, title: str, source: Path, wanted: tuple[str, ...], optional: tuple[str, ...] = ()
-) -> None:
-    """Refuse values that are no table, unknown keys, naming a near one, and missing keys."""
-    if not isinstance(table, dict):
-        raise ValueError(f"{source}: write {title} as a table")
-    known = (*wanted, *optional)
-    for key in table:
-        if key not in known:
-            close = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
-            raise ValueError(f"{source}: unknown key {key!r} in {title}; {hint}")
-    missing = [key for key in wanted if key not in table]
-    if missing:
-        raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")

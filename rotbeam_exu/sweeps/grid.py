@@ -14,6 +14,7 @@ import numpy as np
 
 from analytic import AnyBlade, SpinUp
 from analytic.input_checks import finite_values, flag, whole_number
+from analytic.loads import Load
 from analytic.warning import warn
 
 from ..fem.case import RunCase
@@ -38,6 +39,7 @@ def sweep(
     duration: float = 15.0,
     step: float = 1e-3,
     frame: Frame = "inertial",
+    loads: Sequence[Load] = (),
     executor: Executor | None = None,
     jobs: int | None = None,
     cache: str | os.PathLike[str] | None = None,
@@ -54,7 +56,7 @@ def sweep(
         The beam.
     omegas, ramp_times : sequences of float
         The grid: steady angular velocities [rad/s] and ramp times [s], without duplicates.
-    element, elements, duration, step, frame
+    element, elements, duration, step, frame, loads
         As in `simulate`.
     executor : concurrent.futures.Executor, optional
         Where the cases run; by default as many spawned processes as `jobs`. A script that uses
@@ -104,7 +106,7 @@ def sweep(
         finite_values("ramp_times", ramp_times, "s").tolist(),
         lambda spin_up: RunCase(
             beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
-            step=step, frame=frame,
+            step=step, frame=frame, loads=loads,
         ),
     )  # fmt: skip
     if on_error not in ("raise", "record"):

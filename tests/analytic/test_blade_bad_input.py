@@ -43,7 +43,7 @@ def test_bad_blades_are_refused(make, sentence):
         (((0.0, "1.0"), (1.0, "2.0")), "is the text '1.0': read numbers, as numpy.loadtxt does"),
         (np.array([["0", "1"], ["1", "1"]]), "is the text '0': read numbers"),
         (("1", "2"), "is the text '1': read numbers"),
-        ("blade.csv", "bending_stiffness must be a number, got 'blade.csv'"),
+        ("blade.csv", "bending_stiffness must be a number in N m\\^2, got 'blade.csv'"),
         (((0.0, 1.0, 2.0),), "must be a station \\(x, value\\), got"),
         ((), "is empty: give a number, coefficients or stations"),
         (((0.0, 1.0), (0.5, 1.0)), "run from 0 to 0.5 m: give them from 0 to the length, 1 m"),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import Beam, linear_modes, periodic_orbits, reduced_model
+from analytic import Beam, Blade, Rectangle, Section, linear_modes, periodic_orbits, reduced_model
 from analytic.input_checks import (
     finite_array,
     finite_values,
@@ -16,6 +16,9 @@ from analytic.input_checks import (
 
 _SCALES = {
     "m": {"meter": 1.0, "millimeter": 1e-3},
+    "N": {"kilonewton": 1e3},
+    "Pa": {"gigapascal": 1e9},
+    "rad": {"degree": np.pi / 180.0},
     "rad/s": {"radian / second": 1.0, "revolutions_per_minute": np.pi / 30.0, "hertz": 1.0},
 }
 
@@ -43,6 +46,24 @@ def test_quantities_are_converted():
     omega = Quantity(60.0, "revolutions_per_minute")
     beam = Beam.reference()
     assert reduced_model(beam, omega).omega_n == reduced_model(beam, 2.0 * np.pi).omega_n
+
+
+def test_a_blade_takes_quantities():
+    """In profiles, along stations, and one for all of them; those of another kind are refused."""
+    EA, L = Quantity(5e3, "kilonewton"), Quantity(8000.0, "millimeter")
+    rest = {"bending_stiffness": 566.0, "mass_per_length": 0.2}
+    section = Section(axial_stiffness=[(0.0, EA), (L, 4e6)], **rest)
+    assert section == Section(axial_stiffness=[(0.0, 5e6), (8.0, 4e6)], **rest)
+    assert Section(axial_stiffness=EA, **rest).axial_stiffness == 5e6
+    strip = Rectangle(height=Quantity(80.0, "millimeter"), width=0.01)
+    blade = Blade.from_shapes(
+        Quantity(np.array([0.0, 2000.0]), "millimeter"), [strip, strip],
+        Quantity(70.0, "gigapascal"), 2700.0, twist=Quantity(np.array([0.0, 10.0]), "degree"),
+    )  # fmt: skip
+    by_hand = Blade.from_shapes([0.0, 2.0], [strip, strip], 7e10, 2700.0, twist=[0.0, np.pi / 18.0])
+    assert blade == by_hand
+    with pytest.raises(ValueError, match="bending_stiffness must be a quantity in N m.2, got"):
+        Section(axial_stiffness=5e6, bending_stiffness=EA, mass_per_length=0.2)
 
 
 def test_quantities_of_another_kind_are_refused():

@@ -101,6 +101,8 @@ def test_an_example_ends_well(call, folder, example):
     if command == "judge":
         assert call("kit", "benchmark")[0] == 0
         shutil.copytree(folder / "benchmark" / "sample", folder / arguments[0])
+    if command == "explore":  # which has sliders for the motion, and refuses one
+        (folder / "beam.toml").write_text(BEAM.partition("[motion]")[0])
     code, out, error = call(command, *arguments)
     assert code == 0, error
     assert out

@@ -1,11 +1,15 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
+import json
 from dataclasses import replace
 
 import pytest
+import xarray as xr
 
 from rotbeam_exu import figures, load
+from rotbeam_exu.cli.job import refuse_to_replace
 from rotbeam_exu.fem import simulation
+from rotbeam_exu.files.results import save
 from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
 
@@ -43,6 +47,15 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     other = ("--frame", "rotating", "--no-figure", "--force")
     assert call("run", *SHORT, *other, "--out", tmp_path)[0] == 0
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
+
+
+def test_of_long_inputs_it_is_shown_where_they_differ(tmp_path):
+    """A station of many: the texts begin and end alike."""
+    inputs = {"beam": json.dumps([[i, 600.0] for i in range(40)])}
+    save(xr.Dataset(attrs=inputs), tmp_path / "run.nc")
+    other = {"beam": inputs["beam"].replace("[20, 600.0]", "[20, 601.0]")}
+    with pytest.raises(FileExistsError, match=r"\[20, 600.0\].* instead of .*\[20, 601.0\]"):
+        refuse_to_replace(other, tmp_path / "run.nc")
 
 
 def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):

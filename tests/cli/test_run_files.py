@@ -7,9 +7,11 @@ import pandas as pd
 import pytest
 
 import analytic
-from analytic import Beam, SpinUp
+from analytic import Beam, Damping, SpinUp, TipForce
 from rotbeam_exu import comparison, load, simulate
+from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.files.beam_file import load_run_file
+from rotbeam_exu.runs.oscillation import steady_oscillation
 from rotbeam_exu.verification import verify as room
 
 RUN = """
@@ -73,10 +75,15 @@ def test_the_motion_of_the_file_reaches_the_other_commands(call, config, tmp_pat
     [
         ("[motion]\nomga = 6", "unknown key 'omga' in [motion]; did you mean 'omega'?"),
         ("[motion]\nomega = -1", "[motion]: omega must"),
+        ("[motion]\nomega = '60rpm'", "omega must be a number in rad/s, got '60rpm': write 6.283"),
+        ("[motion]\nomega = '1 Hz'", "omega must be a number in rad/s, got '1 Hz': write 6.283"),
         ("[motion]\nramp_time = 'long'", "[motion]: ramp_time must be a number"),
         ("[numerics]\nelements = 2.5", "[numerics]: elements must be a whole number"),
         ("[numerics]\nelement = 3", "[numerics]: element must be a name in quotes, got 3"),
         ("motion = 3", "write [motion] as a table"),
+        ("loads = 3", 'write each [[loads]] as a table, with kind = "Gravity"'),
+        ("[[loads]]\nkind = 'Wind'", "[[loads]]: 'Wind' is no known Load"),
+        ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "[[loads]]: this is no TipForce"),
         ("[movement]\nomega = 6", "unknown table or key 'movement'"),
         ("", "has no table [beam]"),
     ],
@@ -89,6 +96,50 @@ def test_a_slip_in_the_file_is_one_sentence(call, tmp_path, text, sentence):
     assert f"{path}" in error
     assert sentence in error
     assert len(error.strip().splitlines()) == 1
+
+
+def test_loads_and_damping_of_the_file_and_of_options(call, config, tmp_path):
+    """Options replace the file's; the frequency of a free orbit is not compared with theirs."""
+    config.write_text(f"{RUN}[[loads]]\nkind = 'Gravity'\ngravity = 1.6\n")
+    path = tmp_path / "cable-2-omega-4-ramp-2.5.nc"
+    quiet = ("--config", config, "--no-figure", "--force", "--out", tmp_path)
+    code, out, _ = call("run", *quiet)
+    assert code == 0
+    assert re.search(r"^loads +.*gravity of 1.6 m/s", out, re.MULTILINE)
+    assert "cannot be had: loads and damping make it another" in out
+    weak = load(path)
+    options = ("--tip-force", "0.5", "--load-frequency", "3", "--damping-ratio", "0.01")
+    assert call("run", *quiet, *options)[0] == 0
+    case = RunCase.described(load(path).attrs)
+    assert case.loads == (TipForce(amplitude=0.5, frequency=3.0),)
+    assert case.beam.damping == Damping.from_ratio(Beam.reference(), 1, 0.01)
+    swept = ("sweep", "--config", config, "--jobs", "1", "--cache", tmp_path / "cache")
+    assert call(*swept, "-o", tmp_path)[0] == 0
+    amplitude = steady_oscillation(weak).amplitude
+    assert load(tmp_path / "sweep-cable-2.nc")["amplitude"].item() == pytest.approx(amplitude)
+
+
+def test_loads_that_cannot_be_taken_are_refused(call, config, tmp_path):
+    assert "with --load-frequency" in call("run", "--tip-force", "1", "-o", tmp_path)[2]
+    config.write_text(f"{RUN}[[loads]]\nkind = 'Gravity'\n")
+    code, _, error = call("reference", "--config", config, "-o", tmp_path)
+    assert (code, "the file has [[loads]], which run and sweep" in error) == (2, True)
+
+
+def test_no_exact_leaves_the_exact_orbit_out(call, config, tmp_path, monkeypatch):
+    monkeypatch.setattr(analytic, "periodic_orbits", None)
+    quick = ("run", "--config", config, "--no-exact", "--no-figure", "--out", tmp_path)
+    assert "exact ω_NL            cannot be had: it was not asked for" in call(*quick)[1]
+
+
+def test_motion_is_read_or_refused(call, config, tmp_path):
+    """The diagram goes to twice the speed; the Explorer has sliders."""
+    out = call("campbell", "--config", config, "--points", "2", "--count", "1", "--format", "csv")[
+        1
+    ]
+    assert out.splitlines()[2].startswith("8.0,")
+    code, _, error = call("explore", "--config", config, "--out", tmp_path / "page.html")
+    assert (code, "leave [motion] out of the file" in error) == (2, True)
 
 
 def test_an_element_or_a_frame_that_is_none_is_refused(call, config, tmp_path):
@@ -145,7 +196,7 @@ def test_the_motion_of_the_file_is_that_of_ramp_and_stability(call, config, monk
     seen = []
 
     def stopped(_, omega, *__, **options):
-        seen.append((omega, options.get("element"), options.get("elements")))
+        seen.append((omega, getattr(options.get("element"), "name", None), options.get("elements")))
         raise KeyboardInterrupt
 
     monkeypatch.setattr(comparison, "residual", stopped)

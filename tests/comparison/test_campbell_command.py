@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from analytic import Rectangle, campbell, linear_modes
+from rotbeam_exu import load
 from rotbeam_exu.cli.campbell import campbell as command
 from rotbeam_exu.cli.options import SectionOptions
 
@@ -20,8 +21,7 @@ def test_csv_holds_the_diagram(beam, capsys):
     table = np.array(rows[1:6], dtype=float)
     assert table[:, 0] == pytest.approx(expected.omegas)
     assert table[:, 1:] == pytest.approx(expected.frequencies, rel=1e-9)
-    assert rows[6] == []
-    assert len(rows) == 8 + len(expected.crossings)
+    assert len(rows) == 6
 
 
 def test_table_shows_frequencies_and_crossings(capsys):
@@ -58,15 +58,23 @@ def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tm
     blade = beam.blade.with_shape(Rectangle(ratio=18.5))
     frequencies = [linear_modes(blade, 12.0, 1, plane=p).frequencies[0] for p in PLANES]
     assert np.array(rows[3][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
-    # Torsion meets 6ω.
-    (met,) = [row for row in rows[6:] if row[0] == "torsion 1"]
-    there = linear_modes(blade, float(met[2]), 1, plane="torsion").frequencies[0]
-    assert there == pytest.approx(6.0 * float(met[2]), rel=1e-8)
     written = sorted(path.name for path in tmp_path.iterdir())
-    assert written == ["campbell-rectangle-18.5.pdf", "campbell-rectangle-18.5.png"]
-    assert written[0] in printed.err
+    ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
+    assert written == [f"campbell-rectangle-18.5{end}" for end in ends]
+    assert all(name in printed.err for name in written)
+    # Torsion meets 6ω.
+    found = load(tmp_path / "campbell-rectangle-18.5.nc")
+    (met,) = found["crossing_omega"][found["crossing_mode"] == "torsion 1"].to_numpy()
+    there = linear_modes(blade, met, 1, plane="torsion").frequencies[0]
+    assert there == pytest.approx(6.0 * met, rel=1e-8)
+    assert found["frequency"].sel(mode="flap 1")[-1] == pytest.approx(frequencies[1], rel=1e-9)
     with pytest.raises(FileExistsError, match="--force"):
-        command(**options, shape=shape, out=tmp_path)
+        command(**options | {"points": 4}, shape=shape, out=tmp_path)
+
+
+def test_a_diagram_without_crossings_is_written_too(tmp_path):
+    command(omega_max=1.0, points=2, count=1, orders=1, out=tmp_path)
+    assert load(tmp_path / "campbell-given.nc").sizes["crossing"] == 0
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,9 @@ import pytest
 import xarray as xr
 
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import sweep
+from rotbeam_exu import load, sweep
 from rotbeam_exu.fem.elements import FORMULATIONS, Cable
+from rotbeam_exu.runs.oscillation import steady_oscillation
 from rotbeam_exu.sweeps.cache import maker
 
 COARSE = {
@@ -59,6 +60,22 @@ def test_an_element_with_the_name_of_ours_is_computed(beam, tmp_path, author):
     # Half the stiffness swings further.
     assert theirs["amplitude"].item() > 1.2 * ours["amplitude"].item()
     assert len(list(tmp_path.glob("*.nc"))) == 2
+
+
+def test_the_command_line_takes_it_by_module_and_class(call, tmp_path, author):
+    """One run and, in this process, the same alone in a grid."""
+    author()
+    quick = ("--elements", "2", "--step", "0.01", "--duration", "8", "--out", tmp_path)
+    motion = ("--omega", "4", "--ramp-time", "2.5")
+    mine = ("--element", "mine:Softer", *quick, *motion)
+    assert call("run", *mine, "--no-figure", "--no-exact")[0] == 0
+    assert call("sweep", *mine, "--jobs", "1", "--cache", tmp_path / "cache")[0] == 0
+    run = steady_oscillation(load(tmp_path / "Softer-2-omega-4-ramp-2.5.nc"))
+    swept = load(tmp_path / "sweep-Softer-2.nc")["amplitude"].item()
+    assert swept == pytest.approx(run.amplitude, rel=1e-9)
+    for wrong in ("mine:Harder", "yours:Softer", "mine:SHARE"):
+        code, _, error = call("run", "--element", wrong, *quick)
+        assert (code, f"no element can be made of {wrong}" in error) == (2, True)
 
 
 def test_any_change_of_code_makes_another_case(author):

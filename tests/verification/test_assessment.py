@@ -72,10 +72,19 @@ def test_each_error_above_a_hundredth_of_the_effect_is_named_with_its_own_remedy
 
 
 def test_where_the_swing_is_small_a_ramp_that_leaves_more_is_a_remedy_too():
-    small, large = assessed(8, amplitude=0.008), assessed(8)
-    assert all("ramp that leaves more than 0.008 L" in one for one in small.warnings(8, 1e-3))
+    small, large = assessed(8, amplitude=0.02), assessed(8)
+    assert all("ramp that leaves more than 0.02 L" in one for one in small.warnings(8, 1e-3))
     assert "times the nonlinear effect" in small.warnings(8, 1e-3)[0]
     assert not any("ramp" in one for one in large.warnings(8, 1e-3))
+
+
+def test_a_swing_that_hides_its_nonlinear_effect_is_called_linear():
+    """Not where the mesh shows the effect, however small the swing is."""
+    small = assessed(8, amplitude=0.002)
+    (sentence,) = small.warnings(8, 1e-3)
+    assert sentence.startswith("the swing of 0.002 L is linear: its nonlinear effect, -")
+    fine = replace(small, omega_n=small.exact_omega_n, frequency=small.exact_frequency)
+    assert fine.warnings(8, 1e-3) == []
 
 
 def test_an_orbit_that_cannot_be_had_is_a_line_and_no_failure():

@@ -1,0 +1,160 @@
+"""Tables of a beam file: their keys, the sentence on a wrong one, and the JSON schema of all."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import MISSING, fields
+from pathlib import Path
+from types import NoneType
+from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+
+from numpy.typing import ArrayLike
+
+from analytic import Beam, Blade, Damping, PointMass, Section
+from analytic.description import Described, kinds_of
+from analytic.line import Line
+from analytic.loads import Load
+from analytic.section_shapes import SectionShape
+
+
+class Table(NamedTuple):
+    """Keys of a table and the types of their values; a tuple of tables are alternatives."""
+
+    required: Mapping[str, Any]
+    optional: Mapping[str, Any]
+
+
+def table_of(cls: type[Any]) -> Table:
+    """Return the keys of a dataclass's table, which are its fields."""
+    hints, own = get_type_hints(cls), [one for one in fields(cls) if one.init]
+    asked = {one.name: hints[one.name] for one in own if one.default is MISSING}
+    return Table(asked, {one.name: hints[one.name] for one in own if one.name not in asked})
+
+
+def _table_of_call(function: Callable[..., Any]) -> Table:
+    """Return the keys of a table that holds the arguments of a call."""
+    hints, known = get_type_hints(function), inspect.signature(function).parameters.values()
+    asked = {one.name: hints[one.name] for one in known if one.default is one.empty}
+    return Table(asked, {one.name: hints[one.name] for one in known if one.name not in asked})
+
+
+_OF_SECTION = {**table_of(Section).required, **table_of(Section).optional}
+_STIFFNESS = ("axial_stiffness", "bending_stiffness", "mass_per_length")
+
+BEAM = Table(table_of(Beam).required, {"shape": SectionShape})
+BEAM_BY_STIFFNESS = Table(dict.fromkeys(("length", *_STIFFNESS), float), {})
+SECTION = Table(
+    {name: _OF_SECTION[name] for name in _STIFFNESS},
+    {name: _OF_SECTION[name] for name in ("rotary_inertia", "out_of_plane")}
+    | {"shape": SectionShape},
+)
+STATIONS = _table_of_call(Blade.from_stations)
+STATIONS_OF_SHAPES = _table_of_call(Blade.from_shapes)
+STATIONS_OF_FILE = Table({"file": str}, {})
+DAMPING_BY_RATIO = Table({"ratio": float}, {})
+_BLADE = {
+    "hub_radius": float,
+    "setting_angle": float,
+    "point_mass": list[PointMass],
+    "damping": (table_of(Damping), DAMPING_BY_RATIO),
+    "line": table_of(Line),
+}
+BLADE = Table({"length": float, "section": SECTION}, _BLADE)
+BLADE_AT_STATIONS = Table({"stations": (STATIONS, STATIONS_OF_SHAPES, STATIONS_OF_FILE)}, _BLADE)
+MOTION = Table({}, {"omega": float, "ramp_time": float})
+NUMERICS = Table(
+    {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
+)
+_DOCUMENT = Table(
+    {},
+    {
+        "beam": (BEAM, BEAM_BY_STIFFNESS),
+        "blade": (BLADE, BLADE_AT_STATIONS),
+        "motion": MOTION,
+        "numerics": NUMERICS,
+        "loads": list[Load],
+    },
+)
+
+
+def require_keys(table: Any, title: str, source: Path, keys: Table) -> None:
+    """Refuse values that are no table, missing keys, and unknown ones, by what to write."""
+    if not isinstance(table, dict):
+        raise ValueError(f"{source}: write {title} as a table")
+    known = (*keys.required, *keys.optional)
+    for key in table:
+        if key not in known:
+            close = difflib.get_close_matches(key, known, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
+            raise ValueError(f"{source}: unknown key {key!r} in {title}; {home(key) or hint}")
+    missing = [key for key in keys.required if key not in table]
+    if missing:
+        raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")
+
+
+def home(key: str) -> str:
+    """Return where a key belongs, or nothing if no table has it."""
+    found = [f"[{name}]" for name, told in _DOCUMENT.optional.items() if key in _keys(told)]
+    found += [f"[blade.{name}]" for name, told in BLADE.optional.items() if key in _keys(told)]
+    return f"it belongs in {' or '.join(found)}" if found else ""
+
+
+def _keys(told: Any) -> set[str]:
+    """Return the keys of a table or of alternatives; of another value, none."""
+    if isinstance(told, Table):
+        return {*told.required, *told.optional}
+    return set().union(*map(_keys, told)) if isinstance(told, tuple) else set()
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of a beam file, which the loader's own tables tell."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "A beam or blade of rotbeam, and a run",
+        **_schema_of(_DOCUMENT),
+        "not": {"required": ["beam", "blade"]},
+    }
+
+
+_TYPES: dict[Any, str | list[str]] = {
+    float: "number", int: "integer", str: "string", bool: "boolean", ArrayLike: ["number", "array"],
+}  # fmt: skip
+
+
+def _schema_of(told: Any) -> dict[str, Any]:
+    """Return the schema of a table, of alternatives, or of a value by its type hint."""
+    if isinstance(told, Table):
+        return {
+            "type": "object",
+            "properties": {
+                k: _schema_of(v) for k, v in (*told.required.items(), *told.optional.items())
+            },
+            "required": list(told.required),
+            "additionalProperties": False,
+        }
+    if isinstance(told, tuple):
+        several = [_schema_of(one) for one in told]
+        return several[0] if len(several) == 1 else {"anyOf": several}
+    if told in _TYPES:
+        return {"type": _TYPES[told]}
+    if get_origin(told) is Literal:
+        return {"const": get_args(told)[0]}
+    if isinstance(told, type) and issubclass(told, Described):
+        kinds = kinds_of(told)
+        own = told.__name__ in kinds
+        return _schema_of(table_of(told) if own else tuple(map(_with_kind, kinds.values())))
+    parts = tuple(one for one in get_args(told) if one not in (NoneType, Ellipsis))
+    choice = _schema_of(tuple(dict.fromkeys(parts)))
+    return (
+        {"type": "array", "items": choice}
+        if get_origin(told) in (list, tuple, Sequence)
+        else choice
+    )
+
+
+def _with_kind(cls: type[Any]) -> Table:
+    """Return the keys of a table that tells its kind."""
+    keys = table_of(cls)
+    return Table({"kind": Literal[cls.__name__], **keys.required}, keys.optional)

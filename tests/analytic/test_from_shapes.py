@@ -1,0 +1,87 @@
+"""Blades from shapes and materials at stations, against closed forms and other ways to the same."""
+
+import math
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Blade, Circle, Ellipse, Rectangle, Tube, linear_modes
+from analytic.section_shapes import Box
+
+E, RHO = 7e10, 2700.0
+
+
+def test_a_uniform_strip_is_that_of_its_area_and_second_moment():
+    """By the code for 6x6 matrices and by the ratios out of the plane: the same modes."""
+    strip = Rectangle(height=0.08, width=0.01)
+    blade = Blade.from_shapes([0.0, 2.0], [strip, strip], E, RHO)
+    beam = Beam(
+        length=2.0, area=8e-4, second_moment=0.08**3 * 0.01 / 12.0, youngs_modulus=E, density=RHO
+    ).with_shape(strip)
+    by_ratios = linear_modes(beam.with_twist(1e-12), 20.0, count=4).frequencies
+    assert linear_modes(blade, 20.0, count=4).frequencies == pytest.approx(by_ratios, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("shape", "area", "along", "across", "torsion"),
+    [
+        (Circle(radius=0.1), 1e-2, 2.5e-5, 2.5e-5, 5e-5),
+        (Ellipse(height=0.4, width=0.2), 2e-2, 2e-4, 5e-5, 1.6e-4),
+        (Tube(radius=0.15, wall=0.1), 3e-2, 3.75e-4, 3.75e-4, 7.5e-4),  # radii of 0.2 and 0.1
+    ],
+)
+def test_round_shapes_have_the_closed_forms(shape, area, along, across, torsion):
+    """Of handbooks, all over π."""
+    stiffness, mass = shape.of_material(E, RHO)
+    told = np.array([area, torsion / 2.6, across, along]) * math.pi * E
+    assert np.array(stiffness)[[0, 3, 4, 5]] == pytest.approx(told, rel=1e-12)
+    inertia = np.array([area, along + across, across, along]) * math.pi * RHO
+    assert mass == pytest.approx(inertia, rel=1e-12)
+
+
+def test_a_box():
+    """Its A and I are those of the outer rectangle less the inner; J of a thin square is t a³."""
+    stiffness, _ = Box(height=0.4, width=0.2, wall=0.01).of_material(E, RHO)
+    hole = {"height": 0.38, "width": 0.18}
+    outer, inner = (
+        np.array(Rectangle(**sides).of_material(E, RHO)[0])
+        for sides in ({"height": 0.4, "width": 0.2}, hole)
+    )
+    assert np.array(stiffness)[[0, 4, 5]] == pytest.approx((outer - inner)[[0, 4, 5]], rel=1e-12)
+    square = Box(height=1.001, width=1.001, wall=1e-3).of_material(E, RHO)[0]
+    assert square[3] == pytest.approx(E / 2.6 * 1e-3, rel=1e-12)
+
+
+def test_the_shear_coefficients_are_cowpers():
+    """Of the table in his paper, at ν = 0.3: 0.850, 0.886 and, of a thin tube, 0.531."""
+    shapes = Rectangle(height=2.0, width=1.0), Circle(radius=1.0), Tube(radius=1.0, wall=1e-4)
+    rows = [shape.of_material(2.6, 1.0)[0] for shape in shapes]  # G = 1
+    assert [row[1] / row[0] * 2.6 for row in rows] == pytest.approx([0.850, 0.886, 0.531], abs=5e-4)
+    round_one = Ellipse(height=2.0, width=2.0).of_material(2.6, 1.0)[0]
+    assert round_one == pytest.approx(rows[1], rel=1e-12)
+
+
+def test_stations_may_differ_in_shape_and_material():
+    """Halfway, a column is the mean of its ends: of EA = 7 and 1, 4."""
+    shapes = Rectangle(height=0.5, width=0.2), Box(height=0.4, width=0.3, wall=0.1)
+    blade = Blade.from_shapes([0.0, 4.0], shapes, [70.0, 10.0], [1.0, 2.0], twist=[0.1, 0.0])
+    assert blade.line.twist == ((0.0, 0.1), (4.0, 0.0))
+    assert blade.mass == pytest.approx(4.0 * (0.1 + 2.0 * 0.1) / 2.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("shape", "sentence"),
+    [
+        (Tube(radius=0.1), r"needs wall \[m\]"),
+        (Rectangle(height=0.1), r"needs width \[m\]"),
+        (Box(height=0.1, width=0.1, wall=0.06), r"walls .* overlap: take wall below 0.05 m"),
+    ],
+)
+def test_a_shape_that_does_not_tell_all_is_refused(shape, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        Blade.from_shapes([0.0, 1.0], [shape, shape], E, RHO)
+
+
+def test_a_box_needs_its_lengths_on_a_blade_too():
+    with pytest.raises(ValueError, match="needs height, width and wall"):
+        Beam.reference().with_shape(Box())

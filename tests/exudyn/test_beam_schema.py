@@ -1,0 +1,93 @@
+"""The JSON schema of beam files and the loader: they take and refuse the same."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from rotbeam_exu.files.beam_file import load_run_file
+from rotbeam_exu.files.beam_tables import schema
+from tests.beams import BLADE_TOML
+from tests.exudyn.test_beam_file import DAMPED, GOOD, PLANE, WHOLE
+from tests.exudyn.test_stations_file import SHAPES
+
+ROOT = Path(__file__).parents[2]
+TYPES = {"number": (int, float), "integer": int, "string": str, "array": list, "object": dict}
+FILES = sorted((ROOT / "models" / "blades").glob("*.toml"))
+PAGES = sorted(p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts)
+BLOCKS = [
+    text
+    for page in [*PAGES, ROOT / "README.md"]
+    for text in re.findall(r"```toml\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
+    if re.search(r"^\[+(beam|blade|motion|loads)\b", text, re.MULTILINE)
+]
+SHAPED = GOOD + 'shape = { kind = "Rectangle" }\n'
+LINE = (
+    f"{BLADE_TOML}[blade.section.out_of_plane]\nbending_ratio = 0.1\ntorsion_ratio = 0.2\n"
+    "[blade.line]\ntwist = [[0.0, 0.3], [8.0, 0.0]]\nkinks = [[4.0, 0.0, 0.1]]\n"
+)
+STATIONS = (
+    "[blade.stations]\nx = [0.0, 8.0]\ntwist = [0.2, 0.0]\n"
+    "mass = [[8.0, 0.3, 0.02, 0.28], [4, 0.1, 0.01, 0.09]]\n"
+    "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
+)
+RUN = '[motion]\nomega = 4\n[numerics]\nelement = "cable"\nelements = 2\n'
+LOADS = f'{RUN}[[loads]]\nkind = "TipForce"\namplitude = 0.5\nfrequency = 3\n'
+TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, SHAPED, LINE,
+         WHOLE.replace("mass_per_length = [0.2, -0.02]", PLANE + "bending_ratio = 1.0"),
+         STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN, LOADS]  # fmt: skip
+
+
+def fits(value, told):
+    """Whether a value is as a schema says: as much of JSON schema as ours has."""
+    if "anyOf" in told:
+        return any(fits(value, one) for one in told["anyOf"])
+    if "const" in told:
+        return value == told["const"]
+    kinds = [told["type"]] if isinstance(told["type"], str) else told["type"]
+    if isinstance(value, bool) or not any(isinstance(value, TYPES[kind]) for kind in kinds):
+        return False
+    if isinstance(value, dict):
+        if not all(name in value for name in told["required"]):
+            return False
+        known = told["properties"]
+        return all(name in known and fits(part, known[name]) for name, part in value.items())
+    return not ("items" in told and not all(fits(part, told["items"]) for part in value))
+
+
+def both(text, path):
+    """Whether schema and loader take a file."""
+    path.write_text(text, encoding="utf-8")
+    try:
+        load_run_file(path)
+    except ValueError:
+        return fits(tomllib.loads(text), schema()), False
+    return fits(tomllib.loads(text), schema()), True
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_every_file_there_is_fits_both_and_a_wrong_key_in_any_table_none(tmp_path, text):
+    """The key is put behind each header, and in front of all of them."""
+    path = tmp_path / "beam.toml"
+    assert both(text, path) == (True, True)
+    headers = [match.end() for match in re.finditer(r"^\[.*\]\n", text, re.MULTILINE)]
+    for place in (0, *headers):
+        assert both(f"{text[:place]}lenght = 1.0\n{text[place:]}", path) == (False, False)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("length = 8.0", "length = '8.0'"), ("length = 8.0", ""),
+        ("position = 4.0", ""), ("mass_per_length = [0.2, -0.02]", "mass_per_length = 'x'"),
+        ("[blade.damping]", "[[blade.damping]]"), ("[[blade.point_mass]]", "[blade.point_mass]"),
+    ],
+)  # fmt: skip
+def test_a_missing_key_and_a_wrong_type_are_refused_by_both(tmp_path, old, new):
+    assert both(WHOLE.replace(old, new, 1), tmp_path / "blade.toml") == (False, False)
+
+
+def test_the_command_prints_the_schema(call):
+    assert json.loads(call("schema")[1]) == schema()
