@@ -33,8 +33,8 @@ TWISTED = BLADE.with_twist(math.radians(30.0))
     ("load", "omega", "frequencies"),
     [
         (TipForce(amplitude=0.05), 2.0, [3.4, 3.5]),
-        (SpeedRipple(amplitude=0.05), 2.0, [3.4, 3.5]),
-        (Gravity(0.5), [1.5, 1.7], None),
+        pytest.param(SpeedRipple(amplitude=0.05), 2.0, [3.4, 3.5], marks=pytest.mark.slow),
+        pytest.param(Gravity(0.5), [1.5, 1.7], None, marks=pytest.mark.slow),
     ],
 )
 def test_a_blade_that_is_hardly_twisted_responds_as_in_the_plane(load, omega, frequencies):

@@ -82,7 +82,7 @@ def test_the_motion_of_the_file_reaches_the_other_commands(call, config, tmp_pat
         ("[numerics]\nelement = 3", "[numerics]: element must be a name in quotes, got 3"),
         ("motion = 3", "write [motion] as a table"),
         ("loads = 3", 'write each [[loads]] as a table, with kind = "Gravity"'),
-        ("[[loads]]\nkind = 'Wind'", "[[loads]]: 'Wind' is no known Load"),
+        ("[[loads]]\nkind = 'Storm'", "[[loads]]: 'Storm' is no known Load"),
         ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "[[loads]]: this is no TipForce"),
         ("[movement]\nomega = 6", "unknown table or key 'movement'"),
         ("", "has no table [beam]"),

@@ -79,9 +79,14 @@ def test_they_go_with_the_square_of_the_step(beam, spin_up, fitted_order):
     ("element", "frame"),
     [
         *(("cable", frame) for frame in ("inertial", "rotating")), ("set", "rotating"),
-        *(("ancf3", frame) for frame in ("inertial", "rotating")),
-        ("exact", "inertial"), ("linear", "inertial"), ("substructures", "rotating"),
-        ("space_cable", "inertial"), ("space_exact", "inertial"),
+        ("exact", "inertial"), ("space_exact", "inertial"),
+        *(
+            pytest.param(element, frame, marks=pytest.mark.slow)  # each by the columns of all
+            for element, frame in (
+                ("ancf3", "inertial"), ("ancf3", "rotating"), ("linear", "inertial"),
+                ("substructures", "rotating"), ("space_cable", "inertial"),
+            )
+        ),
     ],
 )  # fmt: skip
 def test_the_torque_supplies_the_energy(beam, element, frame):
