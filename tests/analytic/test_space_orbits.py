@@ -133,6 +133,16 @@ def test_a_blade_that_is_hardly_twisted_has_the_orbits_of_the_plane():
     assert space.lambda_omega == pytest.approx(planar.lambda_omega, abs=1e-8)
 
 
+def test_at_rest_a_quarter_turn_of_the_blade_turns_flap_into_lag():
+    """Nothing but the rotation tells one direction from another; both meet round-off."""
+    flat = periodic_orbits(twisted(20.0), 0.0, [0.2], gauge="flap", theory=SOLID)
+    upright = BLADE.with_setting_angle(math.pi / 2.0).with_twist(math.radians(20.0))
+    turned = periodic_orbits(upright, 0.0, [0.2], gauge="lag", theory=SOLID)
+    assert turned.frequency == pytest.approx(flat.frequency, rel=1e-10)
+    assert turned.lag == pytest.approx(flat.flap, rel=1e-9)
+    assert turned.flap == pytest.approx(flat.lag, rel=1e-6)
+
+
 def test_an_unknown_gauge_is_refused():
     with pytest.raises(ValueError, match="gauge must be 'lag' or 'flap'"):
         periodic_orbits(BLADE, 1.0, [0.1], gauge="up")
