@@ -23,10 +23,10 @@ Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
 # Of the coordinates, which are of order 1.
-_NEWTON = Newton(converged=1e-13, slow=0.2, steps=12)
+OWN_TANGENT = Newton(converged=1e-13, slow=0.2, steps=12)
 # The tangent of a step before contracts what is stiff slower than the rest, so the first small
 # change is not the last.
-_OF_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
+TANGENT_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
 
 
 class Collocation:
@@ -88,11 +88,13 @@ class Collocation:
         *,
         residual: Residual,
         tangent: Linearization,
+        newton: Newton = OWN_TANGENT,
         factors: Any = None,
     ) -> Root | None:
         """Return the accelerations (stages, n) that make the residuals zero, None if not found.
 
-        The factors of a step's tangent may serve in the next one of the same length.
+        The factors of a step's tangent may serve in the next one of the same length, by
+        `TANGENT_BEFORE`.
         """
 
         def state(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -102,7 +104,6 @@ class Collocation:
             at = tangent(*state(z))
             return factored(self.matrix(h, at)), at.residual.ravel()
 
-        newton = _NEWTON if factors is None else _OF_BEFORE
         found = newton.root(
             guess.ravel(),
             lambda z: residual(*state(z)).ravel(),

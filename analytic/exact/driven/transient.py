@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...loads import Load
-from ...methods.collocation import radau
+from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
 from ...motion import Rotation
 from ..beam.continuum import Continuum
 from ..space.continuum import SpaceContinuum
@@ -88,7 +88,7 @@ def integrated(
     state = np.repeat(np.stack((q, 0.0 * q, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None
     # Tangents of the steps before are tried until they have failed more often than they served.
-    credit = _CREDIT if model.has_dear_tangent else 0
+    newton, credit = (TANGENT_BEFORE, _CREDIT) if model.has_dear_tangent else (OWN_TANGENT, 0)
     ahead = list(pairwise(grid))[::-1]
     while ahead:
         begin, end = ahead.pop()
@@ -104,8 +104,9 @@ def integrated(
         tangent = partial(model.tangent, **driven)
         for guess in guesses:
             found = method.step(
-                h, q, q_dot, guess, residual=residual, tangent=tangent, factors=factors
-            )
+                h, q, q_dot, guess, residual=residual, tangent=tangent, newton=newton,
+                factors=factors,
+            )  # fmt: skip
             if found is not None:
                 break
         if found is None:
