@@ -26,7 +26,7 @@ MESHES, STEPS = (8, 16, 32), (5e-4, 1e-3, 2e-3)
 
 
 def whole(factor):
-    """All cases of thin beams in the plane, five histories each, sampled every 2 ms as codes do; q(t) times a factor."""
+    """All cases of thin beams in the plane, five histories each at 2 ms; q(t) times a factor."""
     runs, frequencies, points = [], [], []
     resolutions = [(n, 1e-3) for n in MESHES] + [(16, h) for h in STEPS if h != 1e-3]
     for name, case in CASES.items():
