@@ -57,6 +57,12 @@ class OutOfPlane(Described):
             self._keep(polar_inertia=not_negative("polar_inertia", self.polar_inertia, "kg m"))
 
 
+_UNITS = {
+    "axial_stiffness": "N", "bending_stiffness": "N m^2", "mass_per_length": "kg/m",
+    "rotary_inertia": "kg m",
+}  # fmt: skip
+
+
 @dataclass(frozen=True, kw_only=True)
 class Section(Described):
     """Stiffness and mass of the blade's slices, each a `Profile` along x.
@@ -106,11 +112,8 @@ class Section(Described):
         return replace(self, out_of_plane=out_of_plane)
 
     def __post_init__(self) -> None:
-        units = dict(zip(self.profiles(), ("N", "N m^2", "kg/m", "kg m"), strict=False))
-        checked = {
-            name: checked_profile(name, p, units[name]) for name, p in self.profiles().items()
-        }
-        self._keep(**checked)
+        profiles = self.profiles().items()
+        self._keep(**{name: checked_profile(name, p, _UNITS[name]) for name, p in profiles})
         root = np.zeros(1)
         stiffness, mass = (
             float(evaluated(profile, root)[0])

@@ -182,7 +182,7 @@ def _(found: PlanarStability) -> xr.Dataset:
 def _(diagram: Campbell) -> xr.Dataset:
     """Over `omega` and `mode`, and of each crossing its mode, k, speed and frequency."""
     met = diagram.crossings
-    names = [diagram.names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
+    names = [diagram.name_of(one) for one in met]
     return dataset(
         {
             "frequency": (("omega", "mode"), diagram.frequencies, "frequency [rad/s]"),
@@ -260,7 +260,7 @@ def _(response: SpaceForcedResponse) -> xr.Dataset:
             {
                 "lag": ("point", response.lag, f"{half} in lag over L"),
                 "flap": ("point", response.flap, f"{half} in flap over L"),
-                "twist": ("point", response.twist, "half the swing of the torsion [rad]"),
+                "twist": ("point", response.twist, "half the swing of the tip's section [rad]"),
             },
             {},
         )

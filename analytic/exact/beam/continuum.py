@@ -161,7 +161,7 @@ class Continuum(Kinematics):
             theta = theta + euler[..., None] * self._rotary_force
         force = at.force
         if self._axial is not None:
-            # Of ½ (|s| - 1)²/μ, beyond the ½ e²/μ that is in q.
+            # The force of ½ (|s| - 1)²/μ, beyond that of ½ e²/μ, which is in q.
             s = at.stretch
             force = force + self._axial / self.slenderness * (1.0 + 1j * s.imag - s / np.abs(s))
         strains = (force @ self._psi.conj()).real

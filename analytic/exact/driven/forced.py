@@ -20,7 +20,7 @@ from ...threads import one_thread
 from ..beam.discretization import MOST_FUNCTIONS, resolved_model
 from ..beam.steady import SteadyBeam, steady_rotation
 from ..linear.modes import linear_modes
-from ..space.modes import DIRECTIONS
+from ..space.modes import DIRECTIONS, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
 from .loading import DrivenBlade, unit_load
@@ -143,8 +143,7 @@ def _planar_or_spatial(
     beam: AnyBlade, omega: float, theory: Theory, functions: int, gauge: str
 ) -> tuple[SteadyBeam | SpaceBlade, float, type[ForcedResponse]]:
     """Return the blade in steady rotation at ω [rad/s], the tail of `Care`, and the response."""
-    if gauge not in DIRECTIONS:
-        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+    require_gauge(gauge)
     if not lives_in_space(beam):
         if gauge == "flap":
             raise ValueError(

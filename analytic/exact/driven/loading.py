@@ -111,7 +111,8 @@ class DrivenBlade(Discretized):
 
     def rest(self, frequency: float) -> FloatArray:
         """Return the steady state without the load, (n,)."""
-        return replace(self.steady, rate=self.speed(frequency)).equilibrium
+        steady = replace(self.steady, rate=frequency) if self._turns else self.steady
+        return steady.equilibrium
 
     def loaded(self, share: float) -> DrivenBlade:
         """Return the blade under a share of the load."""

@@ -22,7 +22,7 @@ from ..beam.discretization import blade_continuum
 from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.steady import steady_rotation
 from ..space.steady import lives_in_space, space_continuum, space_rotation
-from .transient import BladeMotion, drive, grid_of, integrated
+from .transient import BladeMotion, drive, few_at_once, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
@@ -32,7 +32,6 @@ _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _MOST_STEPS = 100_000  # of one solution; some minutes
-_AT_ONCE = 100  # times, in space of some megabytes each
 _ROUND_OFF = 1e-13  # of the tip's position over the length
 
 
@@ -93,7 +92,7 @@ class SpinUpResponse:
         driven_at = drive(self.beam, rippled(self.spin_up, self.loads), self.loads, self._model)
         parts = [
             self._model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
-            for few in np.array_split(np.arange(self.time.size), 1 + self.time.size // _AT_ONCE)
+            for few in few_at_once(self.time.size)
         ]
         force, moment = (np.concatenate(one) for one in zip(*parts, strict=True))
         return in_newtons(self.beam, at, (force, moment))

@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -22,6 +23,7 @@ from .loading import pushes, unit_load
 _STAGES = 8
 _CREDIT = 3  # failures, before a tangent of the steps before is no longer tried
 
+_AT_ONCE = 100  # times, in space of some megabytes each
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
@@ -29,6 +31,11 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
     """Return the ends of the steps [s]."""
     parts = zip(pairwise(corners), counts, strict=True)
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
+
+
+def few_at_once(count: int) -> list[NDArray[np.int_]]:
+    """Return the places of so many times in parts, whose fields fit into memory."""
+    return np.array_split(np.arange(count), 1 + count // _AT_ONCE)
 
 
 class BladeMotion(NamedTuple):
@@ -82,9 +89,6 @@ def integrated(
     driven_at = drive(beam, rotation, loads, model)
     q_dot = np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
-    z = np.repeat(model.tip(q[None]), time.size, axis=0)
-    z_dot, twist = np.zeros_like(z), np.repeat(model.tip_turn(q[None]), time.size)
-    axis = np.repeat(model.axis(q[None], points), time.size, axis=0)
     state = np.repeat(np.stack((q, 0.0 * q, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None
     # Tangents of the steps before are tried until they have failed more often than they served.
@@ -127,10 +131,10 @@ def integrated(
             velocities = q_dot + onto @ acceleration
             positions = q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration)
             state[:, inside] = positions, velocities, method.values(at) @ acceleration
-            z[inside] = model.tip(positions)
-            z_dot[inside] = model.tip_rate(positions, velocities)
-            twist[inside] = model.tip_turn(positions)
-            axis[inside] = model.axis(positions, points)
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    return BladeMotion(z, z_dot, twist, axis, state)
+    parts = [
+        (model.tip(q), model.tip_rate(q, q_dot), model.tip_turn(q), model.axis(q, points))
+        for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
+    ]
+    return BladeMotion(*map(np.concatenate, zip(*parts, strict=True)), state)

@@ -13,7 +13,7 @@ from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import resolved_model
-from ..space.modes import DIRECTIONS, orbit_modes
+from ..space.modes import orbit_modes, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
@@ -183,8 +183,8 @@ def backbone(
     """
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     warn_if_rpm(beam, omega)
-    if gauge not in (None, *DIRECTIONS):
-        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+    if gauge is not None:
+        require_gauge(gauge)
     if lives_in_space(beam) or gauge == "flap":
         require_undamped(beam, _NO_FREE_ORBITS, planar=False)
         in_space = space_continuum(beam, theory, max(functions // 2, 2 * mode + 2))

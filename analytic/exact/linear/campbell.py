@@ -84,6 +84,10 @@ class Campbell:
         angle = math.degrees(math.acos(across))
         return [f"mode {k} at {angle:.4g}°" for k in numbers]
 
+    def name_of(self, crossing: Crossing) -> str:
+        """Return the name of the mode that crosses."""
+        return self.names[self.planes.index(crossing.plane) + crossing.mode - 1]
+
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
         """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""

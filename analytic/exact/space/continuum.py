@@ -261,16 +261,19 @@ class SpaceContinuum:
         return np.asarray((self._state(q).slope @ self.weights).T)
 
     @cached_property
-    def _tip_frame(self) -> Frames:
+    def _to_tip(self) -> Frames:
         return Frames(self.blade.running(self.functions.grid, np.ones(1)), self.blade.kinks)
+
+    def _tip_frame(self, q: FloatArray) -> FloatArray:
+        return self._to_tip.of(self._strains(q)[1])[..., -1]
+
+    @cached_property
+    def _unloaded_tip(self) -> FloatArray:
+        return self._tip_frame(np.zeros((1, self.size)))[..., 0]
 
     def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return how far the load turns the tip's section out of its upright, (samples,)."""
-        loaded, unloaded = (
-            self._tip_frame.of(self._strains(one)[1])[..., -1]
-            for one in (q, np.zeros((1, self.size)))
-        )
-        turn = np.einsum("iks,jk->sij", loaded, unloaded[..., 0])
+        turn = np.einsum("iks,jk->sij", self._tip_frame(q), self._unloaded_tip)
         return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
 
     def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:

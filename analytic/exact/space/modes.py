@@ -24,6 +24,12 @@ DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
 
+def require_gauge(gauge: object) -> None:
+    """Refuse a name that is no place of the tip."""
+    if gauge not in DIRECTIONS:
+        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+
+
 @dataclass(frozen=True, kw_only=True)
 class SpaceModes:
     """Modes of a blade in space; made by `linear_modes`, of a planar blade those of torsion.
