@@ -21,7 +21,8 @@ from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.steady import steady_rotation
-from ..space.steady import lives_in_space, space_continuum, space_rotation
+from ..space.modes import flap_shape
+from ..space.steady import lives_in_space, require_kick, space_continuum, space_rotation
 from .transient import BladeMotion, drive, few_at_once, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -173,6 +174,7 @@ def spin_up_response(
     theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
+    kick: float = 0.0,
 ) -> SpinUpResponse:
     """Return the exact response of the beam, damped or not, that does not swing before t = 0.
 
@@ -194,6 +196,10 @@ def spin_up_response(
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
         What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
+    kick : float
+        Deflection of the tip out of the plane over L, from which a planar blade starts at rest. Its
+        curvature is that of the first flap mode at rest, so that it excites no other wave. The
+        response is then in space.
 
     Raises
     ------
@@ -220,7 +226,7 @@ def spin_up_response(
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     _require_feasible(beam, spin_up, float(time[-1]), digits)
-    space = lives_in_space(beam)
+    space = require_kick(beam, kick) != 0.0 or lives_in_space(beam)
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
@@ -239,6 +245,8 @@ def spin_up_response(
             break
         grid = grid_of(corners, counts)
         at_first = turning(beam, spin_up.start, model).equilibrium
+        if kick:
+            at_first = at_first + kick * flap_shape(model)
         finer = integrated(beam, rotation, loads, model, grid, time, along, at_first)
         if finer is None:
             coarser = None

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state
+from ...input_checks import finite_number
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
@@ -27,6 +28,7 @@ MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
 _LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
 _SHORTEST = 1e-3
+_LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
 
 
@@ -67,12 +69,27 @@ def lives_in_space(beam: AnyBlade) -> bool:
     return turned or not blade.is_planar
 
 
+def require_kick(beam: AnyBlade, kick: float) -> float:
+    """Return a kick out of the plane over L; refuse a large one, or one of a blade in space."""
+    if not abs(finite_number("kick", kick)) <= _LARGEST_KICK:
+        raise ValueError(
+            f"kick must be at most {_LARGEST_KICK:g} of the length, got {kick:g}: it is to be "
+            "small, 1e-6 say"
+        )
+    if kick and lives_in_space(beam):
+        raise ValueError(
+            "kick is out of the plane of a blade that has one, and this one bends out of it by "
+            "itself: leave it out"
+        )
+    return float(kick)
+
+
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not beam.blade.section.knows_space:
         raise ValueError(
-            "a blade with twist, precone, prebend, sweep, offsets or a setting angle bends out of "
-            "its plane and twists: give its stiffness there by "
+            "a blade with a kick, twist, precone, prebend, sweep, offsets or a setting angle bends "
+            "out of its plane and twists: give its stiffness there by "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
             "that does not twist"
         )
