@@ -21,6 +21,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
 from gallery_order import same_resolution  # noqa: E402
 
 import rotbeam_exu  # noqa: E402
+from rotbeam_exu.paper import MODEL_NAMES  # noqa: E402
 
 mpl.use("agg")
 
@@ -31,6 +32,7 @@ version = release = rotbeam_exu.__version__
 
 extensions = [
     "computed",
+    "cyclopts.ext.sphinx",
     "myst_parser",
     "reference_pages",
     "sphinx.ext.autodoc",
@@ -56,7 +58,11 @@ nitpick_ignore_regex = [
     ("py:(obj|data|exc|meth|func|attr)", r"(?!analytic\.|rotbeam_exu\.).*"),
 ]
 
-myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "substitution"]
+# A line for pages whose tables have models by their letters.
+myst_substitutions = {
+    "models": "*Models:* " + "; ".join(f"**{k}** {v}" for k, v in MODEL_NAMES.items()) + "."
+}
 myst_heading_anchors = 3
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "unsrt"
@@ -101,30 +107,21 @@ sphinx_gallery_conf = {
 html_theme = "pydata_sphinx_theme"
 html_title = "rotbeam_exu"
 html_static_path = ["_static"]
+templates_path = ["_templates"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_sidebars = dict.fromkeys(
-    (
-        "index",
-        "which_function",
-        "explorer",
-        "validation",
-        "scope",
-        "conventions",
-        "gotchas",
-        "faq",
-        "bibliography",
-    ),
+    ["index", "start", "findings", "explorer", "validation", "codes", "scope", "conventions", "gotchas", "faq", "bibliography"],
     (),
 )
 html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],
     "show_toc_level": 2,
-    "header_links_before_dropdown": 6,
+    "header_links_before_dropdown": 8,
     "navbar_persistent": ["search-button"],
-    "footer_start": [],
+    "footer_start": ["version"],
     "footer_end": [],
     "secondary_sidebar_items": ["page-toc"],
     "pygments_light_style": "a11y-high-contrast-light",
