@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.animation import FFMpegWriter
+from sphinx.util.fileutil import copy_asset
 
 HERE = Path(__file__).parent
 _HANDS = 8  # that pages are dealt to: more than there are chunks for each process
@@ -40,7 +42,6 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
-    "sphinx-mathjax-offline",  # puts MathJax into the site: it needs no network
     "sphinxcontrib.bibtex",
 ]
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
@@ -64,6 +65,7 @@ myst_substitutions = {
     "models": "*Models:* " + "; ".join(f"**{k}** {v}" for k, v in MODEL_NAMES.items()) + "."
 }
 myst_heading_anchors = 3
+mathjax_path = "mathjax/tex-chtml.js"  # in the site: formulas need no network
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "unsrt"
 
@@ -112,7 +114,10 @@ html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_sidebars = dict.fromkeys(
-    ["index", "start", "findings", "explorer", "validation", "codes", "scope", "conventions", "gotchas", "faq", "bibliography"],
+    (
+        *("index", "start", "findings", "explorer", "validation", "codes"),
+        *("scope", "conventions", "gotchas", "faq", "bibliography"),
+    ),
     (),
 )
 html_theme_options = {
@@ -179,10 +184,19 @@ def write_interactive(app: Any) -> None:
                 raise subprocess.CalledProcessError(job.returncode, job.args)
 
 
+def put_mathjax(app: Any, error: Exception | None) -> None:
+    """Put what the pages need of MathJax into the site: a tenth of its variants."""
+    found = importlib.util.find_spec("sphinx-mathjax-offline")
+    if error is None:
+        source = Path(found.origin).parent / "static" / "mathjax"
+        for part in ("tex-chtml.js", "output/chtml", "input/tex", "a11y"):
+            place = Path(app.outdir) / "_static" / "mathjax" / part
+            copy_asset(source / part, place if (source / part).is_dir() else place.parent)
+
+
 def setup(app: Any) -> None:
     """Connect the above."""
-    # It only copies files at the end, and does not say so.
-    app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
+    app.connect("build-finished", put_mathjax)
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("env-before-read-docs", spread)
