@@ -55,8 +55,7 @@ def test_the_papers_beam_gets_no_warning(beam):
         reduced_model(beam, 24.0, "FrM")
 
 
-def test_softening_speed_is_that_of_the_inextensible_beam(beam):
-    assert softening_speed(beam) / beam.omega_0 == pytest.approx(1.021902, abs=5e-7)
+def test_softening_speed_of_the_extensible_beam(beam):
     # Extensible, λ_ω vanishes earlier; 2.97214 rad/s, Ω = 1.02162, to the last digit.
     for omega, sign in ((2.97213, -1.0), (2.97215, 1.0)):
         assert sign * periodic_orbits(beam, omega, [0.05]).lambda_omega > 0.0

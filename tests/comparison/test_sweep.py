@@ -118,6 +118,7 @@ def failed():
     return xr.Dataset(attrs={"verdict": "failed", "failure": "made up"})
 
 
+@pytest.mark.usefixtures("at_once")
 def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, cache):
     victim = sorted(cache.glob("*.nc"))[0]
     victim.write_bytes(victim.read_bytes()[:1000])
@@ -128,6 +129,7 @@ def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, cach
     assert victim.with_suffix(".damaged").stat().st_size == 1000
 
 
+@pytest.mark.usefixtures("at_once")
 def test_a_number_changed_by_hand_is_not_believed(beam, serial, cache):
     with h5py.File(min(cache.glob("*.nc")), "r+") as file:
         file.attrs["amplitude"] = 0.5
@@ -155,7 +157,7 @@ def test_a_failed_case_stays_on_record_with_its_sentence_and_what_was_computed(b
 
 
 def test_what_a_run_that_fails_its_checks_computed_is_kept(beam):
-    options = {"element": "linear", "elements": 2, "step": 1e-2, "duration": 9.0, "jobs": 1}
+    options = {"element": "linear", "elements": 2, "step": 1e-2, "duration": 4.0, "jobs": 1}
     found = sweep(beam, omegas=[6.0], ramp_times=[3.0], **options, on_error="record", history=True)
     assert found["verdict"].item() == "failed"
     assert np.isfinite(found["q"]).any()

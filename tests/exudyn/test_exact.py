@@ -9,9 +9,8 @@ from rotbeam_exu.fem.elements import Exact, formulation
 from rotbeam_exu.runs.check import energy_drift
 
 
-@pytest.mark.parametrize(
-    ("nodes", "frequency"), [(2, 3.72223), pytest.param(3, 3.72233, marks=pytest.mark.slow)]
-)
+@pytest.mark.slow  # frequencies, an orbit and spin-ups of sections with shear are in test_shear
+@pytest.mark.parametrize(("nodes", "frequency"), [(2, 3.72223), (3, 3.72233)])
 def test_nonlinear_frequency(beam, spin_up, nodes, frequency):
     """Sixteen elements at ω = 6, T = 3, h = 1e-3: shear and mesh shift it by digits known."""
     run = simulate(beam, spin_up, element=Exact(nodes=nodes))
