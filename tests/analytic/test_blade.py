@@ -187,7 +187,7 @@ def test_a_spin_up_on_a_hub_ends_on_the_backbone(beam):
     """Until the ramp is long, the tip lags behind; after it, the first mode rings on."""
     blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.2, 0.2)
     time = np.linspace(0.0, 8.0, 1601)
-    found = spin_up_response(blade, SpinUp(omega=4.0, ramp_time=3.0), time, tolerance=1e-7)
+    found = spin_up_response(blade, SpinUp(omega=4.0, ramp_time=3.0), time, tolerance=1e-5)
     assert found.q.min() < -0.1
     late = found.q[time > 3.0]
     rises = np.flatnonzero((late[:-1] < 0.0) & (late[1:] >= 0.0))
