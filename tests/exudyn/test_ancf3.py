@@ -53,7 +53,7 @@ def test_coupled_law_locks_in_thickness(beam):
     No mesh cures it: the frequency at rest is too high by 1/√(1 - ν²).
     """
     exact = linear_modes(beam, 0.0, 1, theory=Theory(rotary_inertia=True)).frequencies[0]
-    for nu in (0.0, 0.2, 0.3):
+    for nu in (0.0, 0.3):
         locked, free = (
             natural_frequencies(
                 beam, 0.0, element=Ancf3(law=law, poisson_ratio=nu), elements=32, count=1

@@ -152,7 +152,14 @@ def test_tangent_and_force_are_derivatives(row, reference):
         # Soft in shear, for which round-off stays below the error of 32 elements. Its section is
         # that of each Gauss point, and it turns with a tip mass.
         (Ancf3(shear_correction=0.1), TAPERED, 6.0, 8, Ancf3(shear_correction=0.1)),
-        (Ancf3(shear_correction=0.01), TURNING, 3.3, 8, Ancf3(shear_correction=0.01)),
+        pytest.param(
+            Ancf3(shear_correction=0.01),
+            TURNING,
+            3.3,
+            8,
+            Ancf3(shear_correction=0.01),
+            marks=pytest.mark.slow,  # test_point_inertia has the limit of one mesh
+        ),
         (Linear(), BEAM, 2.0, 4, Linear()),
         (Substructures(cells=1), BEAM, 4.0, 8, Cable()),
         (Substructures(frame="pinned", cells=1), BEAM, 4.0, 8, Cable()),

@@ -163,7 +163,7 @@ def test_largest_lag_of_the_tip(classic):
         SpinUp(omega=6.0, ramp_time=15.0),
         elements=16,
         duration=15.5,
-        step=2e-3,
+        step=5e-3,
         frame="rotating",
     )
     lowest = int(run["q"].argmin("time"))
