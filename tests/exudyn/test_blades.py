@@ -87,20 +87,6 @@ def test_a_spin_up_follows_the_exact_blade(beam):
     assert steady.frequency == pytest.approx(orbit.frequency[0], rel=2e-4)
 
 
-def test_both_frames_agree_to_second_order_in_the_step(beam):
-    """For the cable on a hub test_loads asks it."""
-    options = {"element": "exact", "elements": 4, "duration": 4.0}
-
-    def apart(step):
-        inertial, rotating = (
-            simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), **options, step=step, frame=frame)["q"]
-            for frame in ("inertial", "rotating")
-        )
-        return float(abs(inertial - rotating).max())
-
-    assert apart(8e-3) / apart(4e-3) == pytest.approx(4.0, rel=0.02)
-
-
 @pytest.mark.parametrize(
     ("make", "element", "sentence"),
     [

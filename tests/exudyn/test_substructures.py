@@ -7,7 +7,7 @@ import pytest
 from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import figures, simulate
-from rotbeam_exu.fem.elements import Substructures, formulation
+from rotbeam_exu.fem.elements import Substructures
 from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
 from rotbeam_exu.fem.linearization import Linearization
 
@@ -81,23 +81,6 @@ def test_figure(beam):
     assert drawn["pinned frames"] == pytest.approx(data["divergence_speed"].sel(frame="pinned"))
 
 
-@pytest.mark.parametrize(
-    ("options", "sentence"),
-    [
-        ({"frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
-        ({"cells": 0}, "cells must be at least 1, got 0"),
-    ],
-)
-def test_refuses(options, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        Substructures(**options)
-
-
 def test_refuses_a_row_of_no_elements(beam):
     with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
         Substructures().divergence_speed(beam, 0)
-
-
-def test_refuses_options_that_it_does_not_have():
-    with pytest.raises(ValueError, match="has no option 'nodes'; its options are frame, cells"):
-        formulation("substructures", {"nodes": 2})

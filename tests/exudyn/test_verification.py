@@ -23,7 +23,7 @@ def finding(entry, speeds=(0.0, 6.0)):
     return found.findings["L"]["linear frequency"]
 
 
-@pytest.mark.parametrize("elements", [8, 16, 32])
+@pytest.mark.parametrize("elements", [8, 32])
 def test_the_quadratic_exact_element_converges_on_any_meshes(elements):
     found = finding(formulation_entry(Exact(nodes=3), elements=elements), (0.0, 8.0))
     assert found.outcome is Outcome.REFERENCE, str(found)
