@@ -171,7 +171,7 @@ def test_converged_points_lie_on_the_exact_backbone(beam):
 
 
 def test_figure_15_closes_where_the_frequency_is_right(beam):
-    data = comparison.figure_15(beam, ramp_time=3.375)
+    data = comparison.figure_15(beam, ramp_time=3.375, step=2e-3)
     assert data.attrs["amplitude"] == pytest.approx(0.1956, abs=1e-4)
     # Same peak for all, at the start.
     assert np.allclose(data["q_bar"].isel(phase=0), data.attrs["amplitude"], rtol=2e-4)
