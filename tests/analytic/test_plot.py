@@ -93,20 +93,6 @@ def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(be
     assert [text.get_text() for text in diagram.plot().texts] == ["1ω", "lag 1"]
 
 
-@pytest.mark.slow  # that names are apart is tested above
-def test_no_mode_crosses_the_name_of_a_line(beam):
-    # Here the third mode runs along 5ω to the end.
-    blade = beam.with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)
-    diagram = campbell(blade, np.linspace(0.0, 12.0, 13))
-    ax = diagram.plot()
-    ax.figure.draw_without_rendering()
-    box = next(text for text in ax.texts if text.get_text() == "5ω").get_window_extent()
-    fine = np.linspace(0.0, 12.0, 600)
-    for row in diagram.frequencies.T:
-        seen = ax.transData.transform(np.column_stack([fine, np.interp(fine, diagram.omegas, row)]))
-        assert not box.count_contains(seen)
-
-
 @pytest.mark.slow  # what a user asks to be cut off
 def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
     diagram = campbell(beam.with_shape(Rectangle()), [0.0, 4.0], 2, planes=("flap", "torsion"))

@@ -326,31 +326,3 @@ def test_bad_input_is_refused_before_any_work(beam, monkeypatch, options, senten
     monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("worked"))
     with pytest.raises((TypeError, ValueError), match=sentence):
         sweep(beam, **{**SMALL, **COARSE, "jobs": 1, **options})
-
-
-@pytest.mark.slow  # a child; tests of endings and of dying workers, above, hold its two halves
-def test_a_full_disk_loses_nothing_that_is_finished(tmp_path):
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    mounted = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=96k", "tmpfs", disk], capture_output=True, check=False
-    )
-    if mounted.returncode:
-        pytest.skip("mounting a small file system needs root")
-    try:
-        job = subprocess.run(
-            [sys.executable, "-m", "rotbeam_exu.cli", "sweep", "--omega", "4", "6", "--ramp-time",
-             "3", "2", "--elements", "2", "--step", "0.005", "--duration", "9", "--jobs", "1",
-             "--cache", disk, "--out", tmp_path / "out"],
-            cwd=Path(__file__).parents[2], capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        assert job.returncode == 2
-        assert "No space left on device" in job.stderr
-        assert "make room and run again" in job.stderr
-        assert "Traceback" not in job.stderr
-        # Whole files only.
-        for path in disk.glob("[0-9a-f]*.nc"):
-            assert load(path).sizes["time"] > 0
-        assert not list(disk.glob(".*"))
-    finally:
-        subprocess.run(["umount", disk], check=True)

@@ -61,15 +61,6 @@ def test_the_linear_frame_does_not_converge():
     assert "is unstable" in found.note
 
 
-@pytest.mark.slow  # test_orbits_in_exudyn starts there, test_judgement judges it
-def test_the_cable_converges_to_the_reference_from_an_orbit():
-    """Without a ramp, where the beam hardens: ω_NL/ω_n - 1 of its own, 1.5e-3, to a twentieth."""
-    entry = formulation_entry(Cable(), elements=8, step=4e-3)
-    found = judged(handed_in(entry, [CASES["O"]]))
-    assert found.outcome == "1 of 18 agrees, 17 not submitted", str(found)
-    assert abs(found.findings["O"]["nonlinear shift"].model_difference) < 0.02
-
-
 @pytest.mark.parametrize("name", ["S1+g", "S1+h"])
 def test_loads_and_blades_reach_an_element(name):
     """Without its weight or its hub the tip would be off by as much as it swings."""
