@@ -15,7 +15,7 @@ import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
-from analytic.exact.driven.response import SpinUpResponse
+from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.free.orbits import Orbits
 from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
@@ -30,6 +30,8 @@ OMEGA = "angular velocity ω [rad/s]"
 AMPLITUDE = "peak amplitude a = |q|/L"
 ORBIT = "amplitude a = |q|/L of the planar orbit"
 GROWTH = "growth rate out of the plane [1/s]"
+_FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
+_MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}
 
 
 def labeled(label: str) -> dict[str, str]:
@@ -74,7 +76,7 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too; a
+        A SpinUpResponse, with its root loads and the names of a run by `simulate`; a
         ForcedResponse, with its stability and its backbone; a PlanarStability, or both it and its
         StabilityLimit, which becomes attributes; a Campbell diagram.
 
@@ -118,26 +120,50 @@ def _described(result: Any) -> xr.Dataset:
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
     """Over `time`, with the names of `simulate`; Eq. 16."""
+    return _of_spin_up(
+        response,
+        {
+            "tip_x": (response.tip[:, 0], "tip position x, inertial frame [m]"),
+            "tip_y": (response.tip[:, 1], "tip position y, inertial frame [m]"),
+        },
+    )
+
+
+@_described.register
+def _(response: SpaceResponse) -> xr.Dataset:
+    """Over `time`; the tip's places from the clamp, in the frame that turns with it. q is lag."""
+    return _of_spin_up(
+        response,
+        {
+            "along": (response.tip[:, 0], "tip position along the clamp, turning frame [m]"),
+            "flap": (response.flap, "tip position normal to clamp and lag, turning frame [m]"),
+            "twist": (response.twist, "twist of the tip's section about its normal [rad]"),
+        },
+    )
+
+
+def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr.Dataset:
     theory = response.theory
     sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
-    angle = rippled(response.spin_up, response.loads).angle(response.time)
-    at_root = {}
-    if response.tip.shape[1] == 2:
-        root = response.section_loads([0.0])
-        at_root = {
-            "root_force_x": ("time", root.force[:, 0, 0], "tension at the root [N]"),
-            "root_force_y": ("time", root.force[:, 0, 1], "shear force at the root [N]"),
-            "root_moment_z": ("time", root.moment[:, 0], "bending moment at the root [N m]"),
-        }
-    return dataset(
-        {
-            "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
-            "q_dot": ("time", response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
-            "tip_x": ("time", response.tip[:, 0], "tip position x, inertial frame [m]"),
-            "tip_y": ("time", response.tip[:, 1], "tip position y, inertial frame [m]"),
-            "angle": ("time", angle, "rotation angle θ [rad]"),
-            **at_root,
+    motion = rippled(response.spin_up, response.loads)
+    root = response.section_loads([0.0])
+    force, moment = (one.reshape(response.time.size, -1) for one in (root.force, root.moment))
+    columns = {
+        "q": (response.q, "tip displacement q, Eq. 16 [m]"),
+        "q_dot": (response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
+        **tip,
+        "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
+        **{
+            f"root_force_{axis}": (column, f"{_FORCES[axis]} at the root [N]")
+            for axis, column in zip("xyz", force.T, strict=False)
         },
+        **{
+            f"root_moment_{axis}": (column, f"{_MOMENTS[axis]} at the root [N m]")
+            for axis, column in zip("xyz"[-moment.shape[1] :], moment.T, strict=True)
+        },
+    }
+    return dataset(
+        {name: ("time", *column) for name, column in columns.items()},
         {"time": (response.time, "time t [s]")},
         {
             **beam_attributes(response.beam),
