@@ -17,10 +17,10 @@ from analytic.arrays import FloatArray
 from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, whole_number
 
-from ..datasets import dataset
 from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
 from ..lazily import xr
+from ..result_columns import dataset
 from ..runs.check import SimulationError
 from ..runs.versions import versions
 from ..sweeps.grid import cache_of, solved

@@ -31,6 +31,8 @@ FLOORS = {
     "rotbeam_exu": [
         {"lazily"},
         {"paper", "runs", "files"},
+        {"result_columns"},
+        {"forced_columns"},
         {"datasets"},
         {"fem"},
         {"sweeps", "verification"},
