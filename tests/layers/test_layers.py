@@ -32,6 +32,8 @@ FLOORS = {
     "rotbeam_exu": [
         {"lazily"},
         {"paper", "runs", "files"},
+        {"result_columns"},
+        {"forced_columns"},
         {"datasets"},
         {"fem"},
         {"sweeps", "verification"},
