@@ -175,8 +175,8 @@ def design_ramp(
     acceleration_limit : float, optional
         Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
     robust : int
-        Derivatives of what is left to the blade's frequency that vanish, 0 to 2: an error ε of the
-        frequency leaves a multiple of ε^(robust + 1).
+        Derivatives of what is left to the blade's frequency that vanish, 0 to 2, as differences
+        over ±1 %: an error ε of the frequency leaves a multiple of ε^(robust + 1), beyond 1 % if 2.
     largest : float, optional
         Largest |q|/L on the way by the exact transient; none if not given.
 
@@ -244,6 +244,8 @@ def _corrected(task: _Task) -> FourierRamp:
         if way > task.largest:
             swing = float(np.abs(task.swing(y)).max())
             aim = replace(task, largest=_BELOW * task.largest * swing / way)
+        # What is small already stays as it is.
+        left = np.where(np.abs(left) > 0.1 * _LEFT, left, 0.0)
         now = np.stack((task.closed_form(y), left)).view(np.float64)
         if last is not None:
             step, moved = now - last

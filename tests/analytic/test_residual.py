@@ -165,9 +165,14 @@ def test_order_of_what_a_wrong_frequency_leaves(beam, fitted_order, robust, erro
     for side in (-1.0, 1.0):
         stiffness = [beam.youngs_modulus * (1.0 + side * error) ** 2 for error in errors]
         others = [replace(beam, youngs_modulus=E) for E in stiffness]
-        left = [residual_amplitude(other, ramp, exact=True) for other in others]
+        left, e = (
+            [residual_amplitude(other, ramp, exact=True) for other in others],
+            np.array(errors),
+        )
         # Other powers of 2 % of the frequency, in phases of some periods, make a tenth.
-        assert fitted_order(errors, left) == pytest.approx(robust + 1.0, abs=0.15)
+        # The derivatives are differences over 1 %, so the cube of two vanishes there again.
+        powers = [e, e**2, e * (e**2 - 0.01**2)][robust]
+        assert fitted_order(powers, left) == pytest.approx(1.0, abs=0.1)
         assert left[0] < most
 
 
