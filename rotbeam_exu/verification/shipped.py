@@ -77,6 +77,7 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
 def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
+    asked += (case.kick,) if case.kick else ()
     inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
     theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
@@ -145,6 +146,7 @@ class Shipped:
         asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
         for own in CASES.values():
             alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            alike = alike and (asked is Asked.FREQUENCIES or own.loads == case.loads)
             if not alike or speed not in own.speeds or case.count > own.count:
                 continue
             k = self._of["table"].get(said(key(own, theory)))
