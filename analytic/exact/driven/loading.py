@@ -54,7 +54,7 @@ def pushes(
     for load, phase in loads:
         if load.acts_on is not None:
             force, lift = load.force(phase, angle, model.setting), load.lift(phase)
-            push = model.push(force, lift, load.acts_on)
+            push = model.push(force, load.acts_on, lift)
             total = push if total is None else total + push
     return total
 

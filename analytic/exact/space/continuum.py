@@ -301,7 +301,7 @@ class SpaceContinuum:
         """Return the tip's deflection, normal to the clamp's line."""
         return tip[..., 1:]
 
-    def push(self, force: ComplexArray, lift: FloatArray, acts_on: str) -> FloatArray:
+    def push(self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0) -> FloatArray:
         """Return a force in the plane of rotation and along its axis, as `residual` takes it.
 
         Both (samples,). Along the hub's radius, in the direction of rotation and up, from where

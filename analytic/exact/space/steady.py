@@ -110,7 +110,7 @@ class SpaceBlade(AtConstantRate):
         """The load, as `model.residual` takes it."""
         if not self._is_loaded:
             return None
-        result = self.model.push(np.zeros(1, dtype=complex), np.array([self.lift]), "mass")
+        result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
         if self.load:
             result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
