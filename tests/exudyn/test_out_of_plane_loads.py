@@ -1,4 +1,4 @@
-"""Exudyn's beam in space under what moves it out of the plane: a kick, and weight along the axis."""
+"""Exudyn in space under what moves the blade out of the plane: a kick, weight along the axis."""
 
 import math
 from functools import partial

@@ -245,7 +245,7 @@ def spin_up_response(
             break
         grid = grid_of(corners, counts)
         q = turning(beam, spin_up.start, model).equilibrium
-        q_dot = model.struck(kick / (beam.length * beam.frequency_scale)) if kick else 0.0 * q
+        q_dot = model.struck(kick / (beam.length * beam.frequency_scale)) if kick else 0.0
         finer = integrated(beam, rotation, loads, model, grid, time, along, q, q_dot)
         if finer is None:
             coarser = None

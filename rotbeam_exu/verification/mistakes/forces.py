@@ -73,7 +73,7 @@ def without(force: str, case: Case, time: FloatArray) -> FloatArray:
     counts = [int(np.ceil((b - a) / step)) for a, b in pairwise(corners)]
     found = integrated(
         blade, rotation, case.loads, model, grid_of(corners, counts), time, np.empty(0),
-        np.zeros(model.size), np.zeros(model.size),
+        np.zeros(model.size),
     )  # fmt: skip
     if found is None:
         raise RuntimeError(f"{force}: the motion is not reached")
