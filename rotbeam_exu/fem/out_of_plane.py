@@ -11,7 +11,7 @@ from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.beam import require_planar
 from analytic.exact.beam.state import BeamState
-from analytic.exact.space.steady import require_kick
+from analytic.exact.space.steady import require_bent
 from analytic.lazily import integrate, interpolate
 
 _ALONG, _BETWEEN = 401, 8
@@ -40,7 +40,7 @@ def kicked(
         Planar state onto which the kick is put, as ``lambda x: backbone.state(i, x)``; the
         straight blade at rest by default.
     by_mode : bool
-        Bend it by the first flap mode at rest, as `spin_up_response(kick=)` does. No other wave is
+        Bend it by the first flap mode at rest, as `spin_up_response(bent=)` does. No other wave is
         excited, but elements that shear need small steps if the blade is very slender.
 
     Raises
@@ -60,7 +60,7 @@ def kicked(
     q -4.652 m, w at most 0.0080 m
     """
     require_planar(blade)
-    require_kick(blade, kick)
+    require_bent("kick", kick)
     slope: Callable[[FloatArray], FloatArray] = lambda x: 2.0 * x / blade.length  # noqa: E731
     if by_mode:
         along = np.linspace(0.0, blade.length, _ALONG)

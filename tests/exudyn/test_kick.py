@@ -59,7 +59,7 @@ def test_both_codes_start_in_the_first_flap_mode(bending_ratio):
     # the inertia of its slices as well.
     close = 1e-7 + 2.0 * bending_ratio * blade.slenderness
     for kick, digits in ((1e-6, 1e-7), (1e-2, 1e-4)):
-        found = spin_up_response(blade, motion, [0.0, 0.1], tolerance=1e-6, points=x, kick=kick)
+        found = spin_up_response(blade, motion, [0.0, 0.1], tolerance=1e-6, points=x, bent=kick)
         start = kicked(blade, kick, by_mode=True)(x)
         places = np.stack((x + start.u, start.v, start.w), axis=-1)
         np.testing.assert_allclose(found.axis[0], places, rtol=close, atol=1e-15)
@@ -72,7 +72,7 @@ def test_a_kicked_tube_swings_as_exudyn_has_it():
     tube, motion = TUBE, SpinUp(omega=6.0, ramp_time=0.5)
     settings = {"element": "space_exact", "duration": 0.6, "elements": 16, "step": 2.5e-3}
     run = simulate(tube, motion, initial_state=kicked(tube, 1e-3, by_mode=True), **settings)
-    exact = spin_up_response(tube, motion, run["time"].to_numpy(), tolerance=1e-5, kick=1e-3)
+    exact = spin_up_response(tube, motion, run["time"].to_numpy(), tolerance=1e-5, bent=1e-3)
     assert exact.flap.min() < -0.25e-3 * tube.length
     # The element's error, of order 2: 1e-3 of each with 16 of them.
     assert np.abs(run["w"] - exact.flap).max() / tube.length < 2e-6
@@ -84,12 +84,12 @@ def test_a_kicked_tube_swings_as_exudyn_has_it():
     [
         (TUBE, 0.2, "at most 0.1 of the length"),
         (Beam.reference(), 1e-3, r"kick.*with_section_out_of_plane\("),
-        (TUBE.blade.with_twist(0.1), 1e-3, "leave it out"),
+        (TUBE.blade.with_twist(0.1), 1e-3, "in its plane"),
     ],
 )
 def test_kicks_that_are_refused(blade, kick, sentence):
     with pytest.raises(ValueError, match=sentence):
-        spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.0), [0.5], kick=kick)
+        spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.0), [0.5], bent=kick)
 
 
 def slender(slenderness, bending_ratio):

@@ -19,7 +19,7 @@ def response(end, tolerance):
     times = three_codes.history(EXACT)["time"]
     return spin_up_response(
         Beam.reference().with_shape(Rectangle()), SpinUp(omega=6.0, ramp_time=3.0),
-        times[times < end + 1e-9], tolerance=tolerance, kick=1e-3,
+        times[times < end + 1e-9], tolerance=tolerance, bent=1e-3,
         theory=Theory(trapeze=False, rotary_inertia=True),
     )  # fmt: skip
 
