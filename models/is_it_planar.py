@@ -6,9 +6,13 @@ with the paper's :math:`A` and :math:`I`; white is stable. Circles are the ends 
 spin-ups. A thin tube with the same :math:`A` and :math:`I` stays in the plane.
 """
 
+import runpy
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
+import analytic
 from analytic import Beam, Rectangle, Tube, planar_stability, stability_limit
 from rotbeam_exu import comparison, figures
 
@@ -27,5 +31,10 @@ limit = stability_limit(strip, 4.0, largest=0.1)
 limits = {0.0: 0.0078, 1.0: 0.0236, 2.0: 0.0400, 3.0: 0.0483, 4.0: limit.amplitude, 6.0: 0.0705}
 round_one = planar_stability(tube, 4.0, ends[4.0])
 figures.growth_out_of_plane(data, spin_ups=ends, limits=limits)
-plt.show()
 print(limit, round_one, sep="\n")
+
+# %%
+# How the strip buckles in the spin-up to 6 rad/s in 3 s, by three codes: :doc:`/theory/planar`.
+tables = Path(analytic.__file__).parents[1] / "models" / "strip"
+axes = runpy.run_path(f"{tables}/three_codes.py")["figure"]()
+plt.show()

@@ -220,6 +220,7 @@ def test_is_it_planar(run):
         k = highest[int(np.flatnonzero(rate["omega"] == omega)[0])]
         assert k == -1 or rate["a"][k] < limit
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
+    assert len(found["axes"]) == 4
 
 
 def test_real_blade(run):
