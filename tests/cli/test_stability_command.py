@@ -27,7 +27,8 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
         "stability_limit",
         lambda blade, omega, mode, *, damping, growth, largest: StabilityLimit(
             blade=blade, omega=omega, mode=mode, damping=damping, growth=growth,
-            amplitude=np.inf, searched=largest, kind="", modes=(), tongues=(tongue,), converged=True,
+            amplitude=np.inf, searched=largest, kind="", modes=(), tongues=(tongue,),
+            converged=True,
         ),
     )  # fmt: skip
     arguments = ("stability", "--omega", "2", "--section", "rectangle", "--ratio", "3")
