@@ -2,7 +2,7 @@ r"""Is the motion planar?
 =====================
 
 How fast planar orbits leave the plane of rotation if the section of the paper's beam is a rectangle
-with the paper's :math:`A` and :math:`I`, whose flap and torsion are damped by 0.5 % of the critical;
+with the paper's :math:`A` and :math:`I`, whose flap and torsion have a damping ratio of 0.5 %;
 white is stable. Circles are the ends of the paper's spin-ups. A thin tube with the same :math:`A`
 and :math:`I` stays in the plane.
 """
