@@ -93,6 +93,9 @@ class SpaceBlade(AtConstantRate):
         Coordinates from which the steady state is found; from rest by default.
     load : tuple
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
+    mirror : bool
+        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
+        would as well.
     """
 
     model: SpaceContinuum
@@ -100,6 +103,7 @@ class SpaceBlade(AtConstantRate):
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
     near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
+    mirror: bool = False
 
     @cached_property
     def push(self) -> FloatArray | None:
@@ -110,7 +114,7 @@ class SpaceBlade(AtConstantRate):
         result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
 
-    @property
+    @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
@@ -118,7 +122,7 @@ class SpaceBlade(AtConstantRate):
         """
         if self.direction[2] and not self.model.functions.blade.half_turn:
             return None
-        return self.model.functions.odd
+        return self.model.functions.odd_by(mirror=True) if self.mirror else self.model.functions.odd
 
     @property
     def pinned(self) -> int:
