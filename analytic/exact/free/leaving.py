@@ -43,8 +43,8 @@ if TYPE_CHECKING:
 
 _HARMONICS = (8, 12, 18, 27, 40)  # of the planar orbit at the birth, until it settles
 _SETTLED = 1e-7  # of the logarithm of its amplitude
-_LOCATED = 1e-11  # of its amplitude
-_CARE = Care(drift=1e-10, harmonics=80)
+_LOCATED = 1e-9  # of its amplitude
+_CARE = Care(drift=1e-9, harmonics=80)
 _BEGIN, _LONGEST = 0.005, 0.2  # steps of the arclength, over the size of the planar orbit
 
 
@@ -221,10 +221,12 @@ def leaving_branch(
 
     def first(harmonics: int) -> tuple[float, _Leaving]:
         """Return the smallest amplitude at which something leaves, and what."""
-        tried = [
-            _Leaving(of=of, system=one, periods=periods, harmonics=harmonics) for one in systems
-        ]
-        births = [(at, one) for one in tried if (at := one.birth(low, high)) is not None]
+        births, end = list[tuple[float, _Leaving]](), high
+        for one in systems:
+            found = _Leaving(of=of, system=one, periods=periods, harmonics=harmonics)
+            if (at := found.birth(low, end)) is not None:
+                births.append((at, found))
+                end = at
         if not births:
             raise ValueError(
                 f"between a = {low:g} and {high:g} no multiplier out of the plane passes "
@@ -232,7 +234,7 @@ def leaving_branch(
                 "take the amplitudes around an edge that planar_stability shows, periods=2 where "
                 "the period doubles"
             )
-        return min(births, key=lambda birth: birth[0])
+        return births[-1]
 
     _, (amplitude, leaving), error = settled(
         first, iter(_HARMONICS), _SETTLED, lambda found: np.log(found[0]),
@@ -264,9 +266,7 @@ def _followed(
     block, own = leaving.block(birth)
     values, vectors = np.linalg.eigh(block)
     size = float(np.linalg.norm(packed(birth.coefficients, birth.parts)))
-    curve = OrbitCurve(
-        birth, birth.frequency, birth.frequency / size, partial(refined, care=_CARE)
-    )
+    curve = OrbitCurve(birth, birth.frequency, birth.frequency / size, partial(refined, care=_CARE))
     start = curve.unknowns(birth)
     across = np.zeros(start.size)
     across[own] = vectors[:, np.argmin(np.abs(values))]
