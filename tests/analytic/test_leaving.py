@@ -73,7 +73,7 @@ def test_a_nearly_round_section_leaves_the_plane_by_a_whirl():
     start = math.sqrt((1.0 - math.sqrt(0.998)) / beyond)
     of = backbone(UNIT.with_section_out_of_plane(0.998, 0.8), 0.0, theory=SOFT, functions=8)
     found = of.leaving(0.8 * start, 1.2 * start, points=12)
-    assert found.whirls
+    assert found.mirror
     assert found.born_error < 1e-7
     assert found.born.amplitude == pytest.approx(start, rel=1e-3)
     lag, flap, _ = found.largest.T
@@ -141,7 +141,7 @@ def test_period_doubling_in_rotation():
 @pytest.mark.parametrize(
     ("blade", "told", "words"),
     [
-        (STRIP, {"low": 0.002, "high": 0.003}, "no multiplier out of the plane passes 1 on"),
+        (STRIP, {"low": 0.002, "high": 0.003}, "no multiplier out of the plane passes 1 at"),
         (STRIP, {"low": 0.3, "high": 0.2}, "low must be below high"),
         (STRIP, {"low": 0.1, "high": 0.2, "periods": 3}, "periods must be 1 or 2, got 3"),
         (Beam.reference(), {"low": 0.1, "high": 0.2}, "give its section by"),

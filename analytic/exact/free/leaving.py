@@ -7,12 +7,12 @@ branch leaves. Mirrored in the plane the branch is another one: its distance fro
 with the root of the amplitude's way from there.
 
 A straight blade has two reversals of time, by the half turn about it and by the mirror through it
-and the axis of rotation. The orbits of a branch keep one of them: lag and flap then pass the plane
-of the other at the same time, or a quarter of a period apart, as in a whirl.
+and the axis of rotation. The orbits of a branch keep one of them, and are half a Fourier series.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 _HARMONICS = (8, 12, 18, 27, 40)  # of the planar orbit at the birth, until it settles
 _SETTLED = 1e-7  # of the logarithm of its amplitude
 _LOCATED = 1e-9  # of its amplitude
-_CARE = Care(drift=1e-9, harmonics=80)
+_CARE = Care(drift=1e-9, harmonics=40)  # for each period
 _BEGIN, _LONGEST = 0.005, 0.2  # steps of the arclength, over the size of the planar orbit
 
 
@@ -61,9 +61,9 @@ class LeavingBranch(SpaceOrbitSet, Branch):
         Planar mode from which the planar orbits grow, from 1.
     periods : int
         Periods of the planar orbit that one of these orbits takes at first: 1 or 2.
-    whirls : bool
-        Whether lag and flap are largest a quarter of a period apart, by the mirror; or reversed
-        time maps the orbits onto themselves by the half turn.
+    mirror : bool
+        Whether reversed time maps the orbits onto themselves by the mirror through the blade and
+        the axis of rotation, as of a whirl; or by the half turn about the blade.
     born : SpecialPoint
         Frequency [rad/s] and amplitude |q|/L of the planar orbit.
     born_error : float
@@ -80,14 +80,14 @@ class LeavingBranch(SpaceOrbitSet, Branch):
     >>> from analytic import Beam, backbone
     >>> oval = Beam.reference().with_section_out_of_plane(0.9, 0.8)
     >>> found = backbone(oval, omega=0.0, functions=8).leaving(0.3, 0.4, points=3)
-    >>> print(f"born at a = {found.born.amplitude:.5f}, whirls: {found.whirls}")
-    born at a = 0.35970, whirls: True
+    >>> print(f"born at a = {found.born.amplitude:.5f}, a whirl: {found.mirror}")
+    born at a = 0.35970, a whirl: True
     """
 
     omega: float
     mode: int
     periods: int
-    whirls: bool
+    mirror: bool
     born: SpecialPoint
     born_error: float
     ended: str = field(repr=False)
@@ -219,25 +219,27 @@ def leaving_branch(
     flat = space_rotation(of.beam, of.omega, model)
     systems = [replace(flat, mirror=mirror) for mirror in (False, True)]
 
-    def first(harmonics: int) -> tuple[float, _Leaving]:
-        """Return the smallest amplitude at which something leaves, and what."""
-        births, end = list[tuple[float, _Leaving]](), high
-        for one in systems:
-            found = _Leaving(of=of, system=one, periods=periods, harmonics=harmonics)
-            if (at := found.birth(low, end)) is not None:
-                births.append((at, found))
-                end = at
-        if not births:
+    def births() -> Iterator[tuple[float, _Leaving]]:
+        """Yield the smallest amplitude at which something leaves, and what, ever finer."""
+        at = None
+        for harmonics in _HARMONICS:
+            at, end = None, high
+            for one in systems:
+                found = _Leaving(of=of, system=one, periods=periods, harmonics=harmonics)
+                place = found.birth(low, end)
+                if place is not None:
+                    at, end = (place, found), place
+            if at is not None:
+                yield at
+        if at is None:
             raise ValueError(
                 f"between a = {low:g} and {high:g} no multiplier out of the plane passes "
-                f"{'1' if periods == 1 else '-1'} on {harmonics} harmonics, at {of.omega:g} rad/s: "
-                "take the amplitudes around an edge that planar_stability shows, periods=2 where "
-                "the period doubles"
+                f"{'1' if periods == 1 else '-1'} at {of.omega:g} rad/s: take the amplitudes "
+                "around an edge that planar_stability shows, periods=2 where the period doubles"
             )
-        return births[-1]
 
     _, (amplitude, leaving), error = settled(
-        first, iter(_HARMONICS), _SETTLED, lambda found: np.log(found[0]),
+        lambda birth: birth, births(), _SETTLED, lambda birth: np.log(birth[0]),
         "the amplitude at which a branch leaves the plane", "look at smaller orbits",
     )  # fmt: skip
     birth = leaving.orbit(amplitude)
@@ -248,7 +250,7 @@ def leaving_branch(
         omega=of.omega,
         mode=of.mode,
         periods=periods,
-        whirls=leaving.system.mirror,
+        mirror=leaving.system.mirror,
         born=SpecialPoint(periods * birth.frequency * per_second, amplitude),
         born_error=error,
         frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
