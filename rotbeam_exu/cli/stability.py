@@ -11,6 +11,7 @@ import analytic
 from analytic.exact.plane.growth import LEAST_GROWTH
 from analytic.input_checks import positive, whole_number
 
+from ..files.results import parts
 from ..runs.attributes import beam_attributes
 from .job import Job
 from .motion import Config, Omega, configured, omega_of
@@ -79,7 +80,7 @@ def stability(
         force=results.force,
         compute=computed,
         dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs),
-        table=lambda data: data.drop_vars(["multipliers", "part"]),
+        table=lambda data: parts(data)["growth_rate"],
         show=lambda pair, _: _print(*pair),
         draw=lambda figures, data: figures.planar_stability(data),
     ).run()
