@@ -221,6 +221,16 @@ def test_is_it_planar(run):
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
 
 
+def test_leaving_the_plane(run):
+    strip, thick = run("leaving_the_plane")["branches"]
+    # Born stable; slower as they leave.
+    assert strip.stable[:8].all()
+    assert thick.stable.all()
+    assert np.all(np.diff(strip.frequency) < 0.0)
+    assert np.all(np.diff(thick.frequency) < 0.0)
+    assert thick.born.amplitude == pytest.approx(0.2479, abs=1e-4)
+
+
 def test_real_blade(run):
     found = run("real_blade")
     (meeting,) = found["diagram"].crossings
