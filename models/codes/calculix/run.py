@@ -87,5 +87,5 @@ if __name__ == "__main__":
         code="CalculiX", version=release(), url="http://www.calculix.de", licence="GPL-2.0",
         element="plane stress, eight nodes", order=4.0, order_in_step=2.0,
     )  # fmt: skip
-    runs = [(16, "4e-3"), (32, "4e-3"), (16, "1e-2"), (64, "4e-3"), (32, "1e-2"), (16, "2e-3")]
+    runs = [(16, 4e-3), (32, 4e-3), (16, 1e-2), (64, 4e-3), (32, 1e-2), (16, 2e-3)]
     take_part(__file__, told, history, {"S1": runs}, frequency, (16, 32, 64, 128), (0.0,))
