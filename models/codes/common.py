@@ -77,7 +77,8 @@ def output_of(call: Sequence[object], **options: Any) -> str:
     words = [str(word) for word in call]
     done = subprocess.run(words, capture_output=True, text=True, check=False, **options)
     if done.returncode:
-        raise RuntimeError(done.stderr.strip() or f"{words[0]} fails: {done.stdout[-200:]}")
+        said = done.stderr.strip() or " ".join(done.stdout[-200:].split())
+        raise RuntimeError(said or f"{words[0]} fails")
     return done.stdout
 
 
