@@ -81,7 +81,7 @@ def run(
     found = Job(
         path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case),
         show=shown,
-        draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
+        draw=None if no_figure else lambda figures, data: figures.spin_up(data),
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)

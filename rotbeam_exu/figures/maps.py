@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 
 from ..paper import BLUE, RED
-from .style import colormap, column, house_axes, ink, label
+from .style import colormap, column, house_axes, ink, label, takes_own
 
 
+@takes_own
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
@@ -37,6 +38,7 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@takes_own
 def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω of lag alone and of flap alone, with the speeds at which it changes sign."""
     x = data["w_bar"].to_numpy()
@@ -67,6 +69,7 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@takes_own
 def growth_out_of_plane(
     data: xr.Dataset,
     ax: Axes | None = None,
