@@ -24,7 +24,7 @@ class CaseColumn:
 
 _TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
 _ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
-_WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
+_LEVEL = "along $-bold(b)_3$: the axis of rotation points up"
 _OMEGA = CaseColumn("omega", "rad/s")
 _PITCH = "twist $theta = {}$ rad at the tip, linear in $x$"
 COLUMNS = {
@@ -40,7 +40,9 @@ COLUMNS = {
     "point_masses.PointMass.mass": _TIP_MASS,
     "point_masses.PointMass.position": CaseColumn("L", "m"),
     "damping.bending": CaseColumn("bending_damping", "s", 0.0, _ETA),
-    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, _WEIGHT),
+    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, "gravity $g = {}$ m/s²"),
+    "loads.Gravity.tilt": CaseColumn("gravity_tilt", "rad", 0.0, _LEVEL),
+    "kick": CaseColumn("kick", "m/s", 0.0, "kick $v = {}$ m/s at the tip"),
     "motion.SpinUp.omega": _OMEGA,
     "motion.SteadyRotation.omega": _OMEGA,
     "motion.SpinUp.ramp_time": CaseColumn("T", "s"),
@@ -83,6 +85,7 @@ def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
     yield from _parts("", case.blade.blade)
     yield from _parts("motion.", (case.motion,) if case.motion else ())
     yield from _parts("loads.", case.loads)
+    yield from _parts("kick", case.kick) if case.kick else ()
 
 
 def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:

@@ -179,7 +179,9 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
     """Compute the numbers asked for at a speed [rad/s], and the largest relative error of them."""
     theory, blade = case.theory_of(declared), case.blade
     if case.asked is Asked.STEADY:
-        steady = steady_state(blade, speed, theory=theory)
+        # Loads that stand still in the turning frame are weight, along the axis of rotation.
+        weight = -sum(float(load.lift(np.zeros(1))[0]) for load in case.loads)
+        steady = steady_state(blade, speed, gravity=weight, theory=theory)
         row = np.array([steady.tip[1], steady.tip[2], steady.twist])
         scales = np.abs(row) / (blade.length, blade.length, 1.0)
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
@@ -224,8 +226,9 @@ def sampled_history(
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
         found: Any = spin_up_response(
-            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
-        )
+            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory,
+            kick=case.kick,
+        )  # fmt: skip
         q, error = found.q, found.error
         if case.in_space:
             # Its error is over the largest of lag and flap, to which all components are small.

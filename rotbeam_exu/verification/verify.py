@@ -27,15 +27,15 @@ from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
+from .cases import CASES, SPEEDS, TIP, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
-from .submission import Declaration, Frequency, Run, Submission
+from .submission import Declaration, Frequency, Run, SteadyTip, Submission
 
 DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
 the orbit of O the beam hardens; S2 leaves too little for that."""
 
-IN_SPACE = ("F", "F+p", "W")
+IN_SPACE = ("F", "F+p", "P", "W", "G")
 """Cases that `verify` takes of a code in space."""
 
 LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
@@ -53,7 +53,8 @@ class Code(Protocol):
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
         is the `BeamState` at material points x [m]. Samples are even, at least 100 a period, and
-        go from 0 to `case.duration` or a little beyond.
+        go from 0 to `case.duration` or a little beyond. With `case.kick` it starts in the state
+        `case.start(x)`, straight, but in motion out of the plane.
 
         Raises
         ------
@@ -78,6 +79,9 @@ class Entry:
         code has it.
     frequencies : callable, optional
         (blade, omega, elements, count) -> the lowest ones [rad/s] of a blade in space.
+    steady_tip : callable, optional
+        (case, omega, elements) -> lag [m], flap [m] and twist [rad] of the tip at rest in the
+        turning frame, under the loads of the case.
     elements, step
         Mesh and step [s] of the judged run.
     meshes : tuple of int, optional
@@ -94,6 +98,7 @@ class Entry:
     simulate: Code
     first_frequency: Callable[[AnyBlade, float, int], float] | None = None
     frequencies: Callable[[AnyBlade, float, int, int], FloatArray] | None = None
+    steady_tip: Callable[[Case, float, int], FloatArray] | None = None
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()
@@ -154,8 +159,8 @@ def verify(
 def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     """Run a code over the cases that it does, and return its submission.
 
-    Frequencies on its own meshes; histories on these meshes at twice its step, and on its mesh at
-    one, two and four of its steps. What fails is on record with its sentence.
+    Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
+    on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
     frequencies = [
         one
@@ -165,13 +170,21 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
         for elements in entry.own_meshes
         for one in _frequencies(entry, case, speed, elements)
     ]
+    steady = [
+        one
+        for case in cases
+        if case.asked is Asked.STEADY
+        for speed in case.speeds
+        for elements in entry.own_meshes
+        for one in _steady(entry, case, speed, elements)
+    ]
     runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,
             order_in_step=entry.order_in_step,
         ),
-        frequencies=tuple(frequencies), runs=tuple(runs),
+        frequencies=tuple(frequencies), steady=tuple(steady), runs=tuple(runs),
     )  # fmt: skip
 
 
@@ -203,6 +216,20 @@ def _frequencies(entry: Entry, case: Case, speed: float, elements: int) -> list[
     except RuntimeError as error:
         return [replace(one, failure=str(error)) for one in made]
     return [replace(one, frequency=value) for one, value in zip(made, found, strict=True)]
+
+
+def _steady(entry: Entry, case: Case, speed: float, elements: int) -> list[SteadyTip]:
+    """Return the steady tip of a mesh at a speed, none if the code does not have it."""
+    if entry.steady_tip is None:
+        return []
+    row = SteadyTip(case=case.name, elements=elements, speed=speed)
+    try:
+        found = dict(zip(TIP, entry.steady_tip(case, speed, elements).tolist(), strict=True))
+    except NotImplementedError:
+        return []
+    except RuntimeError as error:
+        return [replace(row, failure=str(error))]
+    return [replace(row, **found)]
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:

@@ -22,7 +22,7 @@ from rotbeam_exu.verification.verify import LADDER
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --omega.*|doctor|campbell|campbell --section.*|"
+    r"rotbeam (run|run --.*|doctor|campbell|campbell --section.*|"
     r"(reference|respond|stability|ramp|converge|compare|figure|animate|judge).*)"
 )
 BEAM = """

@@ -160,7 +160,7 @@ def test_a_run_tells_its_loads(beam, tmp_path):
     options = {"spin_up": SpinUp(omega=4.0, ramp_time=3.0), "elements": 2, "step": 1e-2}
     run = simulate(beam, **options, duration=5.0, loads=ALL)
     assert loads_of(load(save(run, tmp_path / "run.nc")).attrs) == ALL
-    assert json.loads(run.attrs["loads"])[0] == {"kind": "Gravity", "gravity": 2.0}
+    assert json.loads(run.attrs["loads"])[0] == {"kind": "Gravity", "gravity": 2.0, "tilt": 0.0}
     # A cache is keyed by what a case says of itself.
     keys = [
         json.dumps(RunCase(beam=beam, **options, loads=loads).describe())

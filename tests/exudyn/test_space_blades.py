@@ -56,7 +56,8 @@ def test_a_twisted_spin_up_follows_the_exact_one():
         blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads
     )
     theory = Theory(extension=False, rotary_inertia=True, trapeze=False)
-    exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-4, loads=loads)
+    # A tenth of this tolerance moves the tip by 1e-6 L, at four times the cost.
+    exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-3, loads=loads)
     tip = run["axis"][:, -1].interp(time=at)
     np.testing.assert_allclose(tip, exact.tip, atol=2e-3)
     np.testing.assert_allclose(run["q"].interp(time=at), exact.tip[:, 1], atol=2e-3)

@@ -372,8 +372,7 @@ def mutation(draw):
 
 
 @settings(
-    max_examples=3 * settings().max_examples, deadline=None, derandomize=True,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
+    deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )  # fmt: skip
 @given(mutations=st.lists(mutation(), min_size=1, max_size=4))
 def test_malformed_submissions_give_sentences(of_every_kind, tmp_path_factory, mutations):

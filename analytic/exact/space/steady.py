@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state
+from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
@@ -56,23 +57,23 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     )
 
 
-def lives_in_space(beam: AnyBlade) -> bool:
-    """Whether flap, lag and torsion of a blade go together.
+def lives_in_space(beam: AnyBlade, loads: Sequence[Load] = ()) -> bool:
+    """Whether flap, lag and torsion of a blade under loads go together.
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
     require_blade(beam)
     blade = beam.blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
-    return turned or not blade.is_planar
+    return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
 
 
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not beam.blade.section.knows_space:
         raise ValueError(
-            "a blade with twist, precone, prebend, sweep, offsets or a setting angle bends out of "
-            "its plane and twists: give its stiffness there by "
+            "twist, precone, prebend, sweep, offsets, a setting angle, a kick or tilted gravity "
+            "bend a blade out of its plane and twist it: give its stiffness there by "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
             "that does not twist"
         )
@@ -93,6 +94,8 @@ class SpaceBlade(AtConstantRate):
         Coordinates from which the steady state is found; from rest by default.
     load : tuple
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
+    lift : float
+        Pull on all masses along the axis of rotation, over EI3/(m0 L³).
     """
 
     model: SpaceContinuum
@@ -100,15 +103,21 @@ class SpaceBlade(AtConstantRate):
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
     near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
+    lift: float = 0.0
 
     @cached_property
     def push(self) -> FloatArray | None:
         """The load, as `model.residual` takes it."""
-        if not self.load:
+        if not self._is_loaded:
             return None
-        result = np.zeros((3, 3, 1, self.model.points.size))
-        result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
+        result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
+        if self.load:
+            result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
+
+    @property
+    def _is_loaded(self) -> bool:
+        return bool(self.load or self.lift)
 
     @property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -139,7 +148,7 @@ class SpaceBlade(AtConstantRate):
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        straight = unit.half_turn and unit.mirrored and not self.load
+        straight = unit.half_turn and unit.mirrored and not self._is_loaded
         whole = max(self.rate / _LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
@@ -150,7 +159,7 @@ class SpaceBlade(AtConstantRate):
                     return found
                 q, reached, step = found, share, min(1.5 * step, longest)
             elif share == 0.0 or step < _SHORTEST * longest:
-                load = f" and at {share:.4g} of the load" if self.load else ""
+                load = f" and at {share:.4g} of the load" if self._is_loaded else ""
                 raise ValueError(
                     f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
                     f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
@@ -162,11 +171,12 @@ class SpaceBlade(AtConstantRate):
     @property
     def _loaded(self) -> float:
         """Angle by which the load bends or twists the softest section's blade, about."""
-        if not self.load:
+        if not self._is_loaded:
             return 0.0
         own = self.model.functions
         soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]
-        return float(np.sum(np.abs(self.load)) * np.trace(soft, axis1=1, axis2=2).max())
+        whole = float(np.sum(np.abs(self.load))) + abs(self.lift)
+        return whole * float(np.trace(soft, axis1=1, axis2=2).max())
 
     def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
         """Return the state near `q` (n,) at shares of speed and load; None if lost, or unstable."""

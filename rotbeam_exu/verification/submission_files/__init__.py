@@ -72,7 +72,7 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     >>> from tempfile import TemporaryDirectory
     >>> from rotbeam_exu.verification.submission_files import read_submission
     >>> with TemporaryDirectory() as folder:
-    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
+    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.1"\ncode = "mine"')
     ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
     ...     print(read_submission(folder).frequencies[0].frequency)
     3.731123456
