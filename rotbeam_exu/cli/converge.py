@@ -24,7 +24,7 @@ from .options import (
     Whole,
     Workers,
 )
-from .output import formatted, print_columns, print_line
+from .output import formatted, print_columns, print_line, print_note
 
 
 def converge(
@@ -114,7 +114,9 @@ def _print(data: xr.Dataset) -> None:
         title="q(t) over its largest size: error by one fit to all runs",
     )
     orders = formatted(map(float, (data["order"], data["order_in_step"])), ".1f")
-    print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step; - is not told")
+    print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step")
+    if "-" in orders:
+        print_note("-: the runs do not show it")
     attrs, asked = data.attrs, data.sel(mesh=data.attrs["elements"], run=3)
     tolerance = attrs["tolerance"]
     take = f"{int(data['recommended_elements'])} elements, step {data['recommended_step']:.3g} s"

@@ -276,8 +276,8 @@ def _scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
     bar, low, left = 0.25 * length, -0.98 * _REACH * length, start * length
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
     ax.text(left + 1.2 * bar, low, quantity(bar, "m"), va="center", color="0.35")
-    ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **_CLAMP)
-    ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
+    ax.plot([left + 2.6 * bar, left + 3.3 * bar], [low, low], **_CLAMP)
+    ax.text(left + 3.5 * bar, low, "clamp", va="center", color="0.35")
 
 
 def _history(history: Axes, response: _Response, color: str, dot: str) -> _Moving:
