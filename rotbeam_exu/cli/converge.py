@@ -13,7 +13,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from .driving import DRIVING, Driving
 from .job import Job
-from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
+from .motion import Config, RampTime, SteadySpeed, configured
 from .options import (
     DISCRETIZATION,
     RESULTS,
@@ -63,13 +63,7 @@ def converge(
 
     file = configured(config)
     numerics = discretization.over(file.numerics)
-    motion = motion_of(
-        file, takes_loads=True, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
-        step=numerics.step,
-    )  # fmt: skip
-    refuse_rest(motion.spin_up.omega)
-    beam = driving.dampings.on(file.beam)
-    case = numerics.case(beam, motion, driving.chosen(file.loads))
+    case = driving.spin_up_case(file, numerics, omega, ramp_time)
     whole_number("elements", case.elements, least=2)
     whole_number("count", count)
     inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
