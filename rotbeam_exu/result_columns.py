@@ -14,6 +14,7 @@ import numpy as np
 
 from analytic.exact.free.branches import BackboneBranch
 from analytic.exact.free.curve import BackboneCurve
+from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits, SpaceOrbits
 from analytic.exact.linear.modes import LinearModes
 from analytic.exact.space.modes import SpaceModes
@@ -117,6 +118,14 @@ _ORBITS = _columns(
     jacobi_drift="drift of the Jacobi integral",
 ) | {"sine": _own("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
 _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
+_POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
+    "mark": ("point", "what is special about the point", lambda found: [*found.marks])
+}
+_SWINGS = {
+    "lag": "half the way of the tip in lag over L",
+    "flap": "half the way of the tip in flap over L",
+    "twist": "half the swing of the tip's section [rad]",
+}
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
 OSCILLATION = {
@@ -132,20 +141,13 @@ OSCILLATION = {
 
 COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     Orbits: (_ORBITS, "beam", _OF_ORBITS),
-    SpaceOrbits: (
-        _ORBITS | _columns(
-            "orbit", lag="half the way of the tip in lag over L",
-            flap="half the way of the tip in flap over L",
-            twist="half the swing of the tip's section [rad]",
-        ),
-        "beam", _OF_ORBITS,
-    ),
+    SpaceOrbits: (_ORBITS | _columns("orbit", **_SWINGS), "beam", _OF_ORBITS),
     BackboneBranch: (
-        _columns(
-            "point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]",
-            piece="0 on the main path, then the tongue's number",
-        ) | {"mark": ("point", "what is special about the point", lambda found: [*found.marks])},
+        _POINTS | _columns("point", piece="0 on the main path, then the tongue's number"),
         "beam", ("omega", "mode"),
+    ),
+    LeavingBranch: (
+        _POINTS | _columns("point", **_SWINGS), "beam", ("omega", "mode", "periods", "ended")
     ),
     BackboneCurve: (
         {
