@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Rectangle, Tube, planar_stability
+from analytic.exact.plane.stability_limit import StabilityLimit
 from rotbeam_exu import comparison, dataset_of, figures
 
 
@@ -18,6 +19,13 @@ def test_growth_over_the_amplitude(beam):
     assert by_label["stays in plane"].get_xdata() == pytest.approx([0.25])
     # No line joins orbits between which others may stay.
     assert all(line.get_linestyle() == "None" for line in axes.lines)
+    limit = StabilityLimit(
+        blade=blade, omega=2.0, mode=1, damping=0.0, growth=0.01, amplitude=0.28, searched=0.3,
+        kind="", modes=(), tongues=(), converged=True,
+    )  # fmt: skip
+    (line,) = figures.planar_stability(dataset_of(found, limit)).lines[-1:]
+    assert line.get_label() == "limit, a = 0.28"
+    assert line.get_xdata() == pytest.approx([0.28, 0.28])
 
 
 def test_what_stays_is_drawn_at_zero(beam):
