@@ -100,6 +100,7 @@ def test_the_page_tells_what_was_found(pages):
     ):  # fmt: skip
         assert said in text, said
     assert "A usual mistake?" not in text
+    assert "<dt>Declared orders</dt><dd>2 in mesh, 2 in step</dd>" in pages["right"]
 
 
 def test_what_an_author_writes_is_text(pages, wrong):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state
+from ...input_checks import finite_number
 from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
@@ -28,6 +29,7 @@ MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
 _LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
 _SHORTEST = 1e-3
+_LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
 
 
@@ -68,6 +70,16 @@ def lives_in_space(beam: AnyBlade, loads: Sequence[Load] = ()) -> bool:
     return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
 
 
+def require_bent(name: str, bent: float) -> float:
+    """Return a start out of the plane, over L; refuse one that is not small."""
+    if not abs(finite_number(name, bent)) <= _LARGEST_KICK:
+        raise ValueError(
+            f"{name} must be at most {_LARGEST_KICK:g} of the length, got {bent:g}: it is to be "
+            "small, 1e-6 say"
+        )
+    return float(bent)
+
+
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not beam.blade.section.knows_space:
@@ -96,6 +108,9 @@ class SpaceBlade(AtConstantRate):
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
     lift : float
         Pull on all masses along the axis of rotation, over EI3/(m0 L³).
+    mirror : bool
+        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
+        would as well.
     """
 
     model: SpaceContinuum
@@ -104,6 +119,7 @@ class SpaceBlade(AtConstantRate):
     near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
     lift: float = 0.0
+    mirror: bool = False
 
     @cached_property
     def push(self) -> FloatArray | None:
@@ -119,7 +135,7 @@ class SpaceBlade(AtConstantRate):
     def _is_loaded(self) -> bool:
         return bool(self.load or self.lift)
 
-    @property
+    @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
@@ -127,7 +143,7 @@ class SpaceBlade(AtConstantRate):
         """
         if self.direction[2] and not self.model.functions.blade.half_turn:
             return None
-        return self.model.functions.odd
+        return self.model.functions.odd_by(mirror=True) if self.mirror else self.model.functions.odd
 
     @property
     def pinned(self) -> int:
