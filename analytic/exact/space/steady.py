@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state
+from ...input_checks import finite_number
 from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
@@ -28,6 +29,7 @@ MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
 _LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
 _SHORTEST = 1e-3
+_LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
 
 
@@ -66,6 +68,16 @@ def lives_in_space(beam: AnyBlade, loads: Sequence[Load] = ()) -> bool:
     blade = beam.blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
     return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
+
+
+def require_bent(name: str, bent: float) -> float:
+    """Return a start out of the plane, over L; refuse one that is not small."""
+    if not abs(finite_number(name, bent)) <= _LARGEST_KICK:
+        raise ValueError(
+            f"{name} must be at most {_LARGEST_KICK:g} of the length, got {bent:g}: it is to be "
+            "small, 1e-6 say"
+        )
+    return float(bent)
 
 
 def require_section(beam: AnyBlade) -> None:
