@@ -64,7 +64,10 @@ class Case:
     name : str
         As files and folders are named: "L", "S1", "S1+h".
     level : Level
-    title : str Title in a few words. asked : Asked blade : Beam or Blade
+    title : str
+        In a few words.
+    asked : Asked
+    blade : Beam or Blade
         Damping included.
     motion : SpinUp or SteadyRotation, optional
         How the clamp turns, of a history.

@@ -58,8 +58,6 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         require(case.blade)
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
-        if case.in_space is not model.leaves_plane:
-            raise NotImplementedError(f"{model.name} is for the plane, or for space")
         found = simulate(
             case.blade, case.rotation, element=model, elements=elements, step=step,
             duration=case.whole_duration(step), loads=case.loads,
@@ -76,14 +74,11 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         found = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
         return np.array([*(case.blade.length * found.tip[1:]), found.twist])
 
-    def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(lowest(beam, omega, elements, 1)[0])
-
     return Entry(
         name=" ".join([model.name, *options]),
         simulate=simulated,
-        first_frequency=None if model.leaves_plane else first,
-        frequencies=lowest if model.leaves_plane else None,
+        frequencies=lowest,
+        in_space=model.leaves_plane,
         steady_tip=steady_tip if model.leaves_plane else None,
         elements=elements or (32 if model.order == _SECOND else 16),
         meshes=() if elements else model.meshes,

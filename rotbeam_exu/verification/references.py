@@ -36,7 +36,7 @@ class Reference:
         Of the code; the case may add to it, `Case.theory_of`.
     bound : float
         Relative error: of a history over max|q|, interpolation included, else of frequencies.
-        Of a tip in space that of its worst component.
+        A tip in space has that of its worst component.
     source : str
         Which file and how it was made, or how it was computed.
     """
@@ -186,7 +186,7 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
         scales = np.abs(row) / (blade.length, blade.length, 1.0)
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
     if case.in_space:
-        # Of a straight blade too, whose `linear_modes` are those in its plane; loaded where needed.
+        # A straight blade comes here too: its `linear_modes` are those in its plane. Loaded late.
         from analytic.exact.space.modes import space_modes  # noqa: PLC0415
 
         return space_modes(blade, speed, case.count, theory).frequencies, COMPUTED_BOUND

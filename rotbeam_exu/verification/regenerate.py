@@ -149,7 +149,7 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
         spline = interpolate.CubicSpline(at[:count] ** 2, known[:count])
         halves = slice(count - 2)
         errors = np.abs((spline(halfway[halves] ** 2) - between[halves]) * halfway[halves] ** 2)
-        # What is not a number is no good either.
+        # NaN is no good either.
         bad = np.flatnonzero(~(errors <= _WORST))
         if bad.size == 0:
             break

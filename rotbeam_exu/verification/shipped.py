@@ -77,8 +77,8 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
 def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
-    asked += (case.kick,) if case.kick else ()
-    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    kick = (case.kick,) if case.kick else ()
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked, *kick)
     theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 

@@ -74,11 +74,11 @@ class Entry:
     name : str
         Shown in the table.
     simulate : Code
-    first_frequency : callable, optional
-        (beam, omega, elements) -> first natural frequency [rad/s] in steady rotation, where the
-        code has it.
     frequencies : callable, optional
-        (blade, omega, elements, count) -> the lowest ones [rad/s] of a blade in space.
+        (blade, omega, elements, count) -> lowest natural frequencies [rad/s] in steady rotation,
+        where the code has them.
+    in_space : bool
+        Whether the code does cases in space, and those only.
     steady_tip : callable, optional
         (case, omega, elements) -> lag [m], flap [m] and twist [rad] of the tip at rest in the
         turning frame, under the loads of the case.
@@ -96,8 +96,8 @@ class Entry:
 
     name: str
     simulate: Code
-    first_frequency: Callable[[AnyBlade, float, int], float] | None = None
-    frequencies: Callable[[AnyBlade, float, int, int], FloatArray] | None = None
+    frequencies: Callable[[AnyBlade, float, int, int], Sequence[float] | FloatArray] | None = None
+    in_space: bool = False
     steady_tip: Callable[[Case, float, int], FloatArray] | None = None
     elements: int = 16
     step: float = 1e-3
@@ -148,7 +148,7 @@ def verify(
     1 of 2 agrees, 1 undecided (L)
     """
     if beam is None and spin_up is None:
-        cases = [CASES[name] for name in (IN_SPACE if entry.frequencies else DEFAULT)]
+        cases = [CASES[name] for name in (IN_SPACE if entry.in_space else DEFAULT)]
     else:
         blade, motion = _by_default(beam, spin_up)
         speeds = tuple(speed * faster_than_paper(blade) for speed in SPEEDS)
@@ -162,6 +162,7 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
     on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
+    cases = [case for case in cases if case.in_space is entry.in_space]
     frequencies = [
         one
         for case in cases
@@ -199,23 +200,19 @@ def _by_default(beam: AnyBlade | None, spin_up: SpinUp | None) -> tuple[AnyBlade
 
 def _frequencies(entry: Entry, case: Case, speed: float, elements: int) -> list[Frequency]:
     """Return the frequencies of a mesh at a speed, none if the code does not have them."""
-    if (entry.frequencies if case.in_space else entry.first_frequency) is None:
+    if entry.frequencies is None:
         return []
     made = [
         Frequency(case=case.name, elements=elements, speed=speed, number=number)
         for number in range(1, case.count + 1)
     ]
     try:
-        if case.in_space and entry.frequencies is not None:
-            found = entry.frequencies(case.blade, speed, elements, case.count).tolist()
-        else:
-            assert entry.first_frequency is not None
-            found = [entry.first_frequency(case.blade, speed, elements)]
+        found = entry.frequencies(case.blade, speed, elements, case.count)
     except NotImplementedError:
         return []
     except RuntimeError as error:
         return [replace(one, failure=str(error)) for one in made]
-    return [replace(one, frequency=value) for one, value in zip(made, found, strict=True)]
+    return [replace(one, frequency=float(value)) for one, value in zip(made, found, strict=True)]
 
 
 def _steady(entry: Entry, case: Case, speed: float, elements: int) -> list[SteadyTip]:

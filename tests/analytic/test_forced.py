@@ -159,6 +159,7 @@ def test_a_small_load_gives_the_linear_response():
     assert not found.folds
 
 
+@pytest.mark.slow  # at the peak damping takes what the load gives on the free orbit as well
 def test_as_damping_and_load_vanish_the_peak_runs_onto_the_backbone(rippled):
     omega_n = linear_modes(BEAM, 6.0, theory=Theory(extension=False)).frequencies[0]
     smaller = (

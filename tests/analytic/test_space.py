@@ -10,6 +10,7 @@ from scipy import optimize
 from analytic import (
     Beam,
     Blade,
+    Damping,
     Rectangle,
     Section,
     Theory,
@@ -17,12 +18,13 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
+from analytic.damping import UNDAMPED
 from analytic.exact.beam.discretization import blade_continuum
-from analytic.exact.beam.space import Space
+from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.beam.steady import SteadyBeam, steady_rotation
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import space_continuum
-from analytic.methods.floquet import _flow
+from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
 from analytic.quadrature import axial_basis, gauss_points
 from analytic.section import OutOfPlane
@@ -35,6 +37,7 @@ ROUND = OutOfPlane(bending_ratio=1.0, torsion_ratio=RIGID)
 
 
 STRIP = BEAM.with_shape(Rectangle()).section.out_of_plane
+DAMPING = Damping(bending=5e-3)
 SLENDER_LIMIT = Theory(extension=False)
 
 
@@ -70,27 +73,80 @@ class Across:
 
 
 @pytest.mark.parametrize(
-    ("section", "a", "theory", "digits"),
+    ("section", "a", "theory", "damping", "digits"),
     [
-        (SLENDER, 0.3917, Theory(extension=False, trapeze=False), 1e-8),
-        pytest.param(SLENDER, 0.3917, Theory(trapeze=False), 1e-8, marks=pytest.mark.slow),
+        (SLENDER, 0.3917, Theory(extension=False, trapeze=False), UNDAMPED, 1e-8),
+        pytest.param(
+            SLENDER, 0.3917, Theory(trapeze=False), UNDAMPED, 1e-8, marks=pytest.mark.slow
+        ),
+        # Which changes the growth by 1e-3 and 1e-1 of itself.
+        (SLENDER, 0.3917, Theory(trapeze=False), DAMPING, 1e-8),
         # The inertia of the sections against flap, which L2 leaves out: 4e-5.
-        (STRIP, 0.045, Theory(), 1e-4),
-        (STRIP, 0.045, Theory(trapeze=False, rotary_inertia=True), 1e-4),
+        (STRIP, 0.045, Theory(), UNDAMPED, 1e-4),
+        (STRIP, 0.045, Theory(), DAMPING, 1e-4),
+        (STRIP, 0.045, Theory(trapeze=False, rotary_inertia=True), UNDAMPED, 1e-4),
     ],
 )
-def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, digits):
+def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, digits):
     """Multipliers and growth by L2 in w and φ, and by the strains κ2 and κ1: two derivations."""
     blade = BEAM.with_section_out_of_plane(**asdict(section))
     (orbit,) = periodic_orbits(blade, 2.0, a, theory=theory).nondimensional
+    blade = blade.with_damping(damping)
     known = grown(blade, orbit, 16, 48, theory)
     model = space_continuum(blade, theory, max(16, orbit.system.model.bending))
-    matrix, exponent = _flow(Across(orbit, model), 48, 1.0)
+    across = Across(orbit, model)
+    # Nothing resists the free orbit.
+    model.functions.damping[across.inside] = 0.0
+    matrix, exponent = flow(across, 48)
     found = np.linalg.eigvals(matrix) * np.exp(exponent)
     assert known.unstable
     assert np.log(np.abs(found)).max() == pytest.approx(known.exponent, rel=digits)
     apart = np.abs(found[:, None] - known.multipliers).min(axis=0)
     assert (apart / np.maximum(1.0, np.abs(known.multipliers))).max() < 5.0 * digits
+
+
+def test_damping_by_mass_decays_as_the_undamped_motion_of_less_stiffness():
+    """M q̈ + cM q̇ + K q = 0 is solved by exp(-ct/2) p, M p̈ + (K - c²M/4) p = 0: exactly."""
+    blade, c = BEAM.with_section_out_of_plane(**asdict(SLENDER)), 0.3
+    (orbit,) = periodic_orbits(blade, 2.0, 0.3917, theory=SLENDER_LIMIT).nondimensional
+    damping = Damping(external=c * blade.frequency_scale * blade.mass_per_length)
+    found = grown(blade.with_damping(damping), orbit, 12, 48).multipliers
+
+    class Softer(OutOfPlaneMotion):
+        def tangent(self, phase):
+            at = super().tangent(phase)
+            return at._replace(stiffness=at.stiffness - 0.25 * c**2 * at.mass)
+
+    softer = Softer(orbit.on(with_points_for(orbit.system, 12)), Space(blade, 12))
+    values = np.linalg.eigvals(flow(softer, 48)[0]) * np.exp(-c * np.pi / orbit.frequency)
+    apart = np.abs(values[:, None] - found).min(axis=0)
+    assert apart == pytest.approx(0.0, abs=1e-9)
+
+
+def test_small_orbits_leave_each_mode_its_damping_ratio():
+    """About the straight blade M, C and K have the same modes: exp(2π(-ζ ± i√(1 - ζ²))ν/Ω)."""
+    # Of little torsional stiffness, so that its first mode is among the lowest four.
+    blade, ratio = BEAM.with_section_out_of_plane(0.1, 1e-4), 0.02
+    multipliers = planar_stability(blade, 4.0, 1e-4, damping=ratio).multipliers[0]
+    frequency = linear_modes(blade, 4.0, 1).frequencies[0]
+    for plane in ("flap", "torsion"):
+        own = linear_modes(blade, 4.0, 1, plane=plane).frequencies[0]
+        wanted = np.exp(2.0 * np.pi * own / frequency * (-ratio + 1j * math.sqrt(1.0 - ratio**2)))
+        # The modes are right to 1e-5 or so, and the orbit changes them by its square.
+        assert np.abs(multipliers - wanted).min() < 1e-4
+
+
+def test_damping_takes_its_decay_from_the_growth():
+    """Mathieu's tongue of twice a mode: what grows loses ζν [1/s], to first order."""
+    section, amplitude, ratio = SLENDER, 0.3917, 1e-4
+    blade = BEAM.with_section_out_of_plane(**asdict(section))
+    free, damped = (planar_stability(blade, 2.0, amplitude, damping=d) for d in (0.0, ratio))
+    assert free.kind == damped.kind
+    assert free.modes == (("flap 1",),)
+    lost = float(free.growth_rate[0] - damped.growth_rate[0])
+    flap = linear_modes(blade, 2.0, 1, plane="flap").frequencies[0]
+    # The orbit bends the mode a little; ratios of higher modes are higher in 1/s.
+    assert lost == pytest.approx(ratio * flap, rel=1e-2)
 
 
 @pytest.mark.parametrize(

@@ -72,22 +72,17 @@ def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed)
     assert np.abs(q - exact.response(angle, i)).max() < 1e-3 * exact.amplitude[i]
 
 
+@pytest.mark.slow  # by default under gravity, in exact spin-ups, by energy, and in both frames
 @pytest.mark.parametrize(
     ("kind", "size", "omega", "element", "frame"),
-    # Of the others the balance of energy is tested by default, and that both frames agree.
     [
         (TipForce, 0.5, 2.0, Exact(nodes=3), "rotating"),
-        *(
-            pytest.param(*case, marks=pytest.mark.slow)
-            for case in [
-                (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
-                (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
-                (TipForce, 0.5, 2.0, "cable", "inertial"),
-                (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
-                (DistributedForce, 1.2, 2.0, "cable", "rotating"),
-                (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
-            ]
-        ),
+        (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
+        (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
+        (TipForce, 0.5, 2.0, "cable", "inertial"),
+        (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
+        (DistributedForce, 1.2, 2.0, "cable", "rotating"),
+        (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
     ],
 )
 def test_under_a_harmonic_load_it_settles_on_the_exact_response(

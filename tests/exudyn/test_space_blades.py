@@ -28,7 +28,9 @@ BLADES = {
 }
 
 
-@pytest.mark.parametrize("name", BLADES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow if n == "precone" else ()) for n in BLADES]
+)
 def test_frequencies_go_to_the_exact_ones_with_the_square_of_the_mesh(name, fitted_order):
     """Errors of 2e-4 to 3e-3 with 32 elements, all of second order: their limit is exact."""
     blade, meshes = BLADES[name], [8, 16, 32]

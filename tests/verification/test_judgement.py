@@ -317,11 +317,11 @@ def test_what_is_off_by_half_of_what_passes_agrees_and_does_not_converge_to_the_
 
 def test_the_headline_counts_all_cases():
     found = judged(Submission(declaration=MINE, runs=exact_runs(*WHOLE)))
-    assert found.outcome == "1 of 18 agrees, 17 not submitted"
+    assert found.outcome == "1 of 20 agrees, 19 not submitted"
     coarse = replace(
         found, findings={**found.findings, "O": {"history": Finding(outcome=Outcome.UNDECIDED)}}
     )
-    assert coarse.outcome == "1 of 18 agrees, 1 undecided (O), 16 not submitted"
+    assert coarse.outcome == "1 of 20 agrees, 1 undecided (O), 18 not submitted"
     assert coarse.passed is None
     # An undecided shift, the harder demand, is told behind q(t), and does not pass either.
     right = found.findings["S1"]["history"]
@@ -331,5 +331,5 @@ def test_the_headline_counts_all_cases():
     assert (behind.outcome, behind.passed) == (said, None)
     wrong = {"history": Finding(outcome=Outcome.DIFFERS)}
     both = replace(coarse, findings={**coarse.findings, "S2": wrong})
-    assert both.outcome == "1 of 18 agrees, 1 undecided (O), 1 differs (S2), 15 not submitted"
+    assert both.outcome == "1 of 20 agrees, 1 undecided (O), 1 differs (S2), 17 not submitted"
     assert both.passed is False

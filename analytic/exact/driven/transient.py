@@ -79,16 +79,16 @@ def integrated(
     time: FloatArray,
     points: FloatArray,
     q: FloatArray,
-    q_dot: FloatArray | float = 0.0,
+    rates: FloatArray | float = 0.0,
 ) -> BladeMotion | None:
     """Return the motion on the grid of steps, None if Newton's method fails.
 
     A step on which it does is halved first, as often as it takes. It starts in the state `q` (n,)
-    at the rates `q_dot`.
+    at the `rates`.
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
     driven_at = drive(beam, rotation, loads, model)
-    q_dot = q_dot + np.zeros(model.size)
+    q_dot = rates + np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None

@@ -108,6 +108,9 @@ class SpaceBlade(AtConstantRate):
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
     lift : float
         Pull on all masses along the axis of rotation, over EI3/(m0 L³).
+    mirror : bool
+        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
+        would as well.
     """
 
     model: SpaceContinuum
@@ -116,6 +119,7 @@ class SpaceBlade(AtConstantRate):
     near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
     lift: float = 0.0
+    mirror: bool = False
 
     @cached_property
     def push(self) -> FloatArray | None:
@@ -131,7 +135,7 @@ class SpaceBlade(AtConstantRate):
     def _is_loaded(self) -> bool:
         return bool(self.load or self.lift)
 
-    @property
+    @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
@@ -139,7 +143,7 @@ class SpaceBlade(AtConstantRate):
         """
         if self.direction[2] and not self.model.functions.blade.half_turn:
             return None
-        return self.model.functions.odd
+        return self.model.functions.odd_by(mirror=True) if self.mirror else self.model.functions.odd
 
     @property
     def pinned(self) -> int:

@@ -178,8 +178,8 @@ def _write_history(run: Run, folder: Path) -> None:
     numbers = np.column_stack([part for part in parts if part is not None])
     (folder / run.case).mkdir(exist_ok=True)
     with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
-        # 17 digits of each number are enough in any spacing of the samples.
-        np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
+        # NumPy's words of a number are its shortest ones that read back the same.
+        np.savetxt(out, numbers, "%s", ",", header=",".join(held), comments="")
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
