@@ -16,7 +16,7 @@ from rotbeam_exu import comparison, figures
 beam = Beam.reference()
 strip, tube = beam.with_shape(Rectangle()), beam.with_shape(Tube())
 data = comparison.growth_out_of_plane(
-    strip, omegas=np.linspace(0.0, 6.0, 16), amplitudes=np.geomspace(0.01, 0.3, 40)
+    strip, omegas=np.linspace(0.0, 6.0, 13), amplitudes=np.geomspace(0.01, 0.3, 28)
 )
 ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.0: [0.196, 0.231]}
 

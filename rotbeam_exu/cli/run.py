@@ -13,7 +13,7 @@ from ..lazily import xr
 from ..runs.check import SimulationError, energy_drift
 from .driving import DRIVING, Driving
 from .job import Job, UnfinishedError
-from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
+from .motion import Config, RampTime, SteadySpeed, configured
 from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results
 from .output import bar, print_line
 
@@ -55,19 +55,9 @@ def run(
 
     file = configured(config)
     numerics = discretization.over(file.numerics)
-    beam = driving.dampings.on(file.beam)
-    motion = motion_of(
-        file,
-        takes_loads=True,
-        omega=omega,
-        ramp_time=ramp_time,
-        duration=numerics.duration,
-        step=numerics.step,
-    )
+    case = driving.spin_up_case(file, numerics, omega, ramp_time)
     given = omega is not None or "omega" in file.motion
     chosen = "" if given else ", the benchmark's"
-    refuse_rest(motion.spin_up.omega)
-    case = numerics.case(beam, motion, driving.chosen(file.loads))
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
@@ -81,7 +71,7 @@ def run(
     found = Job(
         path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case),
         show=shown,
-        draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
+        draw=None if no_figure else lambda figures, data: figures.spin_up(data),
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)

@@ -18,7 +18,7 @@ from analytic.exact.driven.response import SpinUpResponse
 from analytic.reduced.linear_frame import LinearResponse
 
 from ..paper import BLUE, RED
-from .style import STYLE, new_figure, shade_ramp
+from .style import STYLE, fitting_units, new_figure, prefix_of, quantity, shade_ramp
 
 _LETTERS: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "axes.titlesize", "xtick.labelsize", "ytick.labelsize"), 11.0
@@ -69,6 +69,7 @@ def animate(
     """
     _require_drawable(response, beside)
     time = response.time
+    (scale, prefix), faster = prefix_of(time[-1]), prefix_of(response.spin_up.fastest)
     with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(response, beside) if beside else _two_frames(response)
         _ramp(history, response)
@@ -78,9 +79,10 @@ def animate(
     def draw(n: int) -> list[Any]:
         for move in moving:
             move(n)
-        rate_now = float(response.spin_up.rate(time[n]))
+        rate_now = float(response.spin_up.rate(time[n])) / faster[0]
         q = response.q[n] / response.beam.length
-        line = f"t = {time[n]:5.2f} s  dθ/dt = {rate_now:4.2f} rad/s  q/L = {q:+5.2f}"
+        line = f"t = {time[n] / scale:5.2f} {prefix}s  dθ/dt = {rate_now:4.2f} {faster[1]}rad/s"
+        line += f"  q/L = {q:+5.2f}"
         if beside is not None:
             q = beside.q[n] / beside.beam.length
             line += f", linear {q:{'+6.2f' if abs(q) < 100.0 else '+6.0f'}}"
@@ -188,7 +190,7 @@ def _two_models(response: SpinUpResponse, beside: LinearResponse) -> tuple[Axes,
     seen = np.maximum(np.abs(path.real), np.abs(path.imag)) <= _REACH * length
     left = float(_between(beside.time)[seen][-1])
     if left < response.time[-1]:
-        said = f"left the picture at {left:.2f} s"
+        said = f"left the picture at {quantity(left, 's', 3)}"
         text = linear.text(0.0, 0.02, said, color=RED, transform=linear.transAxes)
         moving.append(lambda n: text.set_visible(response.time[n] >= left))
     return history, moving
@@ -242,7 +244,7 @@ def _mark_instability(history: Axes, beside: LinearResponse) -> None:
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
     # Where there is more room.
     side, shift = ("right", -4) if start > 0.5 * beside.time[-1] else ("left", 4)
-    said = f"from {start:.2f} s on linear unstable"
+    said = f"from {quantity(start, 's', 3)} on linear unstable"
     history.annotate(
         said, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(shift, -4),
         textcoords="offset points", ha=side, va="top", color=RED,
@@ -273,9 +275,9 @@ def _scale_bar(ax: Axes, length: float, start: float = 0.0) -> None:
     """Draw a bar of a quarter of the beam's length below a view, and name the dashes beside it."""
     bar, low, left = 0.25 * length, -0.98 * _REACH * length, start * length
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
-    ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
-    ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **_CLAMP)
-    ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
+    ax.text(left + 1.2 * bar, low, quantity(bar, "m"), va="center", color="0.35")
+    ax.plot([left + 2.6 * bar, left + 3.3 * bar], [low, low], **_CLAMP)
+    ax.text(left + 3.5 * bar, low, "clamp", va="center", color="0.35")
 
 
 def _history(history: Axes, response: _Response, color: str, dot: str) -> _Moving:
@@ -292,6 +294,7 @@ def _ramp(history: Axes, response: _Response) -> None:
     shade_ramp(history, response.spin_up.ramp_time)
     history.axhline(0.0, color="0.6", lw=0.5)
     history.set(xlim=(0.0, response.time[-1]), xlabel="time [s]", ylabel="q/L")
+    fitting_units(history)
 
 
 def _between(time: FloatArray) -> FloatArray:
