@@ -53,10 +53,13 @@ def farthest(code, until=1.5):
     return three_codes.apart(code, EXACT)[: round(100 * until) + 1].max()
 
 
-def test_fewer_functions_move_the_exact_tip_little():
-    assert farthest(COARSER, 0.7) < 2e-10
-    assert farthest(COARSER, 0.78) < 1e-6 < farthest(COARSER, 0.8)
-    assert farthest(COARSER) == pytest.approx(1.34e-5, rel=0.01)
+def test_how_far_the_exact_tip_is_known():
+    """By 40 functions, and by 48 with smaller steps and tighter tolerances."""
+    assert farthest("exact_40", 0.7) < 2e-10
+    assert farthest("exact_40") == pytest.approx(1.34e-5, rel=0.01)
+    assert farthest("exact_48", 0.7) < 1e-9
+    assert farthest("exact_48", 1.1) < 1e-6 < farthest("exact_48", 1.11)
+    assert farthest("exact_48") < 2e-5
 
 
 def test_three_codes_agree():
