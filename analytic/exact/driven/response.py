@@ -87,15 +87,17 @@ class SpinUpResponse:
     _state: FloatArray = field(repr=False)
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
-        """Return force and moment in the sections at `x` [m], over time."""
+        """Return the sections at `x` [m], and force and moment in them, over time."""
         at = points_of_beam("x", x, self.beam.length)
         driven_at = drive(self.beam, rippled(self.spin_up, self.loads), self.loads, self._model)
+        model, setting = self._model, self.beam.setting_angle
         parts = [
-            self._model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
+            model.standing(self._state[0, few], at, setting)
+            + model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
             for few in few_at_once(self.time.size)
         ]
-        force, moment = (np.concatenate(one) for one in zip(*parts, strict=True))
-        return in_newtons(self.beam, at, (force, moment))
+        place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
+        return in_newtons(self.beam, at, (place, section), (force, moment))
 
     @staticmethod
     def in_units(

@@ -1,0 +1,154 @@
+"""Stations of a run: where its sections are, how they stand, and the loads in them.
+
+Loads follow from d'Alembert's principle, as those of the exact blade: from all loads outboard and
+from the mesh's own accelerations. With places r and accelerations A between the nodes,
+
+    F = ∫ (f - m A) dx,      M = ∫ [r × (f - m A) - (J α + ω × J ω)] dx - r_s × F.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from analytic.arrays import FloatArray
+from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.space.unit import space_unit
+from analytic.lazily import sparse
+from analytic.quadrature import gauss_points
+from analytic.theory import Theory
+
+from .case import RunCase
+from .mesh import Mesh
+from .rotating_beam import RotatingBeam
+from .units import Units
+
+_POINTS = 4  # between two ends, by which a cable's mass matrix is exact
+_AT_ONCE = 200  # samples, of some megabytes each
+
+
+def section_loads(
+    case: RunCase,
+    units: Units,
+    built: RotatingBeam,
+    stations: FloatArray,
+    time: FloatArray,
+    *states: FloatArray,
+) -> SectionLoads:
+    """Return the sections of a run at `stations` over L, and the loads in them [SI].
+
+    Parameters
+    ----------
+    case : RunCase
+    units : Units
+    built : RotatingBeam
+    stations : ndarray (stations,)
+    time : ndarray (samples,)
+        [s].
+    *states : ndarray (samples, nodes, n)
+        By the axes of the clamp: coordinates, rates relative to it, and rates and accelerations as
+        the frame of the case has them.
+    """
+    masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
+    few = np.array_split(np.arange(time.size), 1 + time.size // _AT_ONCE)
+    parts = [masses.loads(time[one], *(state[one] for state in states)) for one in few]
+    place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
+    # A blade in its plane is set as a whole, one in space along its sections.
+    to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
+    place = place - built.beam.hub_radius * np.array([1.0, 0.0, 0.0]) @ to_clamp
+    if not model.leaves_plane:
+        force, moment = force[..., :2], moment[..., 2]
+    return SectionLoads(
+        blade=beam,
+        stations=beam.length * stations,
+        place=units.length * place @ to_clamp.T,
+        section=to_clamp @ section,
+        force=units.energy / units.length * force,
+        moment=units.energy * moment,
+    )
+
+
+class _Masses:
+    """Points of a blade by which its inertia and its loads are added up, then its stations."""
+
+    def __init__(
+        self, case: RunCase, units: Units, built: RotatingBeam, stations: FloatArray
+    ) -> None:
+        beam, model, count = built.beam, case.model, len(built.nodes)
+        self._case, self._units, self._model, self._beam = case, units, model, beam
+        ends = np.union1d(np.linspace(0.0, 1.0, count), stations)
+        inner, weights = gauss_points(_POINTS)
+        dx = np.outer(np.diff(ends), weights).ravel()
+        x = (ends[:-1, None] + np.outer(np.diff(ends), inner)).ravel()
+        at, none = Mesh(blade=beam, elements=1).along(x), np.zeros(1)
+        # Behind the points of the blade come those of its point masses, and the tip.
+        bodies = [(one.position, one.mass, one.inertia) for one in beam.point_masses]
+        places, masses, inertias = np.array(bodies).reshape(-1, 3).T
+        self._x = np.concatenate((x, places / beam.length, none + 1.0))
+        self._weights = {
+            "mass": np.concatenate((at.mass_per_length * dx, masses, none)),
+            "length": np.concatenate((dx, 0.0 * masses, none)),
+            "tip": np.concatenate((0.0 * dx, 0.0 * masses, none + 1.0)),
+        }
+        self._inertia = np.zeros((self._x.size, 3, 3))
+        self._inertia[x.size : -1, 2, 2] = inertias
+        if model.twists:
+            _, own = space_unit(beam).inertia_about(
+                x, Theory(rotary_inertia=True), beam.slenderness
+            )
+            of_length = beam.mass_per_length * beam.length**2 * dx
+            self._inertia[: x.size] = of_length[:, None, None] * np.moveaxis(own, -1, 0)
+        elif model.theory.rotary_inertia:
+            self._inertia[: x.size, 2, 2] = at.rotary_inertia * dx
+        self._outboard = ((self._x > stations[:, None]) | (self._x == 1.0)).astype(float)
+        spread = model.spread(count, case.elements, beam.length, np.append(self._x, stations))
+        self._spread = sparse.csr_array(spread.reshape(-1, spread.shape[2] * spread.shape[3]))
+
+    def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:
+        """Return places, sections, forces and moments of the stations, of states as above."""
+        case, model, count = self._case, self._model, self._x.size
+        e, relative, rates, accelerations = (self._along(state) for state in states)
+        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, accelerations))
+        rate, rate_dot = case.rotation.rate(time), case.rotation.acceleration(time)
+        if case.frame == "rotating":
+            setting = 0.0 if model.twists else self._beam.setting_angle
+            normal = np.array([0.0, math.sin(setting), math.cos(setting)])
+            W = np.multiply.outer(self._units.time * rate, normal)[:, None]
+            W_dot = np.multiply.outer(self._units.time**2 * rate_dot, normal)[:, None]
+        else:
+            W = W_dot = np.zeros((time.size, 1, 3))
+        a = a + np.cross(W, 2.0 * v_frame + np.cross(W, r)) + np.cross(W_dot, r)
+        f = -self._weights["mass"][:, None] * a[:, :count]
+        f -= self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
+        angle, t = case.rotation.angle(time), time / self._units.time
+        for load in self._units.loads(case.loads):
+            if load.acts_on is not None:
+                push = load.force((load.frequency or 0.0) * t, angle, model.setting(self._beam))
+                push = np.stack((push.real, push.imag, 0.0 * push.real), axis=-1)
+                f += self._weights[load.acts_on][:, None] * push[:, None]
+        couple = np.cross(r[:, :count], f)
+        section = model.sections(e)
+        if self._inertia.any():
+            spin, turning = model.spins(e, rates, accelerations)
+            turning, spin = turning + np.cross(W, spin) + W_dot, spin + W
+            axes = section[:, :count]
+            about = axes @ self._inertia @ np.swapaxes(axes, -1, -2)
+            Jw, Ja = ((about @ one[:, :count, :, None])[..., 0] for one in (spin, turning))
+            couple -= Ja + np.cross(spin[:, :count], Jw)
+        place, section = r[:, count:], section[:, count:]
+        force = self._outboard @ f
+        moment = self._outboard @ couple - np.cross(place, force)
+        force, moment = ((one[..., None, :] @ section)[..., 0, :] for one in (force, moment))
+        return place, section, force, moment
+
+    def _along(self, state: FloatArray) -> FloatArray:
+        """Return coordinates or rates at all points and stations, (samples, places, n)."""
+        flat = (self._spread @ state.reshape(len(state), -1).T).T
+        return np.asarray(flat.reshape(len(state), -1, state.shape[-1]))
+
+    def _vectors(self, e: FloatArray) -> FloatArray:
+        """Return the vectors (..., 3) that come first in coordinates or rates."""
+        result = np.zeros((*e.shape[:-1], 3))
+        result[..., : self._model.dimensions] = e[..., : self._model.dimensions]
+        return result
