@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
+from analytic.exact.beam.section_loads import set_at
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
@@ -21,9 +22,11 @@ from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.loads import Load, rippled
+from analytic.reduced.linear_frame import LinearResponse
 
 from .lazily import xr
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.shape import shape_of
 from .runs.versions import versions
 
 OMEGA = "angular velocity ω [rad/s]"
@@ -74,7 +77,8 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too; a
+        A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too,
+        and what `rotbeam_exu.runs.shape.shape_of` makes of points asked for; a LinearResponse; a
         ForcedResponse, with its stability and its backbone; a PlanarStability, or both it and its
         StabilityLimit, which becomes attributes; a Campbell diagram.
 
@@ -129,7 +133,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
             "root_force_y": ("time", root.force[:, 0, 1], "shear force at the root [N]"),
             "root_moment_z": ("time", root.moment[:, 0], "bending moment at the root [N m]"),
         }
-    return dataset(
+    found = dataset(
         {
             "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
             "q_dot": ("time", response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
@@ -151,6 +155,36 @@ def _(response: SpinUpResponse) -> xr.Dataset:
             "error": response.error,
             "solution": json.dumps({"steps": response.steps, "functions": response.functions}),
             "versions": json.dumps(versions()),
+        },
+    )
+    if not response.points.size:
+        return found
+    return found.merge(shape_of(response.section_loads(response.points)))
+
+
+@_described.register
+def _(response: LinearResponse) -> xr.Dataset:
+    """Over `time`, and `place` over `station` if there are points."""
+    turn, plane = set_at(response.beam.setting_angle), response.axis
+    place = np.concatenate((plane, np.zeros_like(plane[..., :1])), axis=-1) @ turn.T
+    angle = response.spin_up.angle(response.time)
+    return dataset(
+        {
+            "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
+            "angle": ("time", angle, "rotation angle θ [rad]"),
+            "place": (("time", "station", "direction"), place, "place in the clamp's frame [m]"),
+        },
+        {
+            "time": (response.time, "time t [s]"),
+            "station": (response.points, "distance from the clamp [m]"),
+            "direction": ["x", "y", "z"],
+        },
+        {
+            **beam_attributes(response.beam),
+            "omega": response.spin_up.omega,
+            "ramp_time": response.spin_up.ramp_time,
+            **motion_attributes(response.spin_up),
+            "foreshortening": int(response.foreshortening),
         },
     )
 

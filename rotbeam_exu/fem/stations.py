@@ -56,7 +56,7 @@ def section_loads(
     place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
     # A blade in its plane is set as a whole, one in space along its sections.
     to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
-    place = place - built.beam.hub_radius * np.array([1.0, 0.0, 0.0]) @ to_clamp
+    place[..., 0] -= built.beam.hub_radius
     if not model.leaves_plane:
         force, moment = force[..., :2], moment[..., 2]
     return SectionLoads(

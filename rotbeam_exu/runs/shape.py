@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 
 from analytic.arrays import FloatArray
 from analytic.beam import AnyBlade
-from analytic.exact.beam.section_loads import SectionLoads
+from analytic.exact.beam.section_loads import SectionLoads, in_plane_of_bending
 from analytic.exact.space.unit import space_unit
 from analytic.input_checks import not_negative
 from analytic.profiles import evaluated
 from analytic.theory import BERNOULLI_EULER
 
 from ..lazily import xr
+from .attributes import beam_attributes, beam_of
 
 _OVER = ("time", "station")
 
@@ -29,7 +31,7 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     `strain` is that of the axis. Strains are what force and moment cause in the elastic section.
     A steady state has no `time`.
     """
-    force, moment = _in_space(found)
+    force, moment = _whole(found)
     strain, curvature = _strains(found.blade, found.stations, force, moment)
     over = _OVER[-(found.place.ndim - 1) :]
     by_axis = (*over, "along")
@@ -54,7 +56,24 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
             "direction": ["x", "y", "z"],
             "along": ["normal", "chord", "thickness"],
         },
+        beam_attributes(found.blade),
     )
+
+
+def in_space(data: xr.Dataset) -> tuple[FloatArray, FloatArray]:
+    """Return places (times, stations, 3) and sections (times, stations, 3, 3) seen from outside.
+
+    From the axis of rotation, z along it; x is the clamp's line at the angle zero. Without an
+    `angle` in the data the clamp rests there.
+    """
+    blade = beam_of(data.attrs).blade
+    angle = data["angle"].to_numpy() if "angle" in data else np.zeros(data.sizes["time"])
+    c, s = math.cos(blade.line.precone), math.sin(blade.line.precone)
+    turn = in_plane_of_bending(angle, 0.0) @ np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
+    hub = blade.hub_radius * np.array([c, 0.0, -s])
+    place = (data["place"].to_numpy() + hub) @ np.swapaxes(turn, -1, -2)
+    section = data.get("section", np.eye(3))
+    return place, turn[:, None] @ np.asarray(section)
 
 
 def outer_strain(data: xr.Dataset, height: float, width: float = 0.0) -> xr.DataArray:
@@ -78,7 +97,7 @@ def outer_strain(data: xr.Dataset, height: float, width: float = 0.0) -> xr.Data
     return strain
 
 
-def _in_space(found: SectionLoads) -> tuple[FloatArray, FloatArray]:
+def _whole(found: SectionLoads) -> tuple[FloatArray, FloatArray]:
     """Return force and moment with three components each; in the plane others are zero."""
     if found.force.shape[-1] == 3:
         return found.force, found.moment
