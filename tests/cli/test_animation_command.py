@@ -5,14 +5,15 @@ import pytest
 
 from analytic import Beam, SpinUp, spin_up_response
 from rotbeam_exu import figures
+from rotbeam_exu.runs.attributes import beam_of, motion_of
 from tests.beams import REED_TOML
 
 
 def film(call, monkeypatch, tmp_path, *options):
     shown = {}
 
-    def drawn(response, path, *, beside, rate, progress):
-        shown.update(response=response, beside=beside, rate=rate)
+    def drawn(data, path, *, beside, rate, progress):
+        shown.update(data=data, beside=beside, rate=rate)
         path.write_bytes(b"GIF")
 
     monkeypatch.setattr(figures.animation, "save_animation", drawn)
@@ -25,16 +26,16 @@ def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path)
     code, out, shown = film(call, monkeypatch, tmp_path, "--config", tmp_path / "reed.toml")
     assert code == 0
     assert "360 times slower" in out
-    response = shown["response"]
+    data = shown["data"]
     # As many pictures as of the paper's beam over 12 s, 20 a second, to two digits of each.
-    assert abs(response.time.size / 241 - 1.0) < 0.05
+    assert abs(data.time.size / 241 - 1.0) < 0.05
     assert shown["rate"] == 20
-    assert response.spin_up.omega == 2200.0
+    assert data.attrs["omega"] == 2200.0
     # The same motion, but for the two digits of the speed, 1.5 %, and of the ramp.
     paper = spin_up_response(
         Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.0, 12.0, 241)
     )
-    largest = np.abs(response.q).max() / response.beam.length
+    largest = abs(data.q).max().item() / data.attrs["beam_length"]
     assert largest == pytest.approx(np.abs(paper.q).max() / 8.0, rel=0.05)
 
 
@@ -42,8 +43,8 @@ def test_the_papers_beam_is_shown_in_real_time(call, monkeypatch, tmp_path):
     code, out, shown = film(call, monkeypatch, tmp_path, "--rate", "10", "--duration", "4")
     assert code == 0
     assert "slower" not in out
-    assert shown["response"].beam == Beam.reference()
-    assert np.diff(shown["response"].time).max() < 0.1 + 1e-9
+    assert beam_of(shown["data"].attrs) == Beam.reference()
+    assert np.diff(shown["data"].time).max() < 0.1 + 1e-9
 
 
 def test_a_single_picture_is_refused_and_the_remedy_works(call, monkeypatch, tmp_path):
@@ -57,10 +58,10 @@ def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_p
     motion = ("--omega", "4", "--ramp-time", "3", "--duration", "3", "--rate", "5")
     code, _, shown = film(call, monkeypatch, tmp_path, *motion, "--beside", "linear")
     assert code == 0
-    response, beside = shown["response"], shown["beside"]
-    assert beside.spin_up == response.spin_up
-    assert beside.axis.shape == response.axis.shape
-    assert not beside.foreshortening
+    data, beside = shown["data"], shown["beside"]
+    assert motion_of(beside.attrs) == motion_of(data.attrs)
+    assert beside.place.shape == data.place.shape
+    assert not beside.attrs["foreshortening"]
     assert film(call, monkeypatch, tmp_path, *motion)[2]["beside"] is None
     code, out, _ = film(call, monkeypatch, tmp_path, "--beside", "cable")
     assert code == 2
