@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.animation import FFMpegWriter
+from sphinx.util.fileutil import copy_asset
 
 HERE = Path(__file__).parent
 _HANDS = 8  # that pages are dealt to: more than there are chunks for each process
@@ -21,6 +23,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
 from gallery_order import same_resolution  # noqa: E402
 
 import rotbeam_exu  # noqa: E402
+from rotbeam_exu.paper import MODEL_NAMES  # noqa: E402
 
 mpl.use("agg")
 
@@ -31,6 +34,7 @@ version = release = rotbeam_exu.__version__
 
 extensions = [
     "computed",
+    "cyclopts.ext.sphinx",
     "myst_parser",
     "reference_pages",
     "sphinx.ext.autodoc",
@@ -38,7 +42,6 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
-    "sphinx-mathjax-offline",  # puts MathJax into the site: it needs no network
     "sphinxcontrib.bibtex",
 ]
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
@@ -56,8 +59,13 @@ nitpick_ignore_regex = [
     ("py:(obj|data|exc|meth|func|attr)", r"(?!analytic\.|rotbeam_exu\.).*"),
 ]
 
-myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "substitution"]
+# A line for pages whose tables have models by their letters.
+myst_substitutions = {
+    "models": "*Models:* " + "; ".join(f"**{k}** {v}" for k, v in MODEL_NAMES.items()) + "."
+}
 myst_heading_anchors = 3
+mathjax_path = "mathjax/tex-chtml.js"  # in the site: formulas need no network
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "unsrt"
 
@@ -101,20 +109,14 @@ sphinx_gallery_conf = {
 html_theme = "pydata_sphinx_theme"
 html_title = "rotbeam_exu"
 html_static_path = ["_static"]
+templates_path = ["_templates"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_sidebars = dict.fromkeys(
     (
-        "index",
-        "which_function",
-        "explorer",
-        "validation",
-        "scope",
-        "conventions",
-        "gotchas",
-        "faq",
-        "bibliography",
+        *("index", "start", "findings", "explorer", "validation", "codes"),
+        *("scope", "conventions", "gotchas", "faq", "bibliography"),
     ),
     (),
 )
@@ -122,9 +124,9 @@ html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],
     "show_toc_level": 2,
-    "header_links_before_dropdown": 6,
+    "header_links_before_dropdown": 8,
     "navbar_persistent": ["search-button"],
-    "footer_start": [],
+    "footer_start": ["version"],
     "footer_end": [],
     "secondary_sidebar_items": ["page-toc"],
     "pygments_light_style": "a11y-high-contrast-light",
@@ -182,10 +184,19 @@ def write_interactive(app: Any) -> None:
                 raise subprocess.CalledProcessError(job.returncode, job.args)
 
 
+def put_mathjax(app: Any, error: Exception | None) -> None:
+    """Put what the pages need of MathJax into the site: a tenth of its variants."""
+    found = importlib.util.find_spec("sphinx-mathjax-offline")
+    if error is None:
+        source = Path(found.origin).parent / "static" / "mathjax"
+        for part in ("tex-chtml.js", "output/chtml", "input/tex", "a11y"):
+            place = Path(app.outdir) / "_static" / "mathjax" / part
+            copy_asset(source / part, place if (source / part).is_dir() else place.parent)
+
+
 def setup(app: Any) -> None:
     """Connect the above."""
-    # It only copies files at the end, and does not say so.
-    app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
+    app.connect("build-finished", put_mathjax)
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("env-before-read-docs", spread)

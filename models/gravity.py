@@ -16,14 +16,20 @@ from rotbeam_exu import dataset_of, figures
 plt.style.use(figures.STYLE)
 beam = Beam.reference()
 damping = Damping(external=1.5 * beam.mass_per_length * beam.frequency_scale)
-response = forced_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 36), Gravity())
+response = forced_response(beam.with_damping(damping), np.linspace(0.4, 6.0, 85), Gravity())
 crossings = campbell(beam, np.linspace(0.0, 6.0, 25), count=1, orders=4).crossings
 
-_, (above, below) = plt.subplots(nrows=2, figsize=(6, 7))
+_, (above, below) = plt.subplots(nrows=2, figsize=(6, 6), sharex=True)
 figures.forced_response(dataset_of(response), ax=above)
-below.semilogy(response.omega, np.abs(response.harmonics[:, 1:5]), label=["1", "2", "3", "4"])
-below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L", xlim=above.get_xlim())
-below.legend(title="k", ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.16))
+above.get_legend().remove()
+above.set(xlabel="", xlim=(0.4, 6.0))
+for k in range(1, 5):
+    (line,) = below.semilogy(response.omega, np.abs(response.harmonics[:, k]))
+    size = np.interp(4.6, response.omega, np.abs(response.harmonics[:, k]))
+    below.annotate(
+        f"k = {k}", (4.6, size), (4, 4), textcoords="offset points", color=line.get_color()
+    )
+below.set(xlabel="rotation speed ω [rad/s]", ylabel="harmonic k of q/L")
 for crossing in crossings:
     for ax in (above, below):
         ax.axvline(crossing.omega, color="0.6", ls=":", lw=0.8)

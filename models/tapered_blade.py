@@ -22,12 +22,13 @@ flap = campbell(blade.with_setting_angle(0.5 * math.pi), omegas, count=3)
 print(blade)
 
 _, ax = plt.subplots(figsize=(6, 4.5))
-lag.plot(ax)
+lag.plot(ax, highest=66.0)
 for mode, frequencies in enumerate(flap.frequencies.T, start=1):
     ax.plot(omegas, frequencies, "C1--")
     ax.annotate(
         f"flap {mode}", (12.0, frequencies[-1]), (4, 7), textcoords="offset points", color="C1"
     )
+ax.plot(*np.transpose([(met.omega, met.frequency) for met in flap.crossings]), "k.", ms=4)
 plt.show()
 
 # %%

@@ -30,7 +30,7 @@ def campbell(
     omega_max: float | None = None,
     points: Whole = 13,
     count: Whole = 3,
-    orders: Whole = 10,
+    orders: Whole = 6,
     shape: SectionOptions = SECTION,
     config: Path | None = None,
     format: Format = "table",  # noqa: A002  the name of the option

@@ -41,7 +41,7 @@ def reference(
     samples
         Number of times that are written, evenly spaced from 0.
     tolerance
-        Largest error of the tip's position over the largest |q|.
+        Largest error of the tip's position over the largest of q.
 
     Examples
     --------

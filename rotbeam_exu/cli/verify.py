@@ -61,7 +61,7 @@ def verify(
     cost
         Print the cost at equal error instead.
     error
-        That error, of q(t) over max|q|.
+        That error, of q(t) over its largest value.
 
     Examples
     --------

@@ -184,7 +184,7 @@ def _torque_across(
     second, change, mixed = (np.sum((x @ built.mass) * v, axis=1) for v in (x, x_dot, turned))
     along = rate_dot * second + 2.0 * rate * change + setting * rate**2 * mixed
     lever = model.spun(coordinates * model.radial).reshape(samples, -1)
-    # Of a weight W in the plane of rotation cW acts in that of bending; s²W = (1 + c)(W - cW).
+    # A weight W in the plane of rotation acts with cW in that of bending; s²W = (1 + c)(W - cW).
     weight = built.loading.forces(t, angle, 1.0) - built.loading.forces(t, angle)
     held = (1.0 + setting) * np.sum(lever * weight, axis=1)
     return np.asarray((1.0 - setting**2) * along - held)

@@ -151,13 +151,13 @@ def run_case(
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
         sensors = Sensors(mbs, built.chain, built.clamp, accelerations=kept.size > 0)
-        coordinates, velocities = _start(case, units, built.chain.reference(mbs), initial_state)
-        inertial = case.frame == "inertial"
-        drive.set_state(
-            mbs, built.chain, model, coordinates, velocities,
-            angle=case.rotation.angle(0.0) if inertial else 0.0,
-            rate=units.time * case.rotation.rate(0.0) if inertial else 0.0,
-        )  # fmt: skip
+        if start := _start(case, units, built.chain.reference(mbs), initial_state):
+            inertial = case.frame == "inertial"
+            drive.set_state(
+                mbs, built.chain, model, *start,
+                angle=case.rotation.angle(0.0) if inertial else 0.0,
+                rate=units.time * case.rotation.rate(0.0) if inertial else 0.0,
+            )  # fmt: skip
         mbs.Assemble()
         step, every = case.step / units.time, case.steps_and_sampling[1]
         settings = built.solver_settings(
@@ -189,13 +189,13 @@ def _start(
     units: Units,
     reference: FloatArray,
     initial_state: Callable[[FloatArray], BeamState] | None,
-) -> tuple[FloatArray, FloatArray]:
-    """Return initial coordinates and velocities in the frame of the clamp, at angle zero."""
+) -> tuple[FloatArray, FloatArray] | None:
+    """Return coordinates and velocities in the frame of the clamp, unless it starts straight."""
     turning = getattr(case.spin_up, "start", 0.0)
     if initial_state is None and turning:
         initial_state = partial(stretched_state, case.beam, turning)
     if initial_state is None:
-        return reference, np.zeros_like(reference)
+        return None
     require_planar(case.beam)
     x = np.linspace(0.0, 1.0, len(reference))
     state = units.state(initial_state(case.beam.length * x))

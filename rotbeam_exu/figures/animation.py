@@ -32,7 +32,7 @@ _FINER = 8  # points of that path from one picture to the next
 _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
 _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}  # line of the clamp
 
-_CHORD = 0.05  # of the strip that shows how sections stand, over the length
+_CHORD = 0.1  # of the strip that shows how sections stand, over the length
 _ABOVE, _SIDE = 1, 2  # the direction that goes up in a view, y or z; x goes to the right
 
 _Moving = Callable[[int], None]  # draws a part anew at time number n
@@ -192,9 +192,10 @@ def _two_frames(data: xr.Dataset) -> tuple[Axes, list[_Moving]]:
     outside, inside, history = _axes(5.2, 2.0 * _REACH, _REACH + behind)
     (blade, reach), space = _beam_and_reach(data), _leaves_plane(data)
     _view(outside, "from above" if space else "inertial frame", reach)
-    _view(inside, "with the clamp, from the side" if space else "rotating frame", reach, behind)
+    _view(inside, "from the side" if space else "rotating frame", reach, behind)
     _scale_bar(inside, reach, blade.length)
-    inside.plot([0.0, 1.1 * reach], [0.0, 0.0], **_CLAMP)
+    cone = blade.blade.line.precone
+    inside.plot([0.0, 1.1 * reach * np.cos(cone)], [0.0, 1.1 * reach * np.sin(cone)], **_CLAMP)
     moving = [
         _beam(outside, data, "black", BLUE),
         _beam(inside, data, "black", BLUE, turning=True, up=_SIDE if space else _ABOVE),
@@ -260,7 +261,7 @@ def _beam(
     shapes, *edges = _seen(data, turning=turning, up=up)
     tips = _path(data, turning=turning, up=up)
     trail = _FINER * round(_TRAIL / float(np.diff(_times(data)[:2])[0]))
-    (strip,) = ax.fill([], [], color=BLUE, alpha=0.35, lw=0.0)
+    (strip,) = ax.fill([], [], color=BLUE, alpha=0.4, lw=0.0)
     (trace,) = ax.plot([], [], color=path, lw=1.0)
     wide = 1.2 if _leaves_plane(data) else 2.5
     (beam,) = ax.plot([], [], color=color, lw=wide, solid_capstyle="round")

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+import rotbeam_exu
+
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
@@ -51,3 +53,21 @@ def test_it_builds_and_runs_where_it_is_unpacked(tmp_path):
     run("make", "run", f"PYTHON={sys.executable}", cwd=unpacked)
     written = {path.suffix for path in (unpacked / "results").rglob("*")}
     assert {".nc", ".csv", ".png"} <= written
+
+
+def test_a_release_asks_that_tag_and_version_agree():
+    workflow = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
+    (asked,) = re.findall(r"^ *run: (test .*)$", workflow, re.MULTILINE)
+    for tag, right in ((f"v{rotbeam_exu.__version__}", True), ("v9.9.9", False), ("", False)):
+        env = {**os.environ, "GITHUB_REF_NAME": tag}
+        done = subprocess.run(["sh", "-c", asked], cwd=ROOT, env=env, check=False)
+        assert (done.returncode == 0) == right, tag
+
+
+def test_the_readme_of_an_index_has_no_link_that_leads_nowhere():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for one in PROJECT["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
+        text = re.sub(one["pattern"], one["replacement"], text)
+    targets = re.findall(r"\]\(([^)]*)\)", text)
+    assert targets
+    assert all(target.startswith("https://") for target in targets)

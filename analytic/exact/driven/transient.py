@@ -137,4 +137,5 @@ def integrated(
         (model.tip(q), model.tip_rate(q, q_dot), model.tip_turn(q), model.axis(q, points))
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
-    return BladeMotion(*map(np.concatenate, zip(*parts, strict=True)), state)
+    tip, rate, twist, axis = map(np.concatenate, zip(*parts, strict=True))
+    return BladeMotion(tip, rate, twist, axis, state)

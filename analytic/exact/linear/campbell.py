@@ -160,7 +160,7 @@ def campbell(
     beam: AnyBlade,
     omegas: ArrayLike,
     count: int = 3,
-    orders: int = 10,
+    orders: int = 6,
     *,
     planes: Sequence[Plane] = ("lag",),
     theory: Theory = BERNOULLI_EULER,
