@@ -118,9 +118,7 @@ def animate(
         times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
         points = np.linspace(0.0, beam.length, 41)
         with bar("integrating"):
-            data = dataset_of(
-                spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
-            )
+            data = dataset_of(spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points))
             if beside:
                 linear = dataset_of(linear_response(beam, spin_up, times, points=points))
     else:

@@ -88,7 +88,8 @@ def run(
         return found
 
     found = Job(
-        path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case, kept),
+        path=path, inputs=case.describe(), force=results.force,
+        compute=lambda: _computed(case, kept),
         table=lambda data: data.drop_dims("station", errors="ignore"),
         show=shown,
         draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],

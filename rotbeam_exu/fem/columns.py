@@ -11,6 +11,7 @@ from analytic.lazily import interpolate
 from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
+from .elements import Formulation
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
 from .stations import section_loads
@@ -100,20 +101,21 @@ def columns(
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
     )
     if stations.size:
-        rates, accelerations = relative, trajectory.accelerations
-        if case.frame == "inertial":
-            rates, accelerations = absolute, model.turned(accelerations, -angle)
-        states = coordinates, relative, rates, accelerations
+        states = coordinates, relative, absolute, trajectory.accelerations
         run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
-    if not space:
-        return run
-    # How the blade lies: its axis, and its sections where known.
+    return _with_nodes(run, model, units.length * axis, turn[1:, ..., 2] @ frame) if space else run
+
+
+def _with_nodes(
+    run: xr.Dataset, model: Formulation, axis: FloatArray, turn: FloatArray
+) -> xr.Dataset:
+    """Return a run in space with the places of its nodes, and how sections stand where known."""
     dims = ("time", "node", "direction")
     label = "positions of the nodes in the frame of the clamp"
-    run["axis"] = dims, units.length * axis, {"units": "m", "long_name": label}
+    run["axis"] = dims, axis, {"units": "m", "long_name": label}
     if model.twists:
         label = "third axis of the sections, across their chord"
-        run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
+        run["upright"] = dims, turn, {"units": "1", "long_name": label}
     return run.assign_coords(direction=["x", "y", "z"])
 
 

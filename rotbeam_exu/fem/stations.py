@@ -47,8 +47,8 @@ def section_loads(
     time : ndarray (samples,)
         [s].
     *states : ndarray (samples, nodes, n)
-        By the axes of the clamp: coordinates, rates relative to it, and rates and accelerations as
-        the frame of the case has them.
+        Coordinates, rates relative to the clamp, and absolute ones, by the axes of the clamp; and
+        accelerations of the case's frame by its axes.
     """
     masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
     few = np.array_split(np.arange(time.size), 1 + time.size // _AT_ONCE)
@@ -108,10 +108,15 @@ class _Masses:
     def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:
         """Return places, sections, forces and moments of the stations, of states as above."""
         case, model, count = self._case, self._model, self._x.size
-        e, relative, rates, accelerations = (self._along(state) for state in states)
-        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, accelerations))
+        e, relative, absolute, accelerations = (self._along(state) for state in states)
+        angle, t = case.rotation.angle(time), time / self._units.time
         rate, rate_dot = case.rotation.rate(time), case.rotation.acceleration(time)
-        if case.frame == "rotating":
+        inertial = case.frame == "inertial"
+        rates = absolute if inertial else relative
+        if inertial:
+            accelerations = model.turned(accelerations, -angle)
+        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, accelerations))
+        if not inertial:
             setting = 0.0 if model.twists else self._beam.setting_angle
             normal = np.array([0.0, math.sin(setting), math.cos(setting)])
             W = np.multiply.outer(self._units.time * rate, normal)[:, None]
@@ -121,7 +126,6 @@ class _Masses:
         a = a + np.cross(W, 2.0 * v_frame + np.cross(W, r)) + np.cross(W_dot, r)
         f = -self._weights["mass"][:, None] * a[:, :count]
         f -= self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
-        angle, t = case.rotation.angle(time), time / self._units.time
         for load in self._units.loads(case.loads):
             if load.acts_on is not None:
                 push = load.force((load.frequency or 0.0) * t, angle, model.setting(self._beam))

@@ -332,9 +332,7 @@ def _scale_bar(ax: Axes, reach: float, length: float, start: float = 0.0) -> Non
     ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
 
 
-def _history(
-    history: Axes, data: xr.Dataset, values: FloatArray, color: str, dot: str
-) -> _Moving:
+def _history(history: Axes, data: xr.Dataset, values: FloatArray, color: str, dot: str) -> _Moving:
     """Draw values over time, and return the point that moves on them."""
     time = _times(data)
     fine = _between(time)

@@ -30,7 +30,8 @@ FLOORS = {
     ],
     "rotbeam_exu": [
         {"lazily"},
-        {"paper", "runs", "files"},
+        {"paper", "runs"},
+        {"files"},
         {"datasets"},
         {"fem"},
         {"sweeps", "verification"},
