@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, spin_up_response
-from rotbeam_exu import figures
+from rotbeam_exu import figures, load
 from rotbeam_exu.runs.attributes import beam_of, motion_of
 from tests.beams import REED_TOML
 
@@ -66,3 +66,35 @@ def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_p
     code, out, _ = film(call, monkeypatch, tmp_path, "--beside", "cable")
     assert code == 2
     assert "linear" in out
+
+
+def test_a_run_with_stations_is_shown_and_written_for_paraview(call, tmp_path):
+    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.005")
+    mesh = ("--elements", "2", "--stations", "5", "--no-figure", "--no-exact")
+    code, out, error = call(*run, *mesh, "--out", tmp_path)
+    assert (code, error) == (0, "")
+    (kept,) = tmp_path.glob("*.nc")
+    assert "place" in load(kept)
+    assert [path.name for path in tmp_path.glob("*.csv")] == [f"{kept.stem}.csv"]  # one table
+    film = ("animate", "--run", kept, "--rate", "1", "--out", tmp_path / "run.pvd")
+    code, out, _ = call(*film)
+    assert code == 0
+    assert "to 14 s" in out
+    assert len(list((tmp_path / "run").glob("*.vtu"))) == 15
+    code, _, error = call(*film, "--force", "--omega", "2")
+    assert code == 2
+    assert "leave out --omega" in error
+    # A run without stations has nothing to show.
+    call(*run, *mesh[:2], "--no-figure", "--no-exact", "--out", tmp_path, "--force")
+    code, _, error = call("animate", "--run", kept, "--out", tmp_path / "run.gif")
+    assert code == 2
+    assert "simulate for stations" in error
+
+
+def test_a_body_for_paraview_has_the_height_and_width_given(call, tmp_path):
+    out = tmp_path / "film.pvd"
+    motion = ("--omega", "4", "--duration", "1", "--rate", "2")
+    assert call("animate", *motion, "--height", "0.04", "--width", "0.02", "-o", out)[0] == 0
+    text = (tmp_path / "film" / "film-0002.vtu").read_text()
+    assert f'NumberOfPoints="{4 * 41}" NumberOfCells="40"' in text
+    assert 'Name="stress"' in text

@@ -53,8 +53,9 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     loads = [Gravity(0.3), TipForce(amplitude=0.02, frequency=2.0)]
     motion, at = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 1.25, 26)
     run = simulate(
-        blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads
-    )
+        blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads,
+        stations=[0.0, 0.45, 1.0],
+    )  # fmt: skip
     theory = Theory(extension=False, rotary_inertia=True, trapeze=False)
     exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-4, loads=loads)
     tip = run["axis"][:, -1].interp(time=at)
@@ -66,8 +67,11 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     assert most > 0.3
     np.testing.assert_allclose(run["twist"].interp(time=at), exact.twist, atol=0.02 * most)
     # At the clamp the section has its axes. Short waves of the sudden loads leave 2 %.
-    loads = exact.section_loads([0.0])
+    loads = exact.section_loads([0.0, 0.45, 1.0])
     for kind, there in (("force", loads.force), ("moment", loads.moment)):
         here = [run[f"root_{kind}_{axis}"].interp(time=at) for axis in "xyz"]
         error = np.abs(np.transpose(here) - there[:, 0]).max()
         assert error < 3e-2 * np.abs(there).max()
+        assert np.abs(run[kind].interp(time=at) - there).max() < 3e-2 * np.abs(there).max()
+    assert np.abs(run["place"].interp(time=at) - loads.place).max() < 2e-3
+    assert np.abs(run["section"].interp(time=at) - loads.section).max() < 2e-2

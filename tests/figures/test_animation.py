@@ -11,6 +11,7 @@ from analytic import SpinUp, linear_response, spin_up_response
 from rotbeam_exu import dataset_of
 from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
+from rotbeam_exu.runs.shape import in_space
 
 
 @pytest.fixture(scope="module")
@@ -138,6 +139,42 @@ def test_another_motion_beside_is_refused(beam, response):
     ):
         with pytest.raises(ValueError, match="must be of the same motion at the same times"):
             animate(dataset_of(response), beside=dataset_of(linear))
+
+
+def test_a_blade_in_space_is_seen_from_above_and_from_the_side(beam):
+    """Twisted, coned and on a hub; the strip is as wide as the chord is seen."""
+    blade = beam.with_section_out_of_plane(0.25, 0.2).with_twist(0.8).with_precone(0.15)
+    blade, length = blade.blade.with_hub_radius(0.8), beam.length
+    times, points = np.linspace(0.0, 0.8, 5), np.linspace(0.0, length, 9)
+    motion = SpinUp(omega=2.0, ramp_time=0.8)
+    data = dataset_of(spin_up_response(blade, motion, times, tolerance=1e-2, points=points))
+    animation = animate(data)
+    animation._draw_frame(4)
+    animation._draw_was_started = True
+    above, side, history = animation._fig.axes
+    place, section = in_space(data)
+    np.testing.assert_allclose(axis_in(above), place[4, :, :2] @ [1.0, 1j], atol=1e-12)
+    # Turned back to the clamp's line; heights do not turn.
+    along = place[4, :, :2] @ [1.0, 1j] * np.exp(-1j * motion.angle(0.8))
+    np.testing.assert_allclose(axis_in(side), along.real + 1j * place[4, :, 2], atol=1e-12)
+    assert axis_in(side)[0] == pytest.approx(0.8)  # the clamp, on its hub
+    for ax, seen in ((above, [1.0, 1j, 0.0]), (side, None)):
+        (strip,) = ax.patches
+        edges = strip.get_xy()[:18] @ [1.0, 1j]
+        chord = edges[:9] - edges[:8:-1]
+        if seen:
+            np.testing.assert_allclose(chord, 0.1 * length * section[4, ..., 1] @ seen, atol=1e-12)
+        else:
+            np.testing.assert_allclose(chord.imag, 0.1 * length * section[4, :, 2, 1], atol=1e-12)
+    lines = {tuple(line.get_ydata()[-1:]) for line in history.lines if line.get_marker() == "o"}
+    assert lines == {(data["q"][4].item() / length,), (data["place"][4, -1, 2].item() / length,)}
+    plt.close(animation._fig)
+
+
+def axis_in(ax):
+    """The blade in a view of one in space, complex [m]: the line with as many points."""
+    (line,) = (line for line in ax.lines if len(line.get_xdata()) == 9)
+    return line.get_xydata() @ [1.0, 1j]
 
 
 def test_a_gif_has_every_picture_in_real_time(response, tmp_path):
