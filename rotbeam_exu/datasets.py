@@ -144,10 +144,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         },
         {"time": (response.time, "time t [s]")},
         {
-            **beam_attributes(response.beam),
-            "omega": response.spin_up.omega,
-            "ramp_time": response.spin_up.ramp_time,
-            **motion_attributes(response.spin_up),
+            **_inputs(response),
             **loads_attributes(response.loads),
             **{name: value for name, value in sections.items() if value},
             "duration": float(response.time[-1]),
@@ -165,8 +162,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
 @_described.register
 def _(response: LinearResponse) -> xr.Dataset:
     """Over `time`, and `place` over `station` if there are points."""
-    turn, plane = set_at(response.beam.setting_angle), response.axis
-    place = np.concatenate((plane, np.zeros_like(plane[..., :1])), axis=-1) @ turn.T
+    place = response.axis @ set_at(response.beam.setting_angle)[:, :2].T
     angle = response.spin_up.angle(response.time)
     return dataset(
         {
@@ -179,14 +175,19 @@ def _(response: LinearResponse) -> xr.Dataset:
             "station": (response.points, "distance from the clamp [m]"),
             "direction": ["x", "y", "z"],
         },
-        {
-            **beam_attributes(response.beam),
-            "omega": response.spin_up.omega,
-            "ramp_time": response.spin_up.ramp_time,
-            **motion_attributes(response.spin_up),
-            "foreshortening": int(response.foreshortening),
-        },
+        {**_inputs(response), "foreshortening": int(response.foreshortening)},
     )
+
+
+def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
+    """Return beam and motion as attributes."""
+    motion = response.spin_up
+    return {
+        **beam_attributes(response.beam),
+        "omega": motion.omega,
+        "ramp_time": motion.ramp_time,
+        **motion_attributes(motion),
+    }
 
 
 @_described.register

@@ -93,7 +93,6 @@ GROUPS = (
         rotbeam_exu__runs__oscillation="SteadyOscillation",
         rotbeam_exu__runs__growth="growth_rate_of GrowthRate",
         rotbeam_exu__fem__linearization="Linearization",
-        rotbeam_exu__fem__picture="ray_traced",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
         rotbeam_exu__fem__elements=(
             "Cable Exact Ancf3 Linear Substructures SpaceExact SpaceCable Formulation"

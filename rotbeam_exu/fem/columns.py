@@ -11,7 +11,6 @@ from analytic.lazily import interpolate
 from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
-from .elements import Formulation
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
 from .stations import section_loads
@@ -87,9 +86,9 @@ def columns(
         power = _power(built, t, angle, coordinates, relative) - rate_dot * momentum
         supplied = _integral(t, power)
         values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
-    turn = model.sections(np.concatenate((trajectory.reference[None], coordinates)))
     if model.twists:
-        turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
+        before, turn = model.sections(trajectory.reference[-1]), model.sections(coordinates[:, -1])
+        turned = frame.T @ turn @ before.T @ frame
         values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     scale |= {"N": units.energy / units.length, "N m": units.energy}
@@ -103,20 +102,11 @@ def columns(
     if stations.size:
         states = coordinates, relative, absolute, trajectory.accelerations
         run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
-    return _with_nodes(run, model, units.length * axis, turn[1:, ..., 2] @ frame) if space else run
-
-
-def _with_nodes(
-    run: xr.Dataset, model: Formulation, axis: FloatArray, turn: FloatArray
-) -> xr.Dataset:
-    """Return a run in space with the places of its nodes, and how sections stand where known."""
-    dims = ("time", "node", "direction")
-    label = "positions of the nodes in the frame of the clamp"
-    run["axis"] = dims, axis, {"units": "m", "long_name": label}
-    if model.twists:
-        label = "third axis of the sections, across their chord"
-        run["upright"] = dims, turn, {"units": "1", "long_name": label}
-    return run.assign_coords(direction=["x", "y", "z"])
+    if space:
+        label = {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"}
+        run["axis"] = ("time", "node", "direction"), units.length * axis, label
+        run = run.assign_coords(direction=["x", "y", "z"])
+    return run
 
 
 def _clamp_loads(

@@ -103,9 +103,9 @@ def simulate(
         clamp_torque [N m] of the clamp on the blade about the axis of rotation. In space also
         root_force_z, root_moment_x, root_moment_y; w [m] and w_dot [m/s] of the tip out of the
         plane, normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section
-        about its normal; axis [m], the places of the nodes, and upright, the third axes of their
-        sections, (time, node, direction) in that frame. The attributes hold every input, versions,
-        settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
+        about its normal; axis [m], the places of the nodes, (time, node, direction) in that frame.
+        The attributes hold every input, versions, settings, wall time and the verdict.
+        `out_of_plane` is there if the section out of the plane
         is known and planar orbits as large as the motion after the ramp leave the plane.
 
     Raises
@@ -150,7 +150,7 @@ def run_case(
             mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
-        sensors = Sensors(mbs, built.chain, built.clamp, accelerations=kept.size > 0)
+        sensors = Sensors(mbs, built.chain, built.clamp, kept.size > 0)
         if start := _start(case, units, built.chain.reference(mbs), initial_state):
             inertial = case.frame == "inertial"
             drive.set_state(

@@ -200,23 +200,19 @@ class Sensors:
     """Coordinates and velocities of all nodes, energy and the clamp's forces, sampled in C++."""
 
     def __init__(
-        self,
-        mbs: exudyn.MainSystem,
-        chain: Chain,
-        clamp: Sequence[exudyn.ObjectIndex],
-        *,
+        self, mbs: exudyn.MainSystem, chain: Chain, clamp: Sequence[exudyn.ObjectIndex],
         accelerations: bool = False,
-    ) -> None:
+    ) -> None:  # fmt: skip
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
-        self._coordinates, self._velocities, *self._accelerations = (
+        self._coordinates, self._velocities, self._accelerations = (
             [
                 mbs.AddSensor(items.SensorNode(nodeNumber=n, outputVariableType=variable, **kept))
                 for n in chain.nodes
+                if accelerations or variable != kind.Coordinates_tt
             ]
             for variable in (kind.Coordinates, kind.Coordinates_t, kind.Coordinates_tt)
-            if accelerations or variable != kind.Coordinates_tt
         )
         energy = kind.PotentialEnergy
         self._elastic = [
@@ -231,7 +227,6 @@ class Sensors:
     def read(self) -> Trajectory:
         """Return the samples kept."""
         table = self._mbs.GetSensorStoredData
-        none = np.empty((0, *self._reference.shape))
         coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
         coordinates += self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
@@ -244,8 +239,7 @@ class Sensors:
             reference=self._reference,
             elastic_energy=elastic,
             multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
-            accelerations=next(
-                (np.stack([table(s)[:, 1:] for s in one], axis=1) for one in self._accelerations),
-                none,
+            accelerations=np.stack(
+                [table(s)[:, 1:] for s in self._accelerations] or [coordinates[:0, 0]], axis=1
             ),
         )

@@ -1,9 +1,9 @@
 """Stations of a run: where its sections are, how they stand, and the loads in them.
 
-Loads follow from d'Alembert's principle, as those of the exact blade: from all loads outboard and
-from the mesh's own accelerations. With places r and accelerations A between the nodes,
+Loads follow from d'Alembert's principle, as those of the exact blade: from all loads f outboard and
+the mesh's own accelerations A. With the section's axes d and its second moments of mass G,
 
-    F = ∫ (f - m A) dx,      M = ∫ [r × (f - m A) - (J α + ω × J ω)] dx - r_s × F.
+    F = ∫ (f - m A) dx,      M = ∫ [r × (f - m A) - Σ G_kl d_k × d̈_l] dx - r_s × F.
 """
 
 from __future__ import annotations
@@ -26,29 +26,17 @@ from .units import Units
 
 _POINTS = 4  # between two ends, by which a cable's mass matrix is exact
 _AT_ONCE = 200  # samples, of some megabytes each
+_INSTANT = 1e-4  # of √(mL³/EI), for the differences that tell how sections turn
 
 
 def section_loads(
-    case: RunCase,
-    units: Units,
-    built: RotatingBeam,
-    stations: FloatArray,
-    time: FloatArray,
+    case: RunCase, units: Units, built: RotatingBeam, stations: FloatArray, time: FloatArray,
     *states: FloatArray,
-) -> SectionLoads:
-    """Return the sections of a run at `stations` over L, and the loads in them [SI].
+) -> SectionLoads:  # fmt: skip
+    """Return the sections of a run at `stations` over L and times [s], and the loads in them [SI].
 
-    Parameters
-    ----------
-    case : RunCase
-    units : Units
-    built : RotatingBeam
-    stations : ndarray (stations,)
-    time : ndarray (samples,)
-        [s].
-    *states : ndarray (samples, nodes, n)
-        Coordinates, rates relative to the clamp, and absolute ones, by the axes of the clamp; and
-        accelerations of the case's frame by its axes.
+    `states` (samples, nodes, n) are coordinates, rates relative to the clamp and absolute ones, by
+    the axes of the clamp; and accelerations of the case's frame by its axes.
     """
     masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
     few = np.array_split(np.arange(time.size), 1 + time.size // _AT_ONCE)
@@ -91,55 +79,55 @@ class _Masses:
             "length": np.concatenate((dx, 0.0 * masses, none)),
             "tip": np.concatenate((0.0 * dx, 0.0 * masses, none + 1.0)),
         }
-        self._inertia = np.zeros((self._x.size, 3, 3))
-        self._inertia[x.size : -1, 2, 2] = inertias
+        # What turns in its plane is as if its mass lay along the second axis.
+        self._second = np.zeros((self._x.size, 3, 3))
+        self._second[x.size : -1, 1, 1] = inertias
         if model.twists:
             _, own = space_unit(beam).inertia_about(
                 x, Theory(rotary_inertia=True), beam.slenderness
             )
-            of_length = beam.mass_per_length * beam.length**2 * dx
-            self._inertia[: x.size] = of_length[:, None, None] * np.moveaxis(own, -1, 0)
+            second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
+            unit = beam.mass_per_length * beam.length**2
+            self._second[: x.size] = np.moveaxis(unit * second * dx, -1, 0)
         elif model.theory.rotary_inertia:
-            self._inertia[: x.size, 2, 2] = at.rotary_inertia * dx
+            self._second[: x.size, 1, 1] = at.rotary_inertia * dx
         self._outboard = ((self._x > stations[:, None]) | (self._x == 1.0)).astype(float)
         spread = model.spread(count, case.elements, beam.length, np.append(self._x, stations))
         self._spread = sparse.csr_array(spread.reshape(-1, spread.shape[2] * spread.shape[3]))
 
     def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:
         """Return places, sections, forces and moments of the stations, of states as above."""
-        case, model, count = self._case, self._model, self._x.size
-        e, relative, absolute, accelerations = (self._along(state) for state in states)
-        angle, t = case.rotation.angle(time), time / self._units.time
-        rate, rate_dot = case.rotation.rate(time), case.rotation.acceleration(time)
-        inertial = case.frame == "inertial"
-        rates = absolute if inertial else relative
-        if inertial:
-            accelerations = model.turned(accelerations, -angle)
-        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, accelerations))
-        if not inertial:
-            setting = 0.0 if model.twists else self._beam.setting_angle
-            normal = np.array([0.0, math.sin(setting), math.cos(setting)])
-            W = np.multiply.outer(self._units.time * rate, normal)[:, None]
-            W_dot = np.multiply.outer(self._units.time**2 * rate_dot, normal)[:, None]
+        case, model, count, per_unit = self._case, self._model, self._x.size, self._units.time
+        e, relative, rates, change = (self._along(state) for state in states)
+        angle, turning = case.rotation.angle(time), np.zeros(3)
+        if case.frame == "inertial":
+            change = model.turned(change, -angle)
         else:
-            W = W_dot = np.zeros((time.size, 1, 3))
+            setting = 0.0 if model.twists else self._beam.setting_angle
+            rates, turning = relative, np.array([0.0, math.sin(setting), math.cos(setting)])
+        W = np.multiply.outer(per_unit * case.rotation.rate(time), turning)[:, None]
+        W_dot = np.multiply.outer(per_unit**2 * case.rotation.acceleration(time), turning)[:, None]
+        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, change))
         a = a + np.cross(W, 2.0 * v_frame + np.cross(W, r)) + np.cross(W_dot, r)
         f = -self._weights["mass"][:, None] * a[:, :count]
         f -= self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
         for load in self._units.loads(case.loads):
             if load.acts_on is not None:
-                push = load.force((load.frequency or 0.0) * t, angle, model.setting(self._beam))
-                push = np.stack((push.real, push.imag, 0.0 * push.real), axis=-1)
-                f += self._weights[load.acts_on][:, None] * push[:, None]
-        couple = np.cross(r[:, :count], f)
-        section = model.sections(e)
-        if self._inertia.any():
-            spin, turning = model.spins(e, rates, accelerations)
-            turning, spin = turning + np.cross(W, spin) + W_dot, spin + W
-            axes = section[:, :count]
-            about = axes @ self._inertia @ np.swapaxes(axes, -1, -2)
-            Jw, Ja = ((about @ one[:, :count, :, None])[..., 0] for one in (spin, turning))
-            couple -= Ja + np.cross(spin[:, :count], Jw)
+                phase = (load.frequency or 0.0) * time / per_unit
+                push = load.force(phase, angle, model.setting(self._beam))[:, None]
+                f[..., 0] += self._weights[load.acts_on] * push.real
+                f[..., 1] += self._weights[load.acts_on] * push.imag
+        couple, section = np.cross(r[:, :count], f), model.sections(e)
+        if self._second.any():
+            ahead, d, behind = (
+                np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)
+                for h in (_INSTANT, 0.0, -_INSTANT)
+            )
+            d_dot = (ahead - behind) / (2.0 * _INSTANT)
+            d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2
+            W, W_dot = W[:, None], W_dot[:, None]
+            d_ddot += np.cross(W, 2.0 * d_dot + np.cross(W, d)) + np.cross(W_dot, d)
+            couple -= np.cross(d, self._second @ d_ddot).sum(axis=-2)
         place, section = r[:, count:], section[:, count:]
         force = self._outboard @ f
         moment = self._outboard @ couple - np.cross(place, force)
@@ -148,8 +136,8 @@ class _Masses:
 
     def _along(self, state: FloatArray) -> FloatArray:
         """Return coordinates or rates at all points and stations, (samples, places, n)."""
-        flat = (self._spread @ state.reshape(len(state), -1).T).T
-        return np.asarray(flat.reshape(len(state), -1, state.shape[-1]))
+        flat = np.asarray((self._spread @ state.reshape(len(state), -1).T).T)
+        return flat.reshape(len(state), -1, state.shape[-1])
 
     def _vectors(self, e: FloatArray) -> FloatArray:
         """Return the vectors (..., 3) that come first in coordinates or rates."""

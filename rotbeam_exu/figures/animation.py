@@ -13,13 +13,11 @@ from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 
-from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.loads import rippled
 
 from ..lazily import xr
 from ..paper import BLUE, RED
-from ..runs.attributes import beam_of, loads_of, motion_of
+from ..runs.attributes import beam_of, motion_of
 from ..runs.shape import in_space
 from .style import STYLE, new_figure, shade_ramp
 
@@ -75,7 +73,8 @@ def animate(
         motion.
     """
     _require_drawable(data, beside)
-    time, rotation = _times(data), rippled(motion_of(data.attrs), loads_of(data.attrs))
+    time, motion = _times(data), motion_of(data.attrs)
+    q, flap, space = _q(data), _flap(data), _leaves_plane(data)
     with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(data, beside) if beside is not None else _two_frames(data)
         _ramp(history, data)
@@ -85,13 +84,13 @@ def animate(
     def draw(n: int) -> list[Any]:
         for move in moving:
             move(n)
-        rate_now = float(rotation.rate(time[n]))
-        line = f"t = {time[n]:5.2f} s  dθ/dt = {rate_now:4.2f} rad/s  q/L = {_q(data)[n]:+5.2f}"
+        rate_now = float(motion.rate(time[n]))
+        line = f"t = {time[n]:5.2f} s  dθ/dt = {rate_now:4.2f} rad/s  q/L = {q[n]:+5.2f}"
         if beside is not None:
-            q = _q(beside)[n]
-            line += f", linear {q:{'+6.2f' if abs(q) < 100.0 else '+6.0f'}}"
-        elif _leaves_plane(data):
-            line += f"  w/L = {_flap(data)[n]:+5.2f}"
+            other = _q(beside)[n]
+            line += f", linear {other:{'+6.2f' if abs(other) < 100.0 else '+6.0f'}}"
+        elif space:
+            line += f"  w/L = {flap[n]:+5.2f}"
         words.set_text(line.replace("-", "−"))
         return []
 
@@ -121,10 +120,9 @@ def _times(data: xr.Dataset) -> FloatArray:
     return np.asarray(data["time"].to_numpy())
 
 
-def _beam_and_reach(data: xr.Dataset) -> tuple[AnyBlade, float]:
-    """Return the blade, and how far it reaches from the axis of rotation [m]."""
-    blade = beam_of(data.attrs)
-    return blade, blade.length + blade.blade.hub_radius
+def _reach(data: xr.Dataset) -> float:
+    """Return how far the blade reaches from the axis of rotation [m]."""
+    return data.attrs["beam_length"] + beam_of(data.attrs).hub_radius
 
 
 def _q(data: xr.Dataset) -> FloatArray:
@@ -190,29 +188,28 @@ def _two_frames(data: xr.Dataset) -> tuple[Axes, list[_Moving]]:
     """Return the histories, and what moves: the inertial and the rotating view, in one scale."""
     behind = 0.12
     outside, inside, history = _axes(5.2, 2.0 * _REACH, _REACH + behind)
-    (blade, reach), space = _beam_and_reach(data), _leaves_plane(data)
+    reach, space = _reach(data), _leaves_plane(data)
     _view(outside, "from above" if space else "inertial frame", reach)
     _view(inside, "from the side" if space else "rotating frame", reach, behind)
-    _scale_bar(inside, reach, blade.length)
-    cone = blade.blade.line.precone
-    inside.plot([0.0, 1.1 * reach * np.cos(cone)], [0.0, 1.1 * reach * np.sin(cone)], **_CLAMP)
+    _scale_bar(inside, data, 0.0)
+    ray = 1.1 * reach * np.exp(1j * beam_of(data.attrs).blade.line.precone)
+    inside.plot([0.0, ray.real], [0.0, ray.imag], **_CLAMP)
     moving = [
         _beam(outside, data, "black", BLUE),
         _beam(inside, data, "black", BLUE, turning=True, up=_SIDE if space else _ABOVE),
         _clamp(outside, data),
         _history(history, data, _q(data), "black", BLUE),
     ]
-    history.set_ylabel("q/L")
     if space:
         moving.append(_history(history, data, _flap(data), RED, RED))
-        history.set_ylabel("q/L, w/L")
+    history.set_ylabel("q/L, w/L" if space else "q/L")
     return history, moving
 
 
 def _two_models(data: xr.Dataset, beside: xr.Dataset) -> tuple[Axes, list[_Moving]]:
     """Return both histories, and what moves: inertial views of the exact and the linear beam."""
     exact, linear, history = _axes(4.6, 2.0 * _REACH, 2.0 * _REACH)
-    (blade, reach), time = _beam_and_reach(data), _times(data)
+    reach, time = _reach(data), _times(data)
     moving = []
     for ax, of, title, color in (
         (exact, data, "exact beam", "black"),
@@ -220,7 +217,7 @@ def _two_models(data: xr.Dataset, beside: xr.Dataset) -> tuple[Axes, list[_Movin
     ):
         _view(ax, title, reach)
         moving += [_clamp(ax, of), _beam(ax, of, color, color)]
-    _scale_bar(exact, reach, blade.length, -_REACH)
+    _scale_bar(exact, data, -_REACH)
     moving += [_history(history, of, _q(of), c, c) for of, c in ((beside, RED), (data, "black"))]
     history.set(ylim=(-_REACH, _REACH), ylabel="q/L")
     _mark_instability(history, beside)
@@ -245,13 +242,13 @@ def _seen(data: xr.Dataset, *, turning: bool = False, up: int = _ABOVE) -> Compl
 
 def _path(data: xr.Dataset, *, turning: bool = False, up: int = _ABOVE) -> ComplexArray:
     """Return the tip's path in a view [m]: along its curve, not along chords between pictures."""
-    fine, rotation = _between(_times(data)), rippled(motion_of(data.attrs), loads_of(data.attrs))
-    tip = CubicSpline(_times(data), data["place"].to_numpy()[:, -1:])(fine)
-    dims = ("time", "station", "direction")
-    finer = xr.Dataset(
-        {"place": (dims, tip), "angle": ("time", rotation.angle(fine))}, attrs=data.attrs
-    )
-    return _seen(finer, turning=turning, up=up)[0, :, 0]
+    time = _times(data)
+    given = data[["place", "angle"]].isel(station=[-1])
+    finer = {
+        name: (one.dims, CubicSpline(time, one.to_numpy())(_between(time)))
+        for name, one in given.items()
+    }
+    return _seen(xr.Dataset(finer, attrs=data.attrs), turning=turning, up=up)[0, :, 0]
 
 
 def _beam(
@@ -263,15 +260,15 @@ def _beam(
     trail = _FINER * round(_TRAIL / float(np.diff(_times(data)[:2])[0]))
     (strip,) = ax.fill([], [], color=BLUE, alpha=0.4, lw=0.0)
     (trace,) = ax.plot([], [], color=path, lw=1.0)
-    wide = 1.2 if _leaves_plane(data) else 2.5
-    (beam,) = ax.plot([], [], color=color, lw=wide, solid_capstyle="round")
+    space = _leaves_plane(data)
+    (beam,) = ax.plot([], [], color=color, lw=1.2 if space else 2.5, solid_capstyle="round")
     (tip,) = ax.plot([], [], "o", color=path, ms=4)
 
     def show(n: int) -> None:
         past = tips[max(0, _FINER * n - trail) : _FINER * n + 1]
         for line, z in ((beam, shapes[n]), (trace, past), (tip, past[-1:])):
             line.set_data(z.real, z.imag)
-        if _leaves_plane(data):
+        if space:
             around = np.concatenate((edges[0][n], edges[1][n, ::-1]))
             strip.set_xy(np.column_stack((around.real, around.imag)))
 
@@ -281,7 +278,7 @@ def _beam(
 def _clamp(ax: Axes, data: xr.Dataset) -> _Moving:
     """Return the line that turns with the clamp."""
     (line,) = ax.plot([], [], **_CLAMP)
-    ray = 1.1 * _beam_and_reach(data)[1] * np.exp(1j * data["angle"].to_numpy())
+    ray = 1.1 * _reach(data) * np.exp(1j * data["angle"].to_numpy())
     return lambda n: line.set_data([0.0, ray[n].real], [0.0, ray[n].imag])
 
 
@@ -323,9 +320,10 @@ def _view(ax: Axes, title: str, reach: float, left: float = _REACH) -> None:
     ax.plot([0.0], [0.0], "s", color="0.35", ms=6, zorder=3)
 
 
-def _scale_bar(ax: Axes, reach: float, length: float, start: float = 0.0) -> None:
+def _scale_bar(ax: Axes, data: xr.Dataset, start: float) -> None:
     """Draw a bar of a quarter of the beam's length below a view, and name the dashes beside it."""
-    bar, low, left = 0.25 * length, -0.98 * _REACH * reach, start * reach
+    bar, reach = 0.25 * data.attrs["beam_length"], _reach(data)
+    low, left = -0.98 * _REACH * reach, start * reach
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
     ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
     ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **_CLAMP)

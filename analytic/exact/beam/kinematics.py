@@ -158,10 +158,9 @@ class Kinematics:
 
         In the frame of the clamp, of a blade set at `setting` [rad]; axes of sections in columns.
         """
-        z, (phi, _) = self.axis(q, x), self._bases(x)
-        places = np.stack((z.real, z.imag, np.zeros_like(z.real)), axis=-1)
-        sections = in_plane_of_bending(self.split(q)[0] @ phi.T, setting)
-        return places @ set_at(setting).T, sections
+        z, angle = self.axis(q, x), self.split(q)[0] @ self._bases(x)[0].T
+        places = np.stack((z.real, z.imag), axis=-1) @ set_at(setting)[:, :2].T
+        return places, in_plane_of_bending(angle, setting)
 
     def deflection(self, tip: ComplexArray) -> FloatArray:
         """Return the tip's deflection, normal to the clamp's line."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic import AnyBlade
-from analytic.arrays import ComplexArray, FloatArray
+from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.description import Described
 from analytic.exact.beam.section_loads import in_plane_of_bending
@@ -211,22 +211,12 @@ class Formulation(Described, abstract=True):
         return np.asarray(about_z)
 
     def sections(self, coordinates: FloatArray) -> FloatArray:
-        """Return the axes of the sections in columns, (..., nodes, 3, 3), in a plane turned by z.
+        """Return the axes of the sections in columns, (..., 3, 3), of coordinates (..., n).
 
-        z is the vector of coordinates 2 and 3.
+        Here of nodes in the plane whose coordinates 2 and 3 are a vector of the section.
         """
-        z, (_, *straight) = _vector(coordinates), self.straight
+        z, (_, *straight) = coordinates[..., 2] + 1j * coordinates[..., 3], self.straight
         return in_plane_of_bending(np.angle(z / complex(*straight)), 0.0)
-
-    def spins(
-        self, coordinates: FloatArray, rates: FloatArray, accelerations: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return angular velocities and accelerations of the sections, each (..., nodes, 3)."""
-        z, z_dot, z_ddot = map(_vector, (coordinates, rates, accelerations))
-        about_z = np.array([0.0, 0.0, 1.0])
-        spin = z_dot / z
-        turning = z_ddot / z - spin**2
-        return spin.imag[..., None] * about_z, turning.imag[..., None] * about_z
 
     def spread(self, nodes: int, elements: int, length: float, s: FloatArray) -> FloatArray:
         """Return the matrix (places, n, nodes, n) to the coordinates a node would have at `s`.
@@ -238,7 +228,7 @@ class Formulation(Described, abstract=True):
         weights = np.zeros((s.size, nodes))
         at = degree * cell[:, None] + np.arange(degree + 1)
         np.put_along_axis(weights, at, lagrange(xi, degree), axis=1)
-        return np.einsum("sk,ij->sikj", weights, np.eye(self.angles.size))
+        return np.asarray(np.einsum("sk,ij->sikj", weights, np.eye(self.angles.size)))
 
     @property
     def radial(self) -> FloatArray:
@@ -304,11 +294,6 @@ def cells(count: int, s: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
     """Return in which of equal cells places from 0 to 1 are, and where inside, from 0 to 1."""
     cell = np.minimum((count * s).astype(int), count - 1)
     return cell, count * s - cell
-
-
-def _vector(coordinates: FloatArray) -> ComplexArray:
-    """Return coordinates 2 and 3 as a complex number, (...)."""
-    return coordinates[..., 2] + 1j * coordinates[..., 3]
 
 
 class Sheared:

@@ -63,7 +63,7 @@ class SlopeNodes(Formulation, abstract=True):
         at, places = cell[:, None] + np.arange(2), np.arange(s.size)[:, None]
         weights[places, :, at] = np.moveaxis(of_both.reshape(-1, 2, 2, 2), 1, 2)
         both = np.einsum("sakb,ij->saikbj", weights, np.eye(self.dimensions))
-        return both.reshape(s.size, self.angles.size, nodes, -1)
+        return np.asarray(both.reshape(s.size, self.angles.size, nodes, -1))
 
 
 class SpaceSlopeNodes(SlopeNodes, abstract=True):
@@ -87,13 +87,6 @@ class SpaceSlopeNodes(SlopeNodes, abstract=True):
         across = np.cross([0.0, 0.0, 1.0], slope)
         normal, chord = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (slope, across))
         return np.stack((normal, chord, np.cross(normal, chord)), axis=-1)
-
-    def spins(
-        self, coordinates: FloatArray, rates: FloatArray, accelerations: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return zeros: its sections have no inertia against rotation."""
-        none = np.zeros_like(coordinates[..., :3])
-        return none, none
 
 
 class SectionSlopeNodes(Formulation, abstract=True):
@@ -133,13 +126,6 @@ class AngleNodes(Formulation, abstract=True):
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the sections, turned by φ."""
         return in_plane_of_bending(coordinates[..., 2], 0.0)
-
-    def spins(
-        self, coordinates: FloatArray, rates: FloatArray, accelerations: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the rates of φ."""
-        about_z = np.array([0.0, 0.0, 1.0])
-        return rates[..., 2:] * about_z, accelerations[..., 2:] * about_z
 
 
 class FrameNodes(Formulation, abstract=True):
@@ -204,17 +190,6 @@ class FrameNodes(Formulation, abstract=True):
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the axes of the sections."""
         return directors(coordinates[..., 3:])
-
-    def spins(
-        self, coordinates: FloatArray, rates: FloatArray, accelerations: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return R 2p*∘ṗ and R 2p*∘p̈: the product of p's rates with each other is no vector."""
-        p, turn = coordinates[..., 3:], self.sections(coordinates)
-        spin, turning = (
-            (turn @ turning_rate(p, one[..., 3:])[..., None])[..., 0]
-            for one in (rates, accelerations)
-        )
-        return spin, turning
 
 
 def require_bare(element: Formulation, blade: AnyBlade) -> None:
