@@ -27,6 +27,15 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     `moment` [N m] of the outboard on the inboard part, and `curvature` [1/m], the twist first.
     `strain` is that of the axis. Strains are what force and moment cause in the elastic section.
     A steady state has no `time`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, periodic_orbits
+    >>> from rotbeam_exu.runs.shape import outer_strain, shape_of
+    >>> orbits = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.3])
+    >>> shape = shape_of(orbits.section_loads(0, [0.0, 4.0, 8.0], phase=[0.0, 1.57]))
+    >>> print(dict(shape.sizes), outer_strain(shape, height=0.0367).max().round(5).item())
+    {'time': 2, 'station': 3, 'direction': 3, 'along': 3} 0.00428
     """
     force, moment = found.force, found.moment
     if force.shape[-1] == 2:  # in its plane
