@@ -103,8 +103,8 @@ def columns(
         states = coordinates, relative, absolute, trajectory.accelerations
         run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
     if space:
-        label = {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"}
-        run["axis"] = ("time", "node", "direction"), units.length * axis, label
+        known = {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"}
+        run["axis"] = ("time", "node", "direction"), units.length * axis, known
         run = run.assign_coords(direction=["x", "y", "z"])
     return run
 

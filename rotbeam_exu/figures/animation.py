@@ -122,7 +122,8 @@ def _times(data: xr.Dataset) -> FloatArray:
 
 def _reach(data: xr.Dataset) -> float:
     """Return how far the blade reaches from the axis of rotation [m]."""
-    return data.attrs["beam_length"] + beam_of(data.attrs).hub_radius
+    blade = beam_of(data.attrs)
+    return blade.length + blade.hub_radius
 
 
 def _q(data: xr.Dataset) -> FloatArray:
