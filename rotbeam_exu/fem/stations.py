@@ -123,10 +123,8 @@ class _Masses:
                 np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)
                 for h in (_INSTANT, 0.0, -_INSTANT)
             )
-            d_dot = (ahead - behind) / (2.0 * _INSTANT)
-            d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2
-            W, W_dot = W[:, None], W_dot[:, None]
-            d_ddot += np.cross(W, 2.0 * d_dot + np.cross(W, d)) + np.cross(W_dot, d)
+            # In its plane only Euler's acceleration turns a section; ancf3's, set, has ρI s²w² more.
+            d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2 + np.cross(W_dot[:, None], d)
             couple -= np.cross(d, self._second @ d_ddot).sum(axis=-2)
         place, section = r[:, count:], section[:, count:]
         force = self._outboard @ f
