@@ -7,6 +7,7 @@ figures then know it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Literal, Self
@@ -64,6 +65,15 @@ class Load(Described, abstract=True):
             c = cos ψ.
         """
         raise NotImplementedError
+
+    @property
+    def leaves_plane(self) -> bool:
+        """Whether it moves the blade out of the plane of rotation."""
+        return False
+
+    def lift(self, phase: FloatArray) -> FloatArray:
+        """Return the force along the axis of rotation, (samples,)."""
+        return 0.0 * phase
 
     def rate(self, phase: FloatArray) -> FloatArray:
         """Return the change of the clamp's speed, (samples,)."""
@@ -241,7 +251,7 @@ class DistributedForce(HarmonicLoad):
 
 @dataclass(frozen=True)
 class Gravity(Load):
-    """Gravity in a plane of rotation that stands vertical: -g(sin θ i + cos ψ cos θ j).
+    """Gravity, -g(cos δ (sin θ i + cos ψ cos θ j) + sin δ k) with the axis of rotation k.
 
     At θ = 0 the blade points sideways, and gravity bends it back.
 
@@ -249,6 +259,9 @@ class Gravity(Load):
     ----------
     gravity : float
         g [m/s²].
+    tilt : float
+        δ [rad], by which the axis of rotation points up: 0 if the plane of rotation stands
+        vertical, π/2 if it lies level, and gravity then is normal to it.
 
     Examples
     --------
@@ -262,6 +275,7 @@ class Gravity(Load):
     """
 
     gravity: float = 9.81
+    tilt: float = 0.0
 
     unit: ClassVar[str] = "m/s²"
     symbol: ClassVar[str] = "g"
@@ -271,12 +285,25 @@ class Gravity(Load):
     varied: ClassVar[Literal["frequency", "speed"] | None] = "speed"
 
     def __post_init__(self) -> None:
-        self._keep(gravity=finite_number("gravity", self.gravity, "m/s^2"))
+        self._keep(
+            gravity=finite_number("gravity", self.gravity, "m/s^2"),
+            tilt=finite_number("tilt", self.tilt, "rad"),
+        )
+
+    @property
+    def leaves_plane(self) -> bool:
+        """With a tilt only."""
+        return self.tilt != 0.0
+
+    def lift(self, phase: FloatArray) -> FloatArray:
+        """Return the share of the weight of a unit mass along the axis of rotation."""
+        return np.full_like(phase, -self.gravity * math.sin(self.tilt))
 
     def force(self, phase: FloatArray, angle: FloatArray, setting: float) -> ComplexArray:
         """Return the weight of a unit mass, which goes around once a turn."""
         del phase
-        return np.asarray(-self.gravity * (np.sin(angle) + 1j * setting * np.cos(angle)))
+        in_plane = -self.gravity * math.cos(self.tilt)
+        return np.asarray(in_plane * (np.sin(angle) + 1j * setting * np.cos(angle)))
 
 
 def require_load(load: object) -> None:

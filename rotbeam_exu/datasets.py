@@ -1,74 +1,36 @@
 """Results as labeled data: `dataset_of` makes the Dataset that is saved, printed and drawn.
 
-A kind of result is one function here: it names the result's numbers, their dims and their labels.
+A kind of result is a line of `result_columns`, or a function here: it names the result's numbers,
+their dims and their labels.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict
 from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
-from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.beam.section_loads import set_at
+from analytic.exact.beam.section_loads import SectionLoads, set_at
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
-from analytic.exact.driven.response import SpinUpResponse
-from analytic.exact.free.orbits import Orbits
+from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
-from analytic.loads import Load, rippled
+from analytic.loads import rippled
 from analytic.reduced.linear_frame import LinearResponse
 
+from .files.results import parts
+from .forced_columns import of_forced, of_forced_in_space
 from .lazily import xr
+from .result_columns import COLUMNS, GROWTH, OMEGA, ORBIT, dataset
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
 from .runs.shape import shape_of
 from .runs.versions import versions
 
-OMEGA = "angular velocity ω [rad/s]"
-AMPLITUDE = "peak amplitude a = |q|/L"
-ORBIT = "amplitude a = |q|/L of the planar orbit"
-GROWTH = "growth rate out of the plane [1/s]"
-
-
-def labeled(label: str) -> dict[str, str]:
-    """Return a label, "angular velocity ω [rad/s]", as the attributes of a variable.
-
-    Without a unit it is 1.
-    """
-    name, _, unit = label.partition(" [")
-    attrs = {"units": unit.removesuffix("]") or "1"}
-    return {**attrs, "long_name": name} if name else attrs
-
-
-def dataset(
-    variables: Mapping[str, tuple[Any, Any, str]],
-    coords: Mapping[str, Any],
-    attrs: Mapping[str, Any] | None = None,
-) -> xr.Dataset:
-    """Return a Dataset of labeled numbers.
-
-    Parameters
-    ----------
-    variables : mapping
-        Dims, values and label by name.
-    coords : mapping
-        Values and label by dimension, or values alone.
-    attrs : mapping, optional
-        All else that is known.
-    """
-    return xr.Dataset(
-        {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},
-        {
-            name: (name, found[0], labeled(found[1])) if isinstance(found, tuple) else found
-            for name, found in coords.items()
-        },
-        attrs,
-    )
+_FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
+_MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}
 
 
 def dataset_of(*results: Any) -> xr.Dataset:
@@ -77,10 +39,10 @@ def dataset_of(*results: Any) -> xr.Dataset:
     Parameters
     ----------
     *results
-        A SpinUpResponse, with the names of a run by `simulate`, in the plane its root loads too,
-        and what `rotbeam_exu.runs.shape.shape_of` makes of points asked for; a LinearResponse; a
-        ForcedResponse, with its stability and its backbone; a PlanarStability, or both it and its
-        StabilityLimit, which becomes attributes; a Campbell diagram.
+        Of any function of `analytic` that returns more than an array, or of this package; several
+        that belong together, as a PlanarStability and its StabilityLimit. A spin-up has its root
+        loads, the names of a run by `simulate`, and of points asked for what
+        `rotbeam_exu.runs.shape.shape_of` has; a forced response its stability and backbone.
 
     Returns
     -------
@@ -114,34 +76,84 @@ def dataset_of(*results: Any) -> xr.Dataset:
     return first
 
 
+def frames_of(*results: Any) -> dict[str, Any]:
+    """Return results as tidy DataFrames of pandas, one for each set of dims, by its first column.
+
+    Dims are columns, named beside the numbers; `DataFrame.attrs` has units. What has no dims is one
+    row.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> from rotbeam_exu.datasets import frames_of
+    >>> print(frames_of(linear_modes(Beam.reference(), omega=6.0, count=2))["frequency"].round(4))
+       mode  frequency
+    0     1     3.7304
+    1     2    23.0101
+    """
+    frames = {}
+    for name, part in parts(dataset_of(*results)).items():
+        rows = part if part.dims else part.expand_dims("row")
+        frames[name] = rows.to_dataframe().reset_index()
+        frames[name].attrs = {str(k): one.attrs.get("units", "1") for k, one in part.items()}
+    return frames
+
+
 @singledispatch
 def _described(result: Any) -> xr.Dataset:
+    if isinstance(result, xr.Dataset):
+        return result
     raise TypeError(f"no Dataset is known of a {type(result).__name__}")
+
+
+for _kind, _columns in COLUMNS.items():
+    _described.register(_kind, _columns.of)
+_described.register(ForcedResponse, of_forced)
+_described.register(SectionLoads, shape_of)
+_described.register(SpaceForcedResponse, of_forced_in_space)
 
 
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
     """Over `time`, with the names of `simulate`; Eq. 16."""
+    return _of_spin_up(
+        response,
+        {
+            "tip_x": (response.tip[:, 0], "tip position x, inertial frame [m]"),
+            "tip_y": (response.tip[:, 1], "tip position y, inertial frame [m]"),
+        },
+    )
+
+
+@_described.register
+def _(response: SpaceResponse) -> xr.Dataset:
+    """Over `time`; the tip's places from the clamp, in the frame that turns with it. q is lag."""
+    return _of_spin_up(
+        response,
+        {
+            "along": (response.tip[:, 0], "tip position along the clamp, turning frame [m]"),
+            "flap": (response.flap, "tip position normal to clamp and lag, turning frame [m]"),
+            "twist": (response.twist, "twist of the tip's section about its normal [rad]"),
+        },
+    )
+
+
+def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr.Dataset:
     theory = response.theory
     sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
-    angle = rippled(response.spin_up, response.loads).angle(response.time)
-    at_root = {}
-    if response.tip.shape[1] == 2:
-        root = response.section_loads([0.0])
-        at_root = {
-            "root_force_x": ("time", root.force[:, 0, 0], "tension at the root [N]"),
-            "root_force_y": ("time", root.force[:, 0, 1], "shear force at the root [N]"),
-            "root_moment_z": ("time", root.moment[:, 0], "bending moment at the root [N m]"),
-        }
-    found = dataset(
-        {
-            "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
-            "q_dot": ("time", response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
-            "tip_x": ("time", response.tip[:, 0], "tip position x, inertial frame [m]"),
-            "tip_y": ("time", response.tip[:, 1], "tip position y, inertial frame [m]"),
-            "angle": ("time", angle, "rotation angle θ [rad]"),
-            **at_root,
+    motion = rippled(response.spin_up, response.loads)
+    columns = {
+        "q": (response.q, "tip displacement q, Eq. 16 [m]"),
+        "q_dot": (response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
+        **tip,
+        "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
+        **{
+            f"root_{name}": (of[:, 0], label)
+            for name, (of, label) in _loads(response.section_loads([0.0])).items()
         },
+    }
+    found = dataset(
+        {name: ("time", *column) for name, column in columns.items()},
         {"time": (response.time, "time t [s]")},
         {
             **_inputs(response),
@@ -154,14 +166,13 @@ def _(response: SpinUpResponse) -> xr.Dataset:
             "versions": json.dumps(versions()),
         },
     )
-    if not response.points.size:
-        return found
-    return found.merge(shape_of(response.section_loads(response.points)))
+    along = response.points
+    return found.merge(shape_of(response.section_loads(along))) if along.size else found
 
 
 @_described.register
 def _(response: LinearResponse) -> xr.Dataset:
-    """Over `time`, and `place` over `station` if there are points."""
+    """Over `time`, and `place` over `station` of points asked for."""
     place = response.axis @ set_at(response.beam.setting_angle)[:, :2].T
     angle = response.spin_up.angle(response.time)
     return dataset(
@@ -235,90 +246,34 @@ def _(diagram: Campbell) -> xr.Dataset:
 
 @_described.register
 def _(found: StabilityLimit) -> xr.Dataset:
-    """Attributes alone: the limit, infinite if there is none, and the tongues below it."""
-    tongues = [f"{one.low:.4g} to {one.high:.4g}: {one.growth:.2g}" for one in found.tongues]
-    return xr.Dataset(
-        attrs={
-            "limit": found.amplitude, "limit_converged": int(found.converged),
-            "sentence": str(found), "growth": found.growth, "tongues": "; ".join(tongues),
-        }
-    )  # fmt: skip
-
-
-@_described.register
-def _of_response(response: ForcedResponse) -> xr.Dataset:
-    """Over the points of the curve, in order; q/L = Σ cosine cos kφ + sine sin kφ in column k.
-
-    `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
-    over its orbits.
-    """
-    weight = response.load.varied == "speed"
-    swept = "rotation speed ω" if weight else "drive frequency ν"
-    # The weight across the blade is greatest, and negative, at θ = 0.
-    phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"
-    harmonics = ("point", "harmonic")
-    variables: dict[str, tuple[Any, Any, str]] = {
-        "frequency": ("point", response.frequency, f"{swept} [rad/s]"),
-        "amplitude": ("point", response.amplitude, "amplitude |q|/L"),
-        "phase": ("point", response.phase, phase),
-        "stable": ("point", response.stable, "whether disturbances in the plane decay"),
-        "mark": ("point", _marks(response), "what is special about the point"),
-        "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
-        "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
-    }
-    backbone: Orbits | None = None
-    if not weight:
-        try:
-            backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
-        except AmplitudeNotReachedError as error:
-            backbone = error.orbits  # what of it is reached
-    if backbone is not None:
-        free = np.append(backbone.omega_n, backbone.frequency)
-        label = "frequency of the free, undamped orbit [rad/s]"
-        variables["backbone_frequency"] = ("orbit", free, label)
-        peaks = np.append(0.0, backbone.amplitude)
-        variables["backbone_amplitude"] = ("orbit", peaks, "amplitude |q|/L")
-    inputs = response_inputs(
-        response.beam, response.load, None if weight else float(response.omega[0])
-    )
-    known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
-    return dataset(variables, {}, {**inputs, **known})
-
-
-@_described.register
-def _(response: SpaceForcedResponse) -> xr.Dataset:
-    """As in the plane; q is the gauge, and `lag`, `flap` and `twist` are the tip's amplitudes."""
-    data, half = _of_response(response), "half the way of the tip"
-    data["stable"].attrs["long_name"] = "whether disturbances decay"
-    return data.merge(
-        dataset(
-            {
-                "lag": ("point", response.lag, f"{half} in lag over L"),
-                "flap": ("point", response.flap, f"{half} in flap over L"),
-                "twist": ("point", response.twist, "half the swing of the tip's section [rad]"),
-            },
-            {},
-        )
+    """Over `tongue` the tongues below the limit, which is infinite if there is none."""
+    tongues = found.tongues
+    return dataset(
+        {
+            "limit": ((), found.amplitude, "amplitude |q|/L above which planar orbits leave"),
+            "limit_converged": ((), found.converged, "whether the limit is settled"),
+            "tongue_low": ("tongue", [one.low for one in tongues], "amplitude |q|/L, from"),
+            "tongue_high": ("tongue", [one.high for one in tongues], "amplitude |q|/L, to"),
+            "tongue_growth": ("tongue", [one.growth for one in tongues], "growth exponent [1/rad]"),
+        },
+        {},
+        {**beam_attributes(found.blade), "omega": found.omega, "mode": found.mode}
+        | {"sentence": str(found), "growth": found.growth},
     )
 
 
-def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
-    """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
+def _loads(found: SectionLoads) -> dict[str, tuple[Any, str]]:
+    """Return tension, shear forces and moments with their labels, those of the plane or all."""
+    force = np.moveaxis(found.force, -1, 0)
+    moment = np.moveaxis(found.moment, -1, 0) if len(force) > 2 else found.moment[None]
+    axes = "xyz"[-len(moment) :]
     return {
-        **beam_attributes(beam),
-        **{f"damping_{name}": value for name, value in asdict(beam.damping).items()},
-        **loads_attributes([load]),
-        "load": type(load).__name__,
-        "load_size": load.size,
-        "load_symbol": load.symbol,
-        "load_unit": load.unit,
-        **({} if omega is None else {"omega": omega}),
+        **{
+            f"force_{k}": (f, f"{_FORCES[k]} at the root [N]")
+            for k, f in zip("xyz", force, strict=False)
+        },
+        **{
+            f"moment_{k}": (m, f"{_MOMENTS[k]} at the root [N m]")
+            for k, m in zip(axes, moment, strict=True)
+        },
     }
-
-
-def _marks(response: ForcedResponse) -> list[str]:
-    marks = [mark if mark in ("fold", "peak") else "" for mark in response.marks]
-    for i in np.flatnonzero(np.array(marks) == "peak").tolist():
-        marks[i] = "dip" if response.amplitude[i] < response.amplitude[i - 1] else "peak"
-    marks[0], marks[-1] = "start", "end"
-    return marks

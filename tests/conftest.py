@@ -8,7 +8,7 @@ from hypothesis import settings
 from analytic import Beam, Damping, SpeedRipple, SpinUp, forced_response
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.cli import main
-from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.cases import CASES, VERSION
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
 
@@ -98,7 +98,7 @@ def submitted():
             for speed in (0.0, 6.0)
         )  # fmt: skip
         declaration = Declaration(
-            benchmark="1.0", order=2.0, order_in_step=2.0, **{"code": "Mine", **declared}
+            benchmark=VERSION, order=2.0, order_in_step=2.0, **{"code": "Mine", **declared}
         )
         return Submission(declaration=declaration, frequencies=frequencies, runs=runs)
 

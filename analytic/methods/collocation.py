@@ -102,7 +102,9 @@ class Collocation:
 
         def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
             at = tangent(*state(z))
-            return factored(self.matrix(h, at)), at.residual.ravel()
+            # Of thin strips, which are a thousand times stiffer one way than the other, single
+            # precision leaves nothing.
+            return factored(self.matrix(h, at), single=False), at.residual.ravel()
 
         found = newton.root(
             guess.ravel(),

@@ -64,11 +64,11 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     constants, steps = orbit.constants(), max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED)))
     odd, n = orbit.system.odd, K.shape[0]
     if constants is None or odd is None:
-        scaled, exponent = _flow(orbit, steps, 1.0)
+        scaled, exponent = flow(orbit, steps)
         matrix = scaled * np.exp(exponent)
     else:
         # Reversed in time the other half undoes what the first does.
-        half, _ = _flow(orbit, -(-steps // 2), 0.5)
+        half, _ = flow(orbit, -(-steps // 2), 0.5)
         mirror = np.where(np.concatenate((odd, ~odd)), -1.0, 1.0)[:, None]
         matrix = mirror * linalg.solve(half, mirror * half)
     basis = np.eye(2 * n)
@@ -85,8 +85,8 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     motion = modal(vectors)
     if constants is not None:
         # They are known up to the flow, whose share is no motion of theirs.
-        flow = modal(constants[0][:, None])[:, 0]
-        motion -= np.outer(flow, flow.conj() @ motion) / np.linalg.norm(flow) ** 2
+        along = modal(constants[0][:, None])[:, 0]
+        motion -= np.outer(along, along.conj() @ motion) / np.linalg.norm(along) ** 2
     energy = np.abs(motion[: frequencies.size]) ** 2 + np.abs(motion[frequencies.size :]) ** 2
     # Coordinates without mass, such as a constraint's, carry none: they come last.
     none = energy.sum(axis=0) < _MASSLESS * frequencies[0] ** 2
@@ -107,7 +107,7 @@ def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[Flo
     With signs S (n,), M(-φ) = SM(φ)S and K(-φ) = SK(φ)S. What half a period makes of (q, Mq̇) is
     symplectic, which gives its inverse, and reversed that is the other half.
     """
-    half, exponent = _flow(orbit, -(-steps // 2), 0.5)
+    half, exponent = flow(orbit, -(-steps // 2), 0.5)
     n = signs.size
     start, end = orbit.tangent(np.array([0.0, np.pi])).mass
     momenta = half.copy()
@@ -122,7 +122,7 @@ def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[Flo
     return whole, 2.0 * exponent
 
 
-def _flow(orbit: Any, steps: int, share: float) -> tuple[FloatArray, float]:
+def flow(orbit: Any, steps: int, share: float = 1.0) -> tuple[FloatArray, float]:
     """Return the map of a small change of (q, q̇) at φ = 0 over a share of a period, (2n, 2n).
 
     Over its size, where that is beyond 1e60, and with the size's logarithm.

@@ -143,12 +143,12 @@ def length(vector: FloatArray) -> float:
     return float(np.sqrt(vector @ vector))
 
 
-def factored(matrix: FloatArray) -> Any:
+def factored(matrix: FloatArray, *, single: bool = True) -> Any:
     """Return the LU factors of a matrix, which is overwritten where its order allows.
 
-    Large ones in single precision, in half the time: good to about 1e-3 of a step.
+    Large ones in single precision if they may be, in half the time: good to about 1e-3 of a step.
     """
-    if len(matrix) > LARGE:
+    if single and len(matrix) > LARGE:
         matrix = matrix.astype(np.float32, order="F")
     return linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
 

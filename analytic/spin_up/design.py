@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -10,12 +11,12 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade
-from ..input_checks import positive, rotation_speed, whole_number
+from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
 from ..threads import one_thread
 from .modes import ModesOverSpeed
-from .residual import exact_residuals, modes_for, residuals
+from .residual import exact_residuals, modes_for, residuals, swing
 
 _MORE_WAVES = 4
 _MOST_MODES = 20
@@ -25,7 +26,11 @@ _INSTANTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1.0, 120.0) / 120.0)  # denser 
 _INSIDE = 3e-4  # share of the limits kept for what is between the instants
 _IMPOSSIBLE = 1e-12
 _WILD = 1e3  # coefficients of a ramp that goes to and fro for no use
-_CORRECTIONS, _LEFT = 6, 1e-6
+_CORRECTIONS, _LEFT = 12, 1e-6
+_OFF = 0.01  # error of the frequency over which its derivatives are differences
+_DERIVATIVES = np.array([[1.0, 0.0, 0.0], [0.0, -0.5, 0.5], [-2.0, 1.0, 1.0]])
+_PLACES, _BELOW = 64, 0.998
+"""Of the deflection on the way, and share of the largest one that is aimed at."""
 _LONGER, _LONGEST = 1.25, 12
 """Durations tried, for the sentence, where the one asked for is too short."""
 
@@ -38,19 +43,22 @@ class _Task:
     k = 2 and up: the smallest make a ramp with little jerk, of few waves.
     """
 
-    beam: AnyBlade
+    blades: tuple[tuple[AnyBlade, ModesOverSpeed], ...] = field(repr=False)
+    """The blade and its modes; if robust those of lower and of higher frequency after it."""
     start: float
     omega: float
     duration: float
-    modes: ModesOverSpeed = field(repr=False)
     count: int
     highest: float
     steepest: float
+    largest: float
+    robust: int
 
     @cached_property
     def order(self) -> FloatArray:
         """The k of the unknowns."""
-        return np.arange(2.0, self.count + 2.0 * _MORE_WAVES + 1.0)
+        equations = self.count * (1 + self.robust)
+        return np.arange(2.0, equations + 2.0 * _MORE_WAVES + 1.0)
 
     @property
     def eq_1(self) -> FloatArray:
@@ -68,24 +76,44 @@ class _Task:
             sines=(-float(self.order @ b), *b),
         )
 
+    def _derived(self, left: list[ComplexArray]) -> ComplexArray:
+        """Return what the blades keep as Z, and its changes by 1 % of the frequency, all modes."""
+        return np.asarray(_DERIVATIVES[: self.robust + 1, : len(left)] @ np.stack(left)).ravel()
+
     def closed_form(self, y: FloatArray) -> ComplexArray:
-        """Return Z of the modes, (modes,)."""
-        return residuals(self.beam, self.ramp(y), self.modes, np.array([self.duration]))[:, 0]
+        """Return Z of the modes and its changes, (modes times one more than robust,)."""
+        ramp, T = self.ramp(y), np.array([self.duration])
+        return self._derived(
+            [residuals(blade, ramp, modes, T)[:, 0] for blade, modes in self.blades]
+        )
+
+    def exact(self, y: FloatArray) -> tuple[ComplexArray, float]:
+        """Return the same by the exact transient, and the blade's largest |q|/L on the way."""
+        ramp = self.ramp(y)
+        found = [exact_residuals(blade, ramp, self.count) for blade, _ in self.blades]
+        return self._derived([left for left, _ in found]), found[0][1]
+
+    def swing(self, y: FloatArray) -> FloatArray:
+        """Return q/L at places of the ramp by the closed form."""
+        return swing(self.blades[0][0], self.ramp(y), self.blades[0][1], _PLACES)
 
     def equations(self, y: FloatArray, target: ComplexArray) -> FloatArray:
         """Return the modes' distances from the target by the closed form, (2 modes,)."""
         z = self.closed_form(y) - target
         return np.concatenate((z.real, z.imag))
 
-    def tangent(self, y: FloatArray, target: ComplexArray) -> FloatArray:
-        """Return the derivatives of the equations."""
-        here = self.equations(y, target)
-        step = _DIFFERENCE * np.eye(y.size)
-        return np.stack([self.equations(y + d, target) - here for d in step], axis=1) / _DIFFERENCE
+    def limits(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return G and h of the limits, G y + h ≥ 0, near the unknowns `y`."""
+        G, h = self._room
+        if math.isinf(self.largest):
+            return G, h
+        here, slopes = self.swing(y) / self.largest, _tangent(self.swing, y) / self.largest
+        ahead = here - slopes @ y
+        return np.vstack((G, -slopes, slopes)), np.concatenate((h, 1.0 - ahead, 1.0 + ahead))
 
     @cached_property
-    def room(self) -> tuple[FloatArray, FloatArray]:
-        """G and h of the limits, G y + h ≥ 0: rate and acceleration are linear in the unknowns."""
+    def _room(self) -> tuple[FloatArray, FloatArray]:
+        """G and h of rate and acceleration, which are linear in the unknowns."""
 
         def at(y: FloatArray) -> FloatArray:
             ramp, t = self.ramp(y), self.duration * _INSTANTS
@@ -101,6 +129,12 @@ class _Task:
         return np.stack(slopes, axis=1), here
 
 
+def _tangent(of: Callable[[FloatArray], FloatArray], y: FloatArray) -> FloatArray:
+    """Return the derivatives of a function of the unknowns, (values, unknowns)."""
+    here, steps = of(y), _DIFFERENCE * np.eye(y.size)
+    return np.stack([of(y + step) - here for step in steps], axis=1) / _DIFFERENCE
+
+
 @one_thread
 def design_ramp(
     beam: AnyBlade,
@@ -111,15 +145,18 @@ def design_ramp(
     start: float = 0.0,
     speed_limit: float | None = None,
     acceleration_limit: float | None = None,
+    robust: int = 0,
+    largest: float | None = None,
 ) -> FourierRamp:
     """Return a smooth change of the speed that leaves the first modes at rest.
 
-    Its acceleration is a Fourier series of `modes` + 8 waves over the duration. Among the ramps
+    Its acceleration is a Fourier series of `modes` (1 + `robust`) + 8 waves. Among the ramps
     within the limits that leave nothing by the closed form (`residual_amplitude`), it is the
     closest to Eq. 1. The amplitude that the exact transient leaves becomes the next target of the
     closed form, with its sign changed, until each mode keeps less than 1e-6 L. During the ramp the
     blade swings, in short ramps as far as without a design. The design depends on the blade: in 2 s
-    to 6 rad/s an error of 1 % in its frequency leaves 2.1e-2 L instead of 3e-6 L.
+    to 6 rad/s an error of 1 % in its frequency leaves 2.1e-2 L instead of 3e-6 L. A robust ramp
+    makes the derivatives to the frequency vanish too, after Singer and Seering (1990).
 
     Parameters
     ----------
@@ -137,6 +174,11 @@ def design_ramp(
         lowest is zero.
     acceleration_limit : float, optional
         Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
+    robust : int
+        Derivatives of what is left to the blade's frequency that vanish, 0 to 2, as differences
+        over ±1 %: an error ε of the frequency leaves a multiple of ε^(robust + 1), beyond 1 % if 2.
+    largest : float, optional
+        Largest |q|/L on the way by the exact transient; none if not given.
 
     Raises
     ------
@@ -164,6 +206,8 @@ def design_ramp(
             f"speed_limit = {highest:g} rad/s is below the {higher:g} rad/s at one end of the "
             f"ramp: take that at least"
         )
+    robust = whole_number("robust", robust, least=0, most=2)
+    bound = math.inf if largest is None else peak_deflection("largest", largest)
     steepest = math.inf
     if acceleration_limit is not None:
         steepest = positive("acceleration_limit", acceleration_limit, "rad/s²")
@@ -174,33 +218,44 @@ def design_ramp(
                 f"rad/s, and the duration is {duration:g} s: take a longer one"
             )
     widest = FourierRamp(start=highest, omega=omega, ramp_time=duration)
+    others = [beam.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
     task = _Task(
-        beam=beam, start=start, omega=omega, duration=duration, count=modes, highest=highest,
-        modes=modes_for(beam, widest, modes), steepest=steepest,
+        blades=tuple((blade, modes_for(blade, widest, modes)) for blade in (beam, *others)),
+        start=start, omega=omega, duration=duration, count=modes, highest=highest,
+        steepest=steepest, largest=bound, robust=robust,
     )  # fmt: skip
     return _corrected(task)
 
 
 def _corrected(task: _Task) -> FourierRamp:
     """Return the ramp after which the exact transient leaves nothing."""
-    target, y, last = np.zeros(task.count, dtype=np.complex128), task.eq_1, math.inf
+    target, y, aim = np.zeros_like(task.closed_form(task.eq_1)), task.eq_1, task
+    # Broyden's method, from a Jacobian of one: the closed form misses by the same all around.
+    inverse, last = np.eye(2 * target.size), None
     for _ in range(_CORRECTIONS):
-        found = _solved(task, y, target)
+        found = _solved(aim, y, target)
         if found is None:
             raise ValueError(_too_short(task))
-        y, ramp = found, task.ramp(found)
-        left = exact_residuals(task.beam, ramp, task.count)
+        y = found
+        left, way = task.exact(y)
         size = float(np.abs(left).max())
-        if size < _LEFT:
-            return ramp
-        if size > last:
-            break
+        if size < _LEFT and way <= task.largest:
+            return task.ramp(y)
+        if way > task.largest:
+            swing = float(np.abs(task.swing(y)).max())
+            aim = replace(task, largest=_BELOW * task.largest * swing / way)
         # What is small already stays as it is.
-        here, last = task.closed_form(y), size
-        target = here - np.where(np.abs(left) > 0.1 * _LEFT, left, 0.0)
+        left = np.where(np.abs(left) > 0.1 * _LEFT, left, 0.0)
+        now = np.stack((task.closed_form(y), left)).view(np.float64)
+        if last is not None:
+            step, moved = now - last
+            off = step - inverse @ moved
+            inverse += np.outer(off, step @ inverse) / (step @ inverse @ moved)
+        here, defect = last = now
+        target = (here - inverse @ defect).view(np.complex128)
     raise RuntimeError(
-        f"on a ramp of {task.duration:g} s the blade swings so far that corrections do not settle: "
-        f"{size:.1e} of its length is left; take a longer duration"
+        f"on a ramp of {task.duration:g} s the blade swings so far, {way:.3g} of its length, that "
+        f"corrections do not settle: {size:.1e} is left; take a longer duration"
     )
 
 
@@ -208,11 +263,12 @@ def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray |
     """Return the unknowns closest to `near` that meet target and limits, None without any."""
     y, still = near, np.zeros(near.size)
     for _ in range(_NEWTON_STEPS):
-        defect, J = task.equations(y, target), task.tangent(y, target)
+        defect = task.equations(y, target)
+        J = _tangent(lambda y: task.equations(y, target), y)
         # Of all that meets the linear equations for the next y to _SOLVED, the closest: what is
         # small by itself, as of high modes, takes no effort.
         rows, sides = np.vstack((J / _SOLVED, np.eye(y.size))), (J @ (y - near) - defect) / _SOLVED
-        slopes, room = task.room
+        slopes, room = task.limits(y)
         change = _closest(rows, np.append(sides, still), slopes, -room - slopes @ near)
         if change is None or np.abs(near + change).max() > _WILD:
             return None
@@ -247,8 +303,11 @@ def _too_short(task: _Task) -> str:
     limits = f"0 to {task.highest:g} rad/s"
     if math.isfinite(task.steepest):
         limits = f"{limits} and {task.steepest:g} rad/s²"
-    asked = f"no ramp of {task.duration:g} s leaves {task.count} modes at rest within {limits}"
-    still = np.zeros(task.count, dtype=np.complex128)
+    if math.isfinite(task.largest):
+        limits = f"{limits} with a deflection of at most {task.largest:g} of the length"
+    what = f"{task.count} modes at rest{f' with robust = {task.robust}' if task.robust else ''}"
+    asked = f"no ramp of {task.duration:g} s leaves {what} within {limits}"
+    still = np.zeros_like(task.closed_form(task.eq_1))
     for n in range(1, _LONGEST):
         longer = replace(task, duration=float(f"{task.duration * _LONGER**n:.3g}"))
         if _solved(longer, longer.eq_1, still) is not None:

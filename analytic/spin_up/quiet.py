@@ -130,7 +130,7 @@ def _refined(
 
     def lacking(at: float) -> complex:
         spin_up = SpinUp(omega=ramp.omega, ramp_time=at)
-        return complex(exact_residuals(beam, spin_up, 1, tolerance)[0]) - form(at)
+        return complex(exact_residuals(beam, spin_up, 1, tolerance)[0][0]) - form(at)
 
     def left(at: float, T: float, lack: complex, slope: complex) -> float:
         return abs(form(at) + lack + slope * (at - T)) ** 2

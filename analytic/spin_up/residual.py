@@ -11,7 +11,7 @@ and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every
 from __future__ import annotations
 
 import math
-from typing import overload
+from typing import NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,7 @@ from ..threads import one_thread
 from .modes import ModesOverSpeed, modes_over_speed
 
 _POINTS = 24
+_DURING = 193  # instants of the ramp
 _A_PANEL = 12.0  # [rad] of the phase on 24 points
 _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
@@ -136,33 +137,65 @@ def residuals(
     beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, ramp_times: FloatArray
 ) -> ComplexArray:
     """Return Z (modes, ramp times) of the motion stretched to each of the `ramp_times` [s]."""
+    wave = _waves(beam, spin_up, modes, float(ramp_times.max(initial=0.0)))
+    at_end = [
+        np.exp(np.multiply.outer(ramp_times, exponent)) @ force
+        for exponent, force in zip(wave.exponent, wave.force, strict=True)
+    ]
+    return np.asarray(wave.tip[:, -1:] * np.stack(at_end))
+
+
+def swing(beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, pieces: int) -> FloatArray:
+    """Return the tip's deflection over L at the ends of so many equal pieces of the motion."""
+    T = spin_up.ramp_time
+    wave = _waves(beam, spin_up, modes, T, pieces)
+    exponent = T * wave.exponent.reshape(*wave.exponent.shape[:1], -1, _POINTS)
+    parts = np.exp(exponent) * wave.force.reshape(exponent.shape)
+    so_far = np.cumsum(parts.sum(axis=2), axis=1)
+    z = wave.tip[:, 1:] * so_far * np.exp(-T * wave.ahead)
+    every = z.shape[1] // pieces
+    return np.asarray(-z.imag.sum(axis=0)[every - 1 :: every])
+
+
+class _Waves(NamedTuple):
+    """Modes along a motion: what a force leaves at its end is tip Σ force exp(T exponent)."""
+
+    exponent: ComplexArray
+    """(iω_n - d) from each point to the end, (modes, points), over the duration [1/s]."""
+    ahead: ComplexArray
+    """The same from the ends of the pieces, (modes, pieces)."""
+    force: FloatArray
+    """Of the Euler acceleration, with the weights of Gauss's method, (modes, points)."""
+    tip: FloatArray
+    """At the edges of the pieces, (modes, pieces + 1)."""
+
+
+def _waves(
+    beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, longest: float, even: int = 1
+) -> _Waves:
+    """Return the modes along a motion that takes `longest` [s], in a multiple of `even` pieces."""
     scale, own = beam.frequency_scale, spin_up.ramp_time
     fast = float(modes.at(np.array([spin_up.fastest / scale])).frequency.max())
-    pieces = math.ceil(fast * scale * float(ramp_times.max(initial=0.0)) / _A_PANEL)
+    pieces = math.ceil(fast * scale * longest / _A_PANEL)
     pieces = max(pieces, math.ceil(own / spin_up.shortest_wave))
+    pieces = even * math.ceil(pieces / even)
     edges = np.union1d(spin_up.corners / own, np.linspace(0.0, 1.0, pieces + 1))
     x, weights = gauss_points(_POINTS)
     width = np.diff(edges)[:, None]
     s = (edges[:-1, None] + width * x).ravel()
     at = modes.at(spin_up.rate(own * s) / scale)
-    end = modes.at(np.array([spin_up.omega / scale]))
+    end = modes.at(spin_up.rate(own * edges) / scale)
     euler = spin_up.acceleration(own * s) * (own / scale) * (width * weights).ravel()
     # Phase and decay over T, from s to the end.
     wave = (1j * at.frequency - at.decay).reshape(at.frequency.shape[0], -1, _POINTS)
     whole = width[:, 0] * (wave @ weights)
     inside = width * (wave @ integrals_from_clamp(_POINTS, x).T)
-    ahead = np.cumsum(whole[:, ::-1], axis=1)[:, ::-1, None] - inside
-    exponent = scale * ahead.reshape(at.frequency.shape)
-    strength = euler * at.force / np.sqrt(at.frequency)
-    scaled = end.tip / np.sqrt(end.frequency)
-    return np.asarray(
-        scaled
-        * np.stack(
-            [
-                np.exp(np.multiply.outer(ramp_times, wave)) @ force
-                for wave, force in zip(exponent, strength, strict=True)
-            ]
-        )
+    ahead = np.cumsum(whole[:, ::-1], axis=1)[:, ::-1, None]
+    return _Waves(
+        exponent=scale * (ahead - inside).reshape(at.frequency.shape),
+        ahead=scale * (ahead[..., 0] - whole),
+        force=euler * at.force / np.sqrt(at.frequency),
+        tip=end.tip / np.sqrt(end.frequency),
     )
 
 
@@ -177,24 +210,26 @@ def _exact(beam: AnyBlade, spin_up: SpeedChange, tolerance: float) -> float:
 
 def exact_residuals(
     beam: AnyBlade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
-) -> ComplexArray:
+) -> tuple[ComplexArray, float]:
     """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
 
     By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
-    with one mode more, whose share is so kept out of the others.
+    with one mode more, whose share is so kept out of the others. And the largest |q|/L of the ramp.
     """
     decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
     functions = max(20, 2 * (count + 1))
     omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
-    during = np.linspace(0.0, ramp.ramp_time, 33)
     # The times before tell how large the motion is, of which the tolerance is a share.
+    during = np.linspace(0.0, ramp.ramp_time, _DURING)
     after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
     times = np.append(during, ramp.ramp_time + after)
     response = spin_up_response(beam, ramp, times, tolerance=tolerance)
     wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * beam.frequency_scale))
     shares = np.concatenate((-wave.imag, -wave.real), axis=1)
-    found = np.linalg.lstsq(shares, response.q[during.size :] / beam.length, rcond=None)[0]
-    return np.asarray(found[:count] + 1j * found[count + 1 : -1])
+    q = response.q / beam.length
+    found = np.linalg.lstsq(shares, q[during.size :], rcond=None)[0]
+    left = np.asarray(found[:count] + 1j * found[count + 1 : -1])
+    return left, float(np.abs(q[: during.size]).max())
 
 
 def _on_the_backbone(beam: AnyBlade, omega: float, linear: FloatArray) -> FloatArray:

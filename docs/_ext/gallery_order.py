@@ -9,8 +9,8 @@ import matplotlib as mpl
 FIRST = (
     "spin_up", "quiet_spin_up", "backbone", "phase_space", "model_errors", "mesh_convergence",
     "thickness_locking", "linear_frame", "substructures", "campbell_diagram", "tapered_blade",
-    "softening_map", "is_it_planar", "out_of_plane", "forced_response", "gravity",
-    "internal_resonance", "blade_in_exudyn", "hub_with_blades", "backbone_formula",
+    "softening_map", "is_it_planar", "leaving_the_plane", "out_of_plane", "forced_response",
+    "gravity", "internal_resonance", "blade_in_exudyn", "hub_with_blades", "backbone_formula",
 )  # fmt: skip
 
 

@@ -54,6 +54,7 @@ GROUPS = (
         analytic__exact__beam__state="BeamState",
         analytic__exact__free__curve="BackboneCurve",
         analytic__exact__free__branches="BackboneBranch",
+        analytic__exact__free__leaving="LeavingBranch",
         analytic__exact__free__branch="SpecialPoint",
         analytic__exact__free__internal_resonance="Resonance",
     ),

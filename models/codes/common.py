@@ -1,4 +1,4 @@
-"""What scripts of other codes share: a submission is run, written, judged and recorded.
+"""Common part of the scripts of other codes: run, write, judge and record a submission.
 
 ``python models/codes/common.py NAME`` records a folder whose files came from elsewhere, or what the
 judge says anew; it keeps the `calibration` of a record that is there.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import datetime as dt
 import hashlib
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -25,9 +27,12 @@ from rotbeam_exu.verification.case_rows import cases_csv
 from rotbeam_exu.verification.cases import CASES, Case
 from rotbeam_exu.verification.judgement import Judgement, judged
 from rotbeam_exu.verification.kit import STATIC
-from rotbeam_exu.verification.submission import Declaration
-from rotbeam_exu.verification.submission_files import digests, read_submission
-from rotbeam_exu.verification.submission_files.entry import entry_text
+from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
+from rotbeam_exu.verification.submission_files import (
+    digests,
+    read_submission,
+    write_submission,
+)
 from rotbeam_exu.verification.verify import Entry
 
 HERE = Path(__file__).parent
@@ -39,7 +44,7 @@ REMARK = "Run by the authors of the benchmark, not by the authors of the code."
 
 def times(case: Case) -> FloatArray:
     """Return the times at which histories are written [s]."""
-    return SPACING * np.arange(round(case.duration / SPACING) + 1)
+    return np.arange(round(case.duration / SPACING) + 1) / round(1.0 / SPACING)
 
 
 def across(case: Case, tip: Sequence[complex] | ComplexArray) -> FloatArray:
@@ -67,16 +72,28 @@ def cpu() -> float:
     return sum(os.times()[:4])
 
 
+def output_of(call: Sequence[object], **options: Any) -> str:
+    """Run a program, and return what it prints; RuntimeError with its own sentence if it fails."""
+    words = [str(word) for word in call]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, **options)
+    if done.returncode:
+        said = done.stderr.strip() or " ".join(done.stdout[-200:].split())
+        raise RuntimeError(said or f"{words[0]} fails")
+    return done.stdout
+
+
 def take_part(
     script: str,
     declaration: Declaration,
     history: Callable[[Case, int, float], FloatArray],
-    runs: Mapping[str, Sequence[tuple[int, str]]],
+    runs: Mapping[str, Sequence[tuple[int, float]]],
     frequency: Callable[[Case, int, float], float] | None = None,
     meshes: Sequence[int] = (),
     speeds: Sequence[float] = CASES["L"].speeds,
 ) -> None:
-    """Write a submission beside a script, and record it. Runs that it has already are kept.
+    """Run a code, write its submission in place of the one beside a script, and record it.
+
+    Nothing is written before all has been computed.
 
     Parameters
     ----------
@@ -87,55 +104,55 @@ def take_part(
         (case, elements, step [s]) -> q [m] at `times`; RuntimeError with one sentence where it
         fails.
     runs : dict
-        By name of the case, meshes and steps as their files are named.
+        Meshes and steps [s] by name of the case.
     frequency : callable, optional
         (case, elements, speed [rad/s]) -> first natural frequency [rad/s].
     meshes, speeds : sequence
         Of the frequencies.
     """
-    folder = Path(script).parent / "submission"
-    folder.mkdir(exist_ok=True)
-    told = replace(declaration, machine=_machine(), remarks=declaration.remarks or REMARK)
-    (folder / "entry.toml").write_text(entry_text(told), encoding="utf-8")
     before = calibration()
-    if frequency is not None:
-        rows = [
-            f"{elements},{speed:g},{frequency(CASES['L'], elements, speed):.12g}\n"
-            for elements in meshes
+    made = Submission(
+        declaration=replace(
+            declaration, machine=_machine(), remarks=declaration.remarks or REMARK
+        ),
+        frequencies=tuple(
+            Frequency(elements=n, speed=speed, frequency=float(frequency(CASES["L"], n, speed)))
+            for n in meshes
             for speed in speeds
-        ]
-        (folder / "L.csv").write_text("elements,speed,frequency\n" + "".join(rows))
-    table = folder / "runs.csv"
-    if not table.exists():
-        table.write_text("file,elements,step,cpu_s,failure\n")
-    for name, resolutions in runs.items():
-        for elements, step in resolutions:
-            file = f"{name}/m{elements:03d}_h{step}.csv"
-            if f"{file}," not in table.read_text():
-                row = _run(folder / file, CASES[name], history, elements, step)
-                with table.open("a") as out:
-                    out.write(f"{file},{elements},{step},{row}\n")
-                print(file, row, flush=True)
-    record(folder, 0.5 * (before + calibration()))
+        ) if frequency else (),
+        runs=tuple(
+            _run(history, CASES[name], elements, step)
+            for name, resolutions in runs.items()
+            for elements, step in resolutions
+        ),
+    )  # fmt: skip
+    unit = 0.5 * (before + calibration())
+    folder = Path(script).parent / "submission"
+    new = write_submission(made, folder.with_name("new"))
+    shutil.rmtree(folder, ignore_errors=True)
+    record(new.rename(folder), unit)
 
 
 def _run(
-    path: Path,
-    case: Case,
-    history: Callable[[Case, int, float], FloatArray],
-    elements: int,
-    step: str,
-) -> str:
-    """Write a history, and return CPU time and failure as cells."""
-    started = cpu()
+    history: Callable[[Case, int, float], FloatArray], case: Case, elements: int, step: float
+) -> Run:
+    """Compute a history and its CPU time; a failure keeps its sentence."""
+    q, failure, started = np.empty(0), "", cpu()
     try:
-        q = history(case, elements, float(step))
+        q = history(case, elements, step)
     except RuntimeError as error:
-        return f"{cpu() - started:.4g},{error}"
-    rows = [f"{t:.6g},{x:.9g}\n" for t, x in zip(times(case), q, strict=True)]
-    path.parent.mkdir(exist_ok=True)
-    path.write_text("time,q\n" + "".join(rows))
-    return f"{cpu() - started:.4g},"
+        failure = str(error)
+    run = Run(
+        case=case.name, elements=elements, step=step, time=times(case) if q.size else q,
+        q=np.array([_short(x) for x in q]), failure=failure, cpu=float(f"{cpu() - started:.4g}"),
+    )  # fmt: skip
+    print(run, flush=True)
+    return run
+
+
+def _short(value: float) -> float:
+    """Return a number of nine digits, which are enough and keep files small."""
+    return float(f"{value:.9g}")
 
 
 def record(folder: Path, seconds: float) -> None:
@@ -169,7 +186,7 @@ def calibration() -> float:
         taken = []
         for _ in range(3):
             started = cpu()
-            subprocess.run([starter, "S1", "128", "4e-3", "."], cwd=folder, check=True)
+            output_of([starter, "S1", 128, "4e-3", "."], cwd=folder)
             taken.append(cpu() - started)
     return min(taken)
 
@@ -177,7 +194,7 @@ def calibration() -> float:
 def compiled(source: Path, folder: Path) -> Path:
     """Compile a source in C++, and return the program."""
     program = folder / source.stem
-    subprocess.run(["g++", "-O2", "-std=c++17", "-o", program, source], check=True)
+    output_of(["g++", "-O2", "-std=c++17", "-o", program, source])
     return program
 
 

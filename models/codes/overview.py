@@ -1,4 +1,4 @@
-"""What other codes get: two tables and a figure, from the folders beside this script.
+"""Other codes, compared: two tables and a figure, from the folders beside this script.
 
 ``python models/codes/overview.py`` prints the tables and writes results/codes.svg.
 """

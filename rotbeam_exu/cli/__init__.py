@@ -52,8 +52,8 @@ app = cyclopts.App(
 )
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
-    "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge", "schema",
-    "doctor",
+    "converge", "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge",
+    "schema", "doctor",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 

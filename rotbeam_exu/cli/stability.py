@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import analytic
-from analytic.exact.plane.growth import LEAST_GROWTH
-from analytic.input_checks import positive, whole_number
+from analytic.exact.plane.growth import least_growth
+from analytic.input_checks import not_negative, positive, whole_number
 
+from ..files.results import parts
 from ..runs.attributes import beam_attributes
 from .job import Job
 from .motion import Config, Omega, configured, omega_of
@@ -30,7 +31,8 @@ def stability(
     shape: SectionOptions = SECTION,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
-    growth: float = LEAST_GROWTH,
+    damping_ratio: float = 0.0,
+    growth: float | None = None,
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
@@ -46,31 +48,38 @@ def stability(
         to the largest.
     mode
         In-plane mode from which the orbits grow.
+    damping_ratio
+        Damping ratio of all modes of flap and torsion, beside the damping of the file's blade.
     growth
-        Growth out of the plane per radian of the orbit above which all orbits are beyond the limit.
+        Growth out of the plane per radian of the orbit above which all orbits are beyond the limit;
+        0.01, or any with damping.
 
     Examples
     --------
     $ rotbeam stability --omega 2 --section rectangle --ratio 18.5
     $ rotbeam stability --omega 6 --section tube
+    $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
     from ..datasets import dataset_of
 
     whole_number("mode", mode)
-    positive("growth", growth)
+    not_negative("damping-ratio", damping_ratio)
+    if growth is not None:
+        positive("growth", growth)
     file = configured(config)
     omega = omega_of(file, omega)
     blade = shape.required_of(file.beam)
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
-    inputs["growth"] = growth
+    growth = least_growth(blade, damping_ratio) if growth is None else growth
+    inputs |= {"damping_ratio": damping_ratio, "growth": growth}
 
     def computed() -> tuple[PlanarStability, StabilityLimit]:
         with bar("growth out of the plane"):
-            found = analytic.planar_stability(blade, omega, amplitudes, mode)
+            found = analytic.planar_stability(blade, omega, amplitudes, mode, damping=damping_ratio)
             return found, analytic.stability_limit(
-                blade, omega, mode, growth=growth, largest=amplitudes[-1]
+                blade, omega, mode, damping=damping_ratio, growth=growth, largest=amplitudes[-1]
             )
 
     Job(
@@ -79,7 +88,7 @@ def stability(
         force=results.force,
         compute=computed,
         dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs),
-        table=lambda data: data.drop_vars(["multipliers", "part"]),
+        table=lambda data: parts(data)["growth_rate"],
         show=lambda pair, _: _print(*pair),
         draw=lambda figures, data: figures.planar_stability(data),
     ).run()

@@ -21,10 +21,10 @@ from analytic.arrays import FloatArray
 from analytic.description import describe
 from analytic.input_checks import positive, whole_number
 
-from ..datasets import dataset
 from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
 from ..lazily import xr
+from ..result_columns import dataset
 from ..runs.attributes import beam_attributes
 
 _CURVE = 400

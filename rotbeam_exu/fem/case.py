@@ -70,6 +70,11 @@ class RunCase:
         ):
             object.__setattr__(self, name, value)
         require_modeled(self.beam, self.model, self.frame)
+        if not self.model.leaves_plane and any(load.leaves_plane for load in self.loads):
+            raise ValueError(
+                f"element {self.model.name!r} stays in the plane of rotation, out of which a load "
+                "moves the blade: take element='space_exact'"
+            )
         if self.frame == "rotating" and not self.model.constant_mass:
             raise ValueError(
                 f"element {self.model.name!r} is solved in the inertial frame, its inertia being "

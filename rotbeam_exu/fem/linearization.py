@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,12 +13,16 @@ from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
+from analytic.loads import Load
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
 from ..runs.check import SimulationError
 from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
+from .columns import twist
 from .elements import Formulation, formulation
+from .elements.energy_body import add_force
 from .lazily import exudyn
+from .loading import Loading
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
 from .units import Units
@@ -33,8 +38,10 @@ class Linearization:
         Of the free coordinates, as the two that follow.
     stiffness : ndarray (n, n)
     gyroscopic : ndarray (n, n)
-    tip : float
-        Displacement of the tip along the blade, by the rotation.
+    tip : ndarray (dimensions,)
+        Displacement of the tip by rotation and weight, in the axes of the clamp.
+    twist : float
+        Of the tip's section about its normal [rad], as of `simulate`; NaN in the plane.
     units : Units
     mesh : str
         The elements and the speed, in words.
@@ -50,7 +57,8 @@ class Linearization:
     mass: FloatArray
     stiffness: FloatArray
     gyroscopic: FloatArray
-    tip: float
+    tip: FloatArray
+    twist: float
     units: Units
     mesh: str
 
@@ -61,8 +69,12 @@ class Linearization:
         omega: float,
         element: str | Formulation = "cable",
         elements: int = 16,
+        weight: Sequence[Load] = (),
     ) -> Linearization:
-        """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium."""
+        """Linearize a mesh, however coarse, at ω [rad/s]; refuse a speed without equilibrium.
+
+        `weight` are loads that stand still in the turning frame.
+        """
         omega = rotation_speed(omega)
         warn_if_rpm(beam, omega)
         require_steady_state(beam, omega)
@@ -75,6 +87,14 @@ class Linearization:
             built = add_rotating_beam(
                 mbs, unit_beam, rotation, element=model, elements=elements, frame="rotating"
             )
+            if weight:
+                loading = Loading(model, unit_beam, elements, built.mass, units.loads(weight))
+                whole = loading.forces(np.zeros(1), np.zeros(1)).ravel()
+                nothing = [(np.zeros((1, 3)), 0.0, 0.0)]
+                add_force(
+                    mbs, built.nodes, whole.size, force=lambda t, e, rates: t * whole,
+                    derivatives=lambda t, e: nothing,
+                )  # fmt: skip
             mbs.Assemble()
             try:
                 mbs.SolveStatic(settings, updateInitialValues=True)
@@ -83,14 +103,17 @@ class Linearization:
                     f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
                     f"EA = {beam.axial_stiffness:g} N and the speed"
                 ) from error
-            moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Displacement)
+            unloaded = built.chain.reference(mbs)[-1]
+            moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Coordinates)
             settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-        along = model.line_frame(beam)[:, 0]
+        axes = model.line_frame(beam)
+        turn = model.sections(np.stack((unloaded, unloaded + moved)))
+        turned = np.nan if turn is None else twist(axes.T @ turn[1:] @ turn[0].T @ axes)[0]
         return cls(
             mass=mass, stiffness=stiffness, gyroscopic=gyroscopic,
-            tip=float(moved[: model.dimensions] @ along), units=units,
+            tip=moved[: model.dimensions] @ axes, twist=float(turned), units=units,
             mesh=f"{elements} {model.name!r} elements at omega = {omega:g} rad/s",
         )  # fmt: skip
 
@@ -106,7 +129,7 @@ class Linearization:
         To leading order in μ it is Δl_ω = mω²L²/(3EA), Eq. 67. The exact stretch tan(kL)/k - L,
         with k = ω √(ρ/E), is larger by the factor 1 + (2/5)(kL)².
         """
-        return self.tip * self.units.length
+        return float(self.tip[0]) * self.units.length
 
     @property
     def growth_rate(self) -> float:

@@ -1,9 +1,9 @@
 """Loads on a chain and its external damping, in either frame, and the power they bring.
 
 As in `analytic.exact.driven.loading` a load is a complex force in the frame of the clamp, with its
-real part along the blade. It acts per mass, per length, or on the tip. A ripple of the speed is no
-force but part of the clamp's rotation. External damping is -d ṙ per length with the velocity
-relative to the clamp,
+real part along the blade, and one along the axis of rotation. It acts per mass, per length, or on
+the tip. A ripple of the speed is no force but part of the clamp's rotation. External damping is
+-d ṙ per length with the velocity relative to the clamp,
 
     f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
 
@@ -63,8 +63,8 @@ class Loading:
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}
-        # Unit translations along and across the blade.
-        shifts = np.tile(np.eye(2, per_node), size // per_node)
+        # Unit translations along and across the blade, and up.
+        shifts = np.tile(np.eye(model.dimensions, per_node), size // per_node)
         self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
         self._drag, self._model, self._setting = external * of_length, model, model.setting(beam)
         self._acts = bool(forces) or external > 0.0
@@ -80,8 +80,10 @@ class Loading:
         total = np.zeros((t.size, self._drag.shape[0]))
         setting = self._setting if setting is None else setting
         for load, onto in self._pushes:
-            force = load.force((load.frequency or 0.0) * t, angle, setting)
-            total += np.stack([force.real, force.imag], axis=1) @ onto
+            phase = (load.frequency or 0.0) * t
+            force = load.force(phase, angle, setting)
+            parts = np.stack([force.real, force.imag, load.lift(phase)], axis=1)
+            total += parts[:, : len(onto)] @ onto
         return total
 
     def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:

@@ -7,23 +7,23 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.beam import require_planar
 from analytic.exact.beam.state import BeamState
-from analytic.input_checks import finite_number
-from analytic.lazily import integrate
+from analytic.exact.space.steady import require_bent
+from analytic.lazily import integrate, interpolate
 
-_LARGEST_KICK = 0.1
-
-_BETWEEN = 8
-"""Pieces of an element over which the kick is integrated."""
+_ALONG, _BETWEEN = 401, 8
+"""Points of a mode's spline, and pieces of an element over which the kick is integrated."""
 
 
 def kicked(
     blade: AnyBlade,
     kick: float = 1e-6,
     planar: Callable[[FloatArray], BeamState] | None = None,
+    *,
+    by_mode: bool = False,
 ) -> Callable[[FloatArray], BeamState]:
     """Return the `initial_state` for `simulate` of a blade that is bent out of its plane.
 
@@ -39,6 +39,9 @@ def kicked(
     planar : callable, optional
         Planar state onto which the kick is put, as ``lambda x: backbone.state(i, x)``; the
         straight blade at rest by default.
+    by_mode : bool
+        Bend it by the first flap mode at rest, as `spin_up_response(bent=)` does. No other wave is
+        excited, but elements that shear need small steps if the blade is very slender.
 
     Raises
     ------
@@ -57,11 +60,12 @@ def kicked(
     q -4.652 m, w at most 0.0080 m
     """
     require_planar(blade)
-    if abs(finite_number("kick", kick)) > _LARGEST_KICK:
-        raise ValueError(
-            f"kick must be at most {_LARGEST_KICK:g} of the length, got {kick:g}: it is to be "
-            "small, 1e-6 say"
-        )
+    require_bent("kick", kick)
+    slope: Callable[[FloatArray], FloatArray] = lambda x: 2.0 * x / blade.length  # noqa: E731
+    if by_mode:
+        along = np.linspace(0.0, blade.length, _ALONG)
+        mode = linear_modes(blade, 0.0, 1, plane="flap").shapes(along)[:, 0]
+        slope = interpolate.CubicSpline(along, blade.length * mode).derivative()
 
     def state(x: FloatArray) -> BeamState:
         fine = np.linspace(0.0, blade.length, _BETWEEN * (x.size - 1) + 1)
@@ -71,7 +75,7 @@ def kicked(
             if planar is not None
             else BeamState(**dict.fromkeys((one.name for one in fields(BeamState)), zero))
         )
-        tilt = 2.0 * kick * fine / blade.length
+        tilt = kick * slope(fine)
         # The change of the slopes (u', v', w') turns the tangent, and keeps its length.
         tangent = np.stack((1.0 + start.u_slope, start.v_slope))
         slopes = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))

@@ -123,7 +123,7 @@ class _Masses:
                 np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)
                 for h in (_INSTANT, 0.0, -_INSTANT)
             )
-            # In its plane only Euler's acceleration turns a section; ancf3's, set, has ρI s²w² more.
+            # In its plane only Euler's acceleration turns a section; a set ancf3 has ρI s²w² more.
             d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2 + np.cross(W_dot[:, None], d)
             couple -= np.cross(d, self._second @ d_ddot).sum(axis=-2)
         place, section = r[:, count:], section[:, count:]

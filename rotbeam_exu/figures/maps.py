@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
+from matplotlib.colors import SymLogNorm
 
 from ..paper import BLUE, RED
 from .style import colormap, column, house_axes, ink, label
+
+_GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
 
 
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
@@ -72,11 +73,11 @@ def growth_out_of_plane(
     ax: Axes | None = None,
     *,
     spin_ups: Mapping[float, Sequence[float]] | None = None,
-    limits: Mapping[float, float] | None = None,
 ) -> Axes:
     """Draw the map of growth rates over speed and amplitude; white stays in the plane.
 
-    Grey is where no orbit was found.
+    The line is where growth begins: the limit, and below it the tongues. It is smooth with damping,
+    where what is stable decays. Grey is where no orbit was found.
 
     Parameters
     ----------
@@ -86,36 +87,31 @@ def growth_out_of_plane(
         Drawn on these; otherwise on a new figure.
     spin_ups : mapping, optional
         Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s].
-    limits : mapping, optional
-        Amplitudes by `analytic.stability_limit`, by their speeds [rad/s]: a line.
     """
-    rate = np.maximum(data["growth_rate"].to_numpy().T, 1e-9)  # zero has no logarithm
-    colors = mpl.colormaps[colormap("YlOrRd")].with_extremes(under="white", bad="0.8")
+    omega, a, rate = data["omega"].to_numpy(), data["a"].to_numpy(), data["growth_rate"].to_numpy()
     with house_axes(ax, column(), 3.2) as axes:
-        drawn = axes.pcolormesh(
-            data["omega"], data["a"], rate, cmap=colors, norm=LogNorm(0.01, 100.0),
-            shading="nearest", rasterized=True,
+        axes.set_facecolor("0.8")
+        known = np.ma.masked_invalid(rate.T)
+        axes.contourf(omega, a, known, [-np.inf, 0.0], colors="white")
+        drawn = axes.contourf(
+            omega, a, known, _GROWTH_LEVELS, norm=SymLogNorm(0.1, vmin=0.0, vmax=100.0),
+            cmap=colormap("YlOrRd"), extend="max",
         )  # fmt: skip
-        bar = axes.figure.colorbar(drawn, ax=axes, extend="both")
+        bar = axes.figure.colorbar(drawn, ax=axes, ticks=_GROWTH_LEVELS, format="%g")
         bar.set_label(label(data["growth_rate"]))
-        ends = [(omega, a) for omega, peaks in (spin_ups or {}).items() for a in peaks]
+        axes.contour(omega, a, known, [0.0], colors="black", linewidths=0.7)
+        edge = axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
+        ends = [(speed, peak) for speed, peaks in (spin_ups or {}).items() for peak in peaks]
         if ends:
-            axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
-                    clip_on=False, label="ends of spin-ups")  # fmt: skip
-        if limits:
-            axes.plot(*zip(*limits.items(), strict=True), color="black", label="limit")
-            axes.text(0.97, 0.1, "stable in the plane", transform=axes.transAxes, ha="right")
-        if ends or limits:
-            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+            edge += axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
+                              clip_on=False, label="ends of spin-ups")  # fmt: skip
+        axes.legend(handles=edge, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        axes.text(0.97, 0.1, "stable in the plane", transform=axes.transAxes, ha="right")
         axes.set(
-            xlabel=label(data["omega"]), ylabel=label(data["a"]),
-            xlim=(float(data["omega"].min()), float(data["omega"].max())),
+            xlabel=label(data["omega"]), ylabel=label(data["a"]), yscale="log",
+            xlim=(omega[0], omega[-1]), ylim=(a[0], a[-1]),
         )  # fmt: skip
-        axes.set_yscale("log")
-        levels = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]
+        levels = [level for level in (0.01, 0.02, 0.05, 0.1, 0.2, 0.5) if a[0] <= level <= a[-1]]
         axes.set_yticks(levels, [f"{level:g}" for level in levels])
         axes.set_yticks([], minor=True)
-        # White beyond what was computed would say that it stays.
-        edges = np.asarray(drawn.get_coordinates())[:, 0, 1]
-        axes.set_ylim(edges[0], edges[-1])
     return axes

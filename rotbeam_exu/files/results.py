@@ -20,8 +20,8 @@ from . import netcdf
 from .netcdf import plain, same
 
 OUTCOMES = frozenset(
-    {"divergence_speed", "error", "failure", "limit", "limit_converged", "residual", "sentence"}
-    | {"settings", "solution", "tongues", "verdict", "versions", "wall_time"}
+    {"divergence_speed", "error", "failure", "residual", "sentence"}
+    | {"settings", "solution", "verdict", "versions", "wall_time"}
 )
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 
@@ -95,20 +95,23 @@ def _spread(variable: xr.Variable, data: xr.Dataset) -> list[Any]:
     return list((values if values.dtype.kind in "fiub" else values.astype(str)).tolist())
 
 
+def parts(data: xr.Dataset) -> dict[str, xr.Dataset]:
+    """Return the part of each set of dimensions, by the name of its first variable."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, variable in data.data_vars.items():
+        groups.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
+    return {names[0]: data[names] for names in groups.values()}
+
+
 def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
     """Write a Dataset as CSV, one table for each set of dimensions, and return the paths.
 
     A single table takes the name of `path`; of several, each adds the name of its first variable.
     """
-    groups: dict[tuple[str, ...], list[str]] = {}
-    for name, variable in data.data_vars.items():
-        groups.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
-    if len(groups) == 1:
+    tables = parts(data)
+    if len(tables) == 1:
         return [save(data, path)]
-    return [
-        save(data[names], path.with_name(f"{path.stem}-{names[0]}.csv"))
-        for names in groups.values()
-    ]
+    return [save(part, path.with_name(f"{path.stem}-{name}.csv")) for name, part in tables.items()]
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:

@@ -36,7 +36,8 @@ _MARKS = {
 
 def report_page(record: Record) -> str:
     """Return the page as text."""
-    found = record.judgement
+    found, stated = record.judgement, record.judgement.declaration
+    orders = (stated.order, "mesh"), (stated.order_in_step, "step")
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -48,11 +49,11 @@ def report_page(record: Record) -> str:
         title=f"{TITLE}: {record.name}",
         record=record,
         found=found,
-        stated=found.declaration,
+        stated=stated,
+        orders=", ".join(f"{order:g} in {part}" for order, part in orders if order),
         benchmark=VERSION,
         cases=CASES,
         thresholds=THRESHOLDS,
-        not_submitted=Outcome.NOT_SUBMITTED,
         reference=Outcome.REFERENCE,
         quantities=[
             name for name in THRESHOLDS if any(name in of for of in found.findings.values())

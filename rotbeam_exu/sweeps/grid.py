@@ -118,11 +118,11 @@ def sweep(
     if part > parts:
         raise ValueError(f"shard {part}/{parts}: the part must be between 1 and {parts}")
     mine = list(cases)[part - 1 :: parts]
-    store = None if cache is None else _store(cache, element)
+    store = None if cache is None else cache_of(cache, element)
     results: dict[tuple[float, float], xr.Dataset] = {}
     try:
         for done, (point, result) in enumerate(
-            _solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
+            solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
         ):
             results[point] = result
             if progress is not None:
@@ -173,7 +173,8 @@ def _grid(
     }
 
 
-def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
+def cache_of(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
+    """Return the cache in a folder; none, with a warning, of an element that no file defines."""
     model = formulation(element)
     made_by = maker(model)
     if made_by is None:
@@ -186,7 +187,7 @@ def _store(folder: str | os.PathLike[str], element: str | Formulation) -> Cache 
     return Cache(folder, made_by=made_by)
 
 
-def _solved(
+def solved(
     cases: dict[tuple[float, float], RunCase],
     store: Cache | None,
     executor: Executor | None,

@@ -11,12 +11,12 @@ import numpy as np
 
 from analytic import AnyBlade
 
-from ..datasets import OMEGA, dataset
 from ..fem.case import RunCase
 from ..fem.elements import Formulation
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..lazily import xr
+from ..result_columns import OMEGA, dataset
 from ..runs.check import SimulationError
 from ..runs.oscillation import NoOscillationError, steady_oscillation
 from ..runs.versions import versions

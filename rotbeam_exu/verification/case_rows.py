@@ -24,9 +24,9 @@ class CaseColumn:
 
 _TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
 _ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
-_WEIGHT = "$g = {}$ m/s² along $-Y$, from $t = 0$ on"
+_LEVEL = "along $-bold(b)_3$"
 _OMEGA = CaseColumn("omega", "rad/s")
-_PITCH = "twist $theta = {}$ rad at the tip, linear in $x$"
+_PITCH = "twist $theta = {}$"
 COLUMNS = {
     "length": CaseColumn("L", "m"),
     "section.axial_stiffness": CaseColumn("EA", "N"),
@@ -35,12 +35,14 @@ COLUMNS = {
     "section.out_of_plane.bending_ratio": CaseColumn("EI_flap/EI", "1"),
     "section.out_of_plane.torsion_ratio": CaseColumn("GJ/EI", "1"),
     "line.twist.in proportion": CaseColumn("twist", "rad", 0.0, _PITCH),
-    "line.precone": CaseColumn("precone", "rad", 0.0, "precone $beta = {}$ rad"),
+    "line.precone": CaseColumn("precone", "rad", 0.0, "precone $beta = {}$"),
     "hub_radius": CaseColumn("hub_radius", "m", 0.0),
     "point_masses.PointMass.mass": _TIP_MASS,
     "point_masses.PointMass.position": CaseColumn("L", "m"),
     "damping.bending": CaseColumn("bending_damping", "s", 0.0, _ETA),
-    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, _WEIGHT),
+    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, "gravity $g = {}$ m/s²"),
+    "loads.Gravity.tilt": CaseColumn("gravity_tilt", "rad", 0.0, _LEVEL),
+    "kick": CaseColumn("kick", "m/s", 0.0, "kick $v = {}$ m/s"),
     "motion.SpinUp.omega": _OMEGA,
     "motion.SteadyRotation.omega": _OMEGA,
     "motion.SpinUp.ramp_time": CaseColumn("T", "s"),
@@ -83,6 +85,7 @@ def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
     yield from _parts("", case.blade.blade)
     yield from _parts("motion.", (case.motion,) if case.motion else ())
     yield from _parts("loads.", case.loads)
+    yield from _parts("kick", case.kick) if case.kick else ()
 
 
 def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:

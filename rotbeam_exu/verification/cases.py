@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from analytic import (
@@ -16,16 +17,19 @@ from analytic import (
     Gravity,
     SpinUp,
     SteadyRotation,
+    Tube,
     periodic_orbits,
 )
+from analytic.arrays import FloatArray
+from analytic.exact.beam.state import BeamState, kicked_state
 from analytic.loads import Load
 from analytic.theory import BERNOULLI_EULER, Theory
 
 if TYPE_CHECKING:
     from analytic.exact.free.orbits import Orbits
 
-VERSION = "1.0"
-"""Version of the benchmark: of its cases, references and thresholds."""
+VERSION = "1.1"
+"""Version of the benchmark: the first number of its thresholds, the second of its list of cases."""
 
 
 class Level(StrEnum):
@@ -60,7 +64,10 @@ class Case:
     name : str
         As files and folders are named: "L", "S1", "S1+h".
     level : Level
-    title : str Title in a few words. asked : Asked blade : Beam or Blade
+    title : str
+        In a few words.
+    asked : Asked
+    blade : Beam or Blade
         Damping included.
     motion : SpinUp or SteadyRotation, optional
         How the clamp turns, of a history.
@@ -73,6 +80,8 @@ class Case:
     amplitudes : tuple of float
         Peak |q|/L: of a history the orbit it starts on, of a backbone its points.
     loads : tuple
+    kick : float
+        Speed of the tip out of the plane at t = 0 [m/s], as `spin_up_response` has it.
     oscillates : bool
         Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
     in_space : bool
@@ -91,6 +100,7 @@ class Case:
     speeds: tuple[float, ...] = ()
     amplitudes: tuple[float, ...] = ()
     loads: tuple[Load, ...] = ()
+    kick: float = 0.0
     oscillates: bool = False
     count: int = 1
     in_space: bool = False
@@ -120,7 +130,7 @@ class Case:
 
     @property
     def is_spun_up(self) -> bool:
-        """True where its history starts at rest; else it starts on an orbit."""
+        """True where its history starts straight; else it starts on an orbit."""
         return self.motion is not None and not self.amplitudes
 
     @property
@@ -141,6 +151,13 @@ class Case:
         if self.motion is None or not self.amplitudes:
             raise ValueError(f"case {self.name} starts at rest, on no orbit")
         return periodic_orbits(self.blade, self.motion.omega, self.amplitudes)
+
+    @property
+    def start(self) -> Callable[[FloatArray], BeamState] | None:
+        """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
+        if self.kick:
+            return partial(kicked_state, self.blade.length, self.kick)
+        return None if self.is_spun_up else partial(self.orbit.state, 0)
 
     def whole_duration(self, step: float) -> float:
         """Return the duration, or a little more that is a whole number of steps [s]."""
@@ -266,7 +283,7 @@ def _stout(beam: Beam) -> tuple[Case, ...]:
 
 
 def _in_space() -> tuple[Case, ...]:
-    """Return the cases of a plastic blade, a full ellipse of 320 mm by 80 mm."""
+    """Return the cases of a plastic blade, a full ellipse of 320 mm by 80 mm, and of a tube."""
     height, width = 0.32, 0.08
     beam = Beam(
         length=8.0, area=0.25 * math.pi * height * width,
@@ -293,6 +310,15 @@ def _in_space() -> tuple[Case, ...]:
         case(
             "W", "spin-up of a twisted blade", Asked.HISTORY, twisted, duration=15.0,
             motion=SpinUp(omega=3.0, ramp_time=4.0),
+        ),
+        case(
+            "G", "gravity normal to the plane, steady state", Asked.STEADY, twisted,
+            speeds=speeds[1:], loads=(Gravity(9.81, tilt=0.5 * math.pi),),
+        ),
+        case(
+            "K", "S1, kicked out of the plane", Asked.HISTORY,
+            Beam.reference().with_shape(Tube()), motion=SpinUp(omega=6.0, ramp_time=3.0),
+            duration=15.0, kick=2.0,
         ),
     )  # fmt: skip
 

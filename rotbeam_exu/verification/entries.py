@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from functools import partial
 
 import numpy as np
 
@@ -49,37 +48,38 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         if getattr(model, field.name) != field.default
     ]
 
-    def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
+    def require(blade: AnyBlade) -> None:
         try:
-            require_modeled(case.blade, model)
+            require_modeled(blade, model)
         except ValueError as error:
             raise NotImplementedError(str(error)) from error
+
+    def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
+        require(case.blade)
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
-        if case.in_space is not model.leaves_plane:
-            raise NotImplementedError(f"{model.name} is for the plane, or for space")
         found = simulate(
             case.blade, case.rotation, element=model, elements=elements, step=step,
             duration=case.whole_duration(step), loads=case.loads,
-            initial_state=None if case.is_spun_up else partial(case.orbit.state, 0),
+            initial_state=case.start,
         )  # fmt: skip
         return found.rename(q="lag", w="flap") if case.in_space else found
 
     def lowest(beam: AnyBlade, omega: float, elements: int, count: int) -> FloatArray:
-        try:
-            require_modeled(beam, model)
-        except ValueError as error:
-            raise NotImplementedError(str(error)) from error
+        require(beam)
         return np.asarray(Linearization.of(beam, omega, model, elements).frequencies(count))
 
-    def first(beam: AnyBlade, omega: float, elements: int) -> float:
-        return float(lowest(beam, omega, elements, 1)[0])
+    def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
+        require(case.blade)
+        found = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
+        return np.array([*(case.blade.length * found.tip[1:]), found.twist])
 
     return Entry(
         name=" ".join([model.name, *options]),
         simulate=simulated,
-        first_frequency=None if model.leaves_plane else first,
-        frequencies=lowest if model.leaves_plane else None,
+        frequencies=lowest,
+        in_space=model.leaves_plane,
+        steady_tip=steady_tip if model.leaves_plane else None,
         elements=elements or (32 if model.order == _SECOND else 16),
         meshes=() if elements else model.meshes,
         step=step,

@@ -93,7 +93,7 @@ class Models:
         gram = runs @ runs.T / runs.shape[1]
         forms = self.projections.reshape(len(self.prior), -1)
         left = forms @ gram.ravel()
-        # Of steps that go down by a hundred to the eighth power nothing but round-off is left.
+        # Round-off alone is left of steps that go down by a hundred to the eighth power.
         least = _ROUND_OFF * (np.abs(forms) @ np.abs(gram.ravel())) + 1e-300
         likely = self.volume - 0.5 * (len(runs) - 1) * np.log(np.maximum(left, least))
         return np.asarray(self.prior + likely)
@@ -123,7 +123,7 @@ def _modeled(
     covariance = mesh + step
     each = np.arange(x.size)
     size = covariance[:, each, each]
-    # What mesh and step have together ends where either does.
+    # Errors of mesh and step together end where either does.
     smaller = np.minimum(mesh[:, each, each], step[:, each, each]) if step.any() else size
     own = _OWN**2 * smaller + _LEAST**2 * size
     covariance[:, each, each] += own + (given[5] ** 2 * size.min(axis=1))[:, None]
@@ -205,7 +205,7 @@ def likeliest(models: Models, evidence: FloatArray, runs: FloatArray) -> Models:
 def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: FloatArray) -> float:
     """Return how far the limit, `weights` times the runs, may be off by all models.
 
-    Of functions at the sample that is known worst.
+    Functions are taken at the sample that is known worst.
     """
     kept = evidence > evidence.max() + math.log(_LIKELY)
     share = np.exp(evidence[kept] - evidence.max())

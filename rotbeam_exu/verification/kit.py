@@ -185,10 +185,11 @@ def _looked_at() -> list[dict[str, Any]]:
         if not case.in_space:
             continue
         truth = reference(case)
-        at = case.speeds[-1:] or (5.0, 10.0, 15.0)
+        at = case.speeds[-1:] or (5.0, 15.0)
+        at_text = "{:g} rad/s" if case.speeds else "$t$ = {:g} s"
         rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
         found += [
-            {"id": case.name, "at": x, "row": [f"{value:.4g}" for value in row.tolist()]}
+            {"id": case.name, "at": at_text.format(x), "row": [f"{v:.4g}" for v in row.tolist()]}
             for x, row in zip(at, rows, strict=True)
         ]
     return found

@@ -36,7 +36,7 @@ class Reference:
         Of the code; the case may add to it, `Case.theory_of`.
     bound : float
         Relative error: of a history over max|q|, interpolation included, else of frequencies.
-        Of a tip in space that of its worst component.
+        A tip in space has that of its worst component.
     source : str
         Which file and how it was made, or how it was computed.
     """
@@ -179,12 +179,14 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
     """Compute the numbers asked for at a speed [rad/s], and the largest relative error of them."""
     theory, blade = case.theory_of(declared), case.blade
     if case.asked is Asked.STEADY:
-        steady = steady_state(blade, speed, theory=theory)
+        # Loads that stand still in the turning frame are weight, along the axis of rotation.
+        weight = -sum(float(load.lift(np.zeros(1))[0]) for load in case.loads)
+        steady = steady_state(blade, speed, gravity=weight, theory=theory)
         row = np.array([steady.tip[1], steady.tip[2], steady.twist])
         scales = np.abs(row) / (blade.length, blade.length, 1.0)
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
     if case.in_space:
-        # Of a straight blade too, whose `linear_modes` are those in its plane; loaded where needed.
+        # A straight blade comes here too: its `linear_modes` are those in its plane. Loaded late.
         from analytic.exact.space.modes import space_modes  # noqa: PLC0415
 
         return space_modes(blade, speed, case.count, theory).frequencies, COMPUTED_BOUND
@@ -224,8 +226,9 @@ def sampled_history(
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
         found: Any = spin_up_response(
-            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory
-        )
+            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory,
+            kick=case.kick,
+        )  # fmt: skip
         q, error = found.q, found.error
         if case.in_space:
             # Its error is over the largest of lag and flap, to which all components are small.

@@ -29,8 +29,8 @@ from .references import Sampled, row_of, sampled_history
 SPACING = 5e-3
 """Time between the shipped samples [s]."""
 
-TOLERANCES = {"S1+g": 2e-6}
-"""Tolerance of q over max|q|, 1e-8 of others: gravity sets in at once, and moves high modes."""
+TOLERANCES = {"S1+g": 2e-6, "K": 1e-7}
+"""Tolerance of q over max|q|, 1e-8 of others: what sets in at once moves high modes."""
 
 _WORST = 1e-8  # relative error of ω_NL between the points of a backbone
 _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress
@@ -149,7 +149,7 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
         spline = interpolate.CubicSpline(at[:count] ** 2, known[:count])
         halves = slice(count - 2)
         errors = np.abs((spline(halfway[halves] ** 2) - between[halves]) * halfway[halves] ** 2)
-        # What is not a number is no good either.
+        # NaN is no good either.
         bad = np.flatnonzero(~(errors <= _WORST))
         if bad.size == 0:
             break

@@ -24,7 +24,7 @@ from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
-DIGEST = "cdd9ea1bc8ea07d60dcb86148a922fcf908afd98218f6d94bd0bdb20b05ad2f6"
+DIGEST = "b47671f0fcc83cabdcfb3aeb183c29d58b218c23b6cb07b2061a70db6da0b796"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
 _REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
@@ -77,7 +77,8 @@ def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
 def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
-    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked)
+    kick = (case.kick,) if case.kick else ()
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked, *kick)
     theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
@@ -145,6 +146,7 @@ class Shipped:
         asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
         for own in CASES.values():
             alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            alike = alike and (asked is Asked.FREQUENCIES or own.loads == case.loads)
             if not alike or speed not in own.speeds or case.count > own.count:
                 continue
             k = self._of["table"].get(said(key(own, theory)))

@@ -27,15 +27,15 @@ from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
+from .cases import CASES, SPEEDS, TIP, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
-from .submission import Declaration, Frequency, Run, Submission
+from .submission import Declaration, Frequency, Run, SteadyTip, Submission
 
 DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
 the orbit of O the beam hardens; S2 leaves too little for that."""
 
-IN_SPACE = ("F", "F+p", "W")
+IN_SPACE = ("F", "F+p", "P", "W", "G")
 """Cases that `verify` takes of a code in space."""
 
 LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
@@ -53,7 +53,8 @@ class Code(Protocol):
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
         is the `BeamState` at material points x [m]. Samples are even, at least 100 a period, and
-        go from 0 to `case.duration` or a little beyond.
+        go from 0 to `case.duration` or a little beyond. With `case.kick` it starts in the state
+        `case.start(x)`, straight, but in motion out of the plane.
 
         Raises
         ------
@@ -73,11 +74,14 @@ class Entry:
     name : str
         Shown in the table.
     simulate : Code
-    first_frequency : callable, optional
-        (beam, omega, elements) -> first natural frequency [rad/s] in steady rotation, where the
-        code has it.
     frequencies : callable, optional
-        (blade, omega, elements, count) -> the lowest ones [rad/s] of a blade in space.
+        (blade, omega, elements, count) -> lowest natural frequencies [rad/s] in steady rotation,
+        where the code has them.
+    in_space : bool
+        Whether the code does cases in space, and those only.
+    steady_tip : callable, optional
+        (case, omega, elements) -> lag [m], flap [m] and twist [rad] of the tip at rest in the
+        turning frame, under the loads of the case.
     elements, step
         Mesh and step [s] of the judged run.
     meshes : tuple of int, optional
@@ -92,8 +96,9 @@ class Entry:
 
     name: str
     simulate: Code
-    first_frequency: Callable[[AnyBlade, float, int], float] | None = None
-    frequencies: Callable[[AnyBlade, float, int, int], FloatArray] | None = None
+    frequencies: Callable[[AnyBlade, float, int, int], Sequence[float] | FloatArray] | None = None
+    in_space: bool = False
+    steady_tip: Callable[[Case, float, int], FloatArray] | None = None
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()
@@ -143,7 +148,7 @@ def verify(
     1 of 2 agrees, 1 undecided (L)
     """
     if beam is None and spin_up is None:
-        cases = [CASES[name] for name in (IN_SPACE if entry.frequencies else DEFAULT)]
+        cases = [CASES[name] for name in (IN_SPACE if entry.in_space else DEFAULT)]
     else:
         blade, motion = _by_default(beam, spin_up)
         speeds = tuple(speed * faster_than_paper(blade) for speed in SPEEDS)
@@ -154,9 +159,10 @@ def verify(
 def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     """Run a code over the cases that it does, and return its submission.
 
-    Frequencies on its own meshes; histories on these meshes at twice its step, and on its mesh at
-    one, two and four of its steps. What fails is on record with its sentence.
+    Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
+    on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
+    cases = [case for case in cases if case.in_space is entry.in_space]
     frequencies = [
         one
         for case in cases
@@ -165,13 +171,21 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
         for elements in entry.own_meshes
         for one in _frequencies(entry, case, speed, elements)
     ]
+    steady = [
+        one
+        for case in cases
+        if case.asked is Asked.STEADY
+        for speed in case.speeds
+        for elements in entry.own_meshes
+        for one in _steady(entry, case, speed, elements)
+    ]
     runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,
             order_in_step=entry.order_in_step,
         ),
-        frequencies=tuple(frequencies), runs=tuple(runs),
+        frequencies=tuple(frequencies), steady=tuple(steady), runs=tuple(runs),
     )  # fmt: skip
 
 
@@ -186,23 +200,33 @@ def _by_default(beam: AnyBlade | None, spin_up: SpinUp | None) -> tuple[AnyBlade
 
 def _frequencies(entry: Entry, case: Case, speed: float, elements: int) -> list[Frequency]:
     """Return the frequencies of a mesh at a speed, none if the code does not have them."""
-    if (entry.frequencies if case.in_space else entry.first_frequency) is None:
+    if entry.frequencies is None:
         return []
     made = [
         Frequency(case=case.name, elements=elements, speed=speed, number=number)
         for number in range(1, case.count + 1)
     ]
     try:
-        if case.in_space and entry.frequencies is not None:
-            found = entry.frequencies(case.blade, speed, elements, case.count).tolist()
-        else:
-            assert entry.first_frequency is not None
-            found = [entry.first_frequency(case.blade, speed, elements)]
+        found = entry.frequencies(case.blade, speed, elements, case.count)
     except NotImplementedError:
         return []
     except RuntimeError as error:
         return [replace(one, failure=str(error)) for one in made]
-    return [replace(one, frequency=value) for one, value in zip(made, found, strict=True)]
+    return [replace(one, frequency=float(value)) for one, value in zip(made, found, strict=True)]
+
+
+def _steady(entry: Entry, case: Case, speed: float, elements: int) -> list[SteadyTip]:
+    """Return the steady tip of a mesh at a speed, none if the code does not have it."""
+    if entry.steady_tip is None:
+        return []
+    row = SteadyTip(case=case.name, elements=elements, speed=speed)
+    try:
+        found = dict(zip(TIP, entry.steady_tip(case, speed, elements).tolist(), strict=True))
+    except NotImplementedError:
+        return []
+    except RuntimeError as error:
+        return [replace(row, failure=str(error))]
+    return [replace(row, **found)]
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:

@@ -10,7 +10,6 @@ from analytic import (
     SpinUp,
     TipForce,
     damping_ratios,
-    forced_response,
     linear_modes,
     spin_up_response,
 )
@@ -41,23 +40,6 @@ def test_damping_ratios_in_rotation():
         damping_ratios(BEAM.with_damping(Damping.from_ratio(BEAM, 1, 0.1)), 0.0)
 
 
-@pytest.mark.slow  # test_forced integrates a period of responses, and Exudyn settles on gravity's
-def test_in_time_the_beam_settles_on_its_response_to_gravity():
-    """From rest through a spin-up, by an integrator that knows no Fourier series."""
-    omega, gravity = 2.0 * SCALE, 1.791 * FORCE / BEAM.mass_per_length
-    blade = by_mass(1.5)
-    settled = forced_response(blade, [0.9 * omega, omega, 1.1 * omega], Gravity(gravity))
-    spin_up = SpinUp(omega=omega, ramp_time=6.0)
-    # The transient falls by exp(-½ 1.5 SCALE t), to 1e-7 by then.
-    period = 2.0 * np.pi / omega
-    end = 6.0 + 9.0 * period
-    time = end + period * np.arange(40) / 40.0
-    found = spin_up_response(blade, spin_up, time, tolerance=1e-6, loads=(Gravity(gravity),))
-    (i,) = settled.at(omega)
-    expected = settled.response(spin_up.angle(time), i)
-    assert found.q / BEAM.length == pytest.approx(expected, abs=2e-6)
-
-
 @pytest.mark.parametrize(
     "damping",
     [Damping(bending=2e-3), Damping(external=0.02 * BEAM.mass_per_length * SCALE)],
@@ -72,7 +54,7 @@ def test_free_vibration_decays_at_the_damping_ratio(damping):
     spin_up = SpinUp(omega=omega, ramp_time=8.0)
     period = 2.0 * np.pi / frequency
     time = 10.0 + period * np.arange(400) / 100.0
-    q = spin_up_response(blade, spin_up, time, tolerance=1e-6).q
+    q = spin_up_response(blade, spin_up, time, tolerance=1e-5).q
     # ∫q² over a period falls by exp(-4πζ), higher modes decaying faster or being 1e-3 of it.
     energy = np.sum((q**2).reshape(4, 100), axis=1)
     found = -np.polyfit(np.arange(4), np.log(energy), 1)[0] / (4.0 * np.pi)

@@ -7,7 +7,6 @@ from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, spin_up_response
 from analytic.exact.beam.discretization import continuum
-from analytic.exact.space.continuum import SpaceContinuum
 from analytic.methods.collocation import radau
 
 
@@ -68,26 +67,6 @@ def test_agrees_with_a_library_integrator(beam):
         q, q_dot = positions[-1], velocities[-1]
     ours, theirs = model.tip(q), model.tip(library.y[:n, -1])
     assert abs(ours - theirs) < 1e-6  # of the length; the library's own error at 1e-8 a step
-
-
-def test_steps_in_space_take_the_tangent_of_those_before(beam, monkeypatch):
-    """As long as it contracts: fewer tangents for the same tip; in the plane a step has its own."""
-    formed, tangent = [], SpaceContinuum.tangent
-    monkeypatch.setattr(
-        SpaceContinuum,
-        "tangent",
-        lambda *args, **named: formed.append(0) or tangent(*args, **named),
-    )
-    twisted = beam.with_section_out_of_plane(1.0, 1.0).with_twist(0.3)
-    counts, tips = [], []
-    for dear in (True, False):
-        monkeypatch.setattr(SpaceContinuum, "has_dear_tangent", dear)
-        formed.clear()
-        found = spin_up_response(twisted, SpinUp(omega=2.0, ramp_time=3.0), [3.0], tolerance=1e-6)
-        counts.append(len(formed))
-        tips.append(found.tip)
-    assert counts[0] < 0.9 * counts[1]
-    assert tips[0] == pytest.approx(tips[1], abs=1e-11 * beam.length)
 
 
 def test_order_of_the_collocation(fitted_order):

@@ -4,7 +4,7 @@ import warnings
 
 import pytest
 
-from analytic import VARIANTS, Theory, periodic_orbits, reduced_model
+from analytic import VARIANTS, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from analytic.reduced.speeds import softening_speed
 from tests.beams import unit_beam
@@ -20,18 +20,6 @@ def test_a_stocky_beam_is_named_with_the_two_numbers():
     # What the warning says is what is missing: 4μ, and μw̄² of ω_n, both to a tenth.
     assert exact.lambda_omega - model.lambda_omega == pytest.approx(4e-3, rel=0.1)
     assert 1.0 - exact.omega_n / model.omega_n == pytest.approx(1e-3, rel=0.15)
-
-
-@pytest.mark.parametrize("w_bar", [0.0, 4.0, 8.0, 12.0])
-def test_the_extension_adds_four_to_five_times_the_slenderness(w_bar):
-    mu = 1e-4
-    exact, stiff = (
-        periodic_orbits(
-            unit_beam(mu), w_bar, [0.05], functions=20, theory=Theory(extension=not without)
-        )
-        for without in (False, True)
-    )
-    assert 3.8 < (exact.lambda_omega - stiff.lambda_omega) / mu < 5.4
 
 
 def test_fast_rotation_of_a_beam_that_is_slender_enough_at_rest():
@@ -55,8 +43,7 @@ def test_the_papers_beam_gets_no_warning(beam):
         reduced_model(beam, 24.0, "FrM")
 
 
-def test_softening_speed_is_that_of_the_inextensible_beam(beam):
-    assert softening_speed(beam) / beam.omega_0 == pytest.approx(1.021902, abs=5e-7)
+def test_softening_speed_of_the_extensible_beam(beam):
     # Extensible, λ_ω vanishes earlier; 2.97214 rad/s, Ω = 1.02162, to the last digit.
     for omega, sign in ((2.97213, -1.0), (2.97215, 1.0)):
         assert sign * periodic_orbits(beam, omega, [0.05]).lambda_omega > 0.0

@@ -20,7 +20,7 @@ def deflection_frequencies(rate, count):
     return 1.0 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True)[:-4:-1])
 
 
-@pytest.mark.parametrize("rate", [0.0, 3.0, 12.0, 150.0, 1000.0, 1500.0])
+@pytest.mark.parametrize("rate", [3.0, 12.0, 150.0, 1500.0])
 def test_inextensible_modes_are_those_of_the_equation_in_the_deflection(rate):
     found = linear_modes(unit_beam(1e-10), rate, theory=Theory(extension=False)).frequencies
     # With twenty functions the fast ones are off by 2.7e-4, 34 % and 58 % in the first.

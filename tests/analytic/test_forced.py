@@ -159,6 +159,7 @@ def test_a_small_load_gives_the_linear_response():
     assert not found.folds
 
 
+@pytest.mark.slow  # at the peak damping takes what the load gives on the free orbit as well
 def test_as_damping_and_load_vanish_the_peak_runs_onto_the_backbone(rippled):
     omega_n = linear_modes(BEAM, 6.0, theory=Theory(extension=False)).frequencies[0]
     smaller = (
@@ -179,21 +180,6 @@ def test_as_damping_and_load_vanish_the_peak_runs_onto_the_backbone(rippled):
     assert distances[0] < 1e-3 * 0.008 / 4.5
     assert distances[1] < 0.6 * distances[0]
     assert distances[2] < 0.6 * distances[1]
-
-
-def test_leading_order_is_a_few_percent_high(loaded, rippled):
-    """(ν/ω_n - 1 + λa²)² + (d/2ω_n)² = (G/(2ω_n²a))²: its peak is G/(d ω_n)."""
-    x, weights = np.polynomial.legendre.leggauss(60)
-    x, weights = 0.5 * (x + 1.0), 0.5 * weights
-    ratios = []
-    for response, omega, c in ((loaded, 2.0, 0.004), (rippled, 6.0, 0.008)):
-        modes = linear_modes(BEAM, omega, theory=Theory(extension=False))
-        w_n, phi = modes.frequencies[0] / SCALE, modes.shapes(x * BEAM.length)[:, 0]
-        drive = 0.0045 * phi if response is loaded else 0.003 * w_n * x * phi
-        peak = (weights @ drive) / (weights @ phi**2) / (c * w_n)
-        ratios.append(peak / response.peaks[0].amplitude)
-    # Mass damping brakes the foreshortening too, which the leading order leaves out.
-    assert ratios == pytest.approx([1.0807, 1.0349], abs=1e-4)
 
 
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")

@@ -13,7 +13,7 @@ from analytic.methods.newton import NoOrbitError
 class Orbits:
     """Orbits of which `per_radian(a, finer)` tells the growth; none is larger than `end`."""
 
-    beam, omega, mode = None, 2.0, 1
+    blade, omega, mode, damping, damped = None, 2.0, 1, 0.0, False
 
     def __init__(self, per_radian, end=1.0):
         self.per_radian, self.end, self.asked = per_radian, end, []
@@ -87,6 +87,21 @@ def test_a_limit_that_only_the_finer_resolution_sees_is_found():
         Orbits(lambda a, finer: 0.1 * (a * min(1.0, 0.98 + 0.01 * finer) - 0.497)), 0.01, 0.6
     )
     assert found.amplitude == pytest.approx(0.597, rel=1.1e-4)
+
+
+def test_ends_of_damped_tongues_are_bisected():
+    def tongues(a, finer):
+        return max(0.01 * (0.02 - abs(a - 0.2)), 0.01 * (0.005 - abs(a - 0.3)), a - 0.4, 0.0)
+
+    orbits = Orbits(tongues)
+    orbits.damped = True
+    found = _limit(orbits, GROWTH / (2.0 * np.pi), 0.6)
+    # GROWTH begins 1.6e-4 inside of a tongue that rises by 0.01.
+    ends = [(tongue.low, tongue.high) for tongue in found.tongues]
+    inside = GROWTH / (2.0 * np.pi) / 0.01
+    wanted = [(0.18 + inside, 0.22 - inside), (0.295 + inside, 0.305 - inside)]
+    assert np.array(ends) == pytest.approx(np.array(wanted), rel=1e-4)
+    assert found.amplitude == pytest.approx(0.4, rel=1e-4)
 
 
 def test_tongues_are_apart_and_the_strongest_names_each():

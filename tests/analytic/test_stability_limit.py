@@ -25,7 +25,7 @@ from analytic import (
 from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import Space, with_points_for
 from analytic.exact.beam.steady import steady_rotation
-from analytic.exact.plane.growth import _steady_modes
+from analytic.exact.plane.growth import _steady_modes, planar_orbits
 from analytic.exact.plane.planarity import PlanarStability, growth_rates, planar_note
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
@@ -98,6 +98,22 @@ def test_the_limits_of_the_table(beam, omega, ratio):
 @pytest.fixture(scope="module")
 def strip_at_6(beam):
     return stability_limit(beam.with_shape(Rectangle()), 6.0, largest=0.1)
+
+
+@pytest.mark.slow
+def test_with_damping_the_limit_and_the_ends_of_tongues_are_numbers(beam):
+    """Three times the functions and steps grow on one side alone, to the four digits printed."""
+    strip = beam.with_shape(Rectangle())
+    found = stability_limit(strip, 2.0, damping=0.005, largest=0.1)
+    assert found.amplitude == pytest.approx(0.04018, abs=1e-5)
+    assert found.converged
+    assert len(found.tongues) == 2  # 6 without damping
+    orbits = planar_orbits(strip, 2.0, damping=0.005)
+    ends = [(tongue.low, tongue.high) for tongue in found.tongues]
+    for end, into in [(found.amplitude, 5e-4), *((low, 5e-4) for low, _ in ends),
+                      *((high, -5e-4) for _, high in ends)]:  # fmt: skip
+        grows = [orbits.growth(end * (1.0 + off), 3).unstable for off in (-into, into)]
+        assert grows == [False, True]
 
 
 @pytest.mark.slow  # cheaper sections below have a tongue and a limit that their edges tell
@@ -270,9 +286,14 @@ UNIT = Blade(
             lambda: planar_stability(UNIT.with_shape(ROUND).with_setting_angle(0.3), 1.0, 0.1),
             r"set at 0.3 rad: take blade.with_setting_angle\(0.0\)",
         ),
+        (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 0.1, damping=-0.1), "not be neg"),
         (
-            lambda: stability_limit(UNIT.with_shape(ROUND).with_damping(Damping(bending=0.1)), 1.0),
-            "damped blade has no free periodic orbits",
+            lambda: planar_stability(
+                UNIT.with_section_out_of_plane(0.5, 0.5, 0.0).with_damping(Damping(bending=0.1)),
+                1.0,
+                0.1,
+            ),
+            "twist without inertia .* take polar_inertia above zero",
         ),
         (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 1.5), "between 0 and 1"),
         (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),

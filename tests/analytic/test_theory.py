@@ -29,24 +29,6 @@ def test_the_beam_as_a_blade_is_the_same(theory):
         assert answer(blade) == pytest.approx(answer(STUBBY), rel=1e-10)
 
 
-def test_each_has_its_own_frequency():
-    thin, heavy, soft = (
-        first_frequency(STUBBY, one)
-        for one in (BERNOULLI_EULER, Theory(rotary_inertia=True), SHEARED)
-    )
-    assert soft < heavy < thin < first_frequency(STUBBY, Theory(extension=False))
-
-
-def test_orbits_and_histories_shear():
-    spin_up, times = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 2.0, 21)
-    thin, soft = (
-        spin_up_response(STUBBY, spin_up, times, theory=one).q for one in (BERNOULLI_EULER, SHEARED)
-    )
-    assert 1e-3 < np.abs(soft - thin).max() / np.abs(thin).max() < 1e-1
-    orbit = periodic_orbits(STUBBY, 3.0, [1e-3], theory=SHEARED)
-    assert orbit.frequency[0] == pytest.approx(first_frequency(STUBBY, SHEARED), rel=1e-6)
-
-
 def test_a_taper_has_the_inertia_of_its_own_sections():
     blade = STUBBY.with_taper(0.2, 0.4)
     own = replace(
@@ -80,9 +62,11 @@ def test_a_section_without_one_density_is_refused():
 def test_the_spin_up_without_extension_is_the_limit_of_slender_beams():
     """The axial motion leaves q by the slenderness μ, to first order."""
     spin_up, times = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 2.0, 21)
-    limit = spin_up_response(STUBBY, spin_up, times, theory=Theory(extension=False)).q
+    limit = spin_up_response(
+        STUBBY, spin_up, times, tolerance=1e-6, theory=Theory(extension=False)
+    ).q
     apart = [
-        np.abs(spin_up_response(beam, spin_up, times).q - limit).max()
+        np.abs(spin_up_response(beam, spin_up, times, tolerance=1e-6).q - limit).max()
         for beam in (unit_beam(1e-3), unit_beam(1e-4))
     ]
     assert 8.0 < apart[0] / apart[1] < 12.0

@@ -25,10 +25,6 @@ def test_orbits_found_are_attached(beam, monkeypatch):
     assert kept.amplitude.tolist() == [0.2, 0.1]
     np.testing.assert_array_equal(kept.frequency, whole.frequency)
     assert isinstance(caught.value, RuntimeError)
-
-
-def test_no_orbit_no_backbone(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])
     assert caught.value.orbits is None

@@ -6,7 +6,6 @@ import resource
 import signal
 import subprocess
 import sys
-import time
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
@@ -33,28 +32,6 @@ def files_of_at_most(size):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
         sys.dont_write_bytecode = cached
-
-
-@pytest.mark.slow  # a child process; signals and Ctrl-C within this one are tested below
-@pytest.mark.parametrize("name", ["SIGHUP", "SIGTERM"])
-def test_a_closed_terminal_and_a_kill_leave_nothing(tmp_path, name):
-    """As Ctrl-C; the shell that is closed sends SIGHUP as well, after the terminal."""
-    number = getattr(signal, name)
-    job = subprocess.Popen(
-        [sys.executable, "-m", "rotbeam_exu.cli", *FILM, tmp_path / "film.gif"],
-        cwd=ROOT, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    deadline = time.monotonic() + 60.0
-    while not list(tmp_path.iterdir()):
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-    job.send_signal(number)
-    if name == "SIGHUP":
-        job.send_signal(number)
-    _, error = job.communicate(timeout=60.0)
-    assert job.returncode == 128 + number
-    assert error == "rotbeam: interrupted; nothing was written\n"
-    assert not list(tmp_path.iterdir())
 
 
 def test_signals_are_ctrl_c_once_and_only_while_a_command_runs(monkeypatch):

@@ -22,8 +22,8 @@ from rotbeam_exu.verification.verify import LADDER
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --omega.*|doctor|campbell|campbell --section.*|"
-    r"(reference|respond|stability|ramp|compare|figure|animate|judge).*)"
+    r"rotbeam (run|run --.*|doctor|campbell|campbell --section.*|"
+    r"(reference|respond|stability|ramp|converge|compare|figure|animate|judge).*)"
 )
 BEAM = """
 [beam]
@@ -44,7 +44,7 @@ duration = 8
 
 
 def measured_at_once(cases, *_):
-    """As `_solved` yields it, of spin-ups that nobody computed."""
+    """As `solved` yields it, of spin-ups that nobody computed."""
     for point in cases:
         result = xr.Dataset({"q": ("time", np.zeros(2))}, {"time": [0.0, 1.0]})
         numbers = dict.fromkeys(MEASURED, 1e-3) | {
@@ -57,7 +57,7 @@ def measured_at_once(cases, *_):
 def folder(tmp_path, monkeypatch, call):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "beam.toml").write_text(BEAM)
-    monkeypatch.setattr(grid, "_solved", measured_at_once)
+    monkeypatch.setattr(grid, "solved", measured_at_once)
     monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<title>Rotating beam explorer")
     monkeypatch.setattr(
         room,

@@ -11,6 +11,7 @@ import sys
 import pytest
 
 from rotbeam_exu.cli import _COMMANDS
+from rotbeam_exu.verification.kit import write_kit
 
 SLOW = (
     "exudyn", "xarray", "pandas", "h5netcdf", "h5py", "matplotlib", "sympy", "scipy.linalg",
@@ -121,22 +122,23 @@ def test_without_exudyn_theory_works_and_the_rest_says_what_is_missing(tmp_path)
 
 def test_the_judge_does_without_what_only_models_and_figures_need(tmp_path):
     """As docs/howto/judge.md installs it; the last line has a mistake to be looked for."""
+    wrong = write_kit(tmp_path / "wrong") / "sample"
+    for history in (wrong / "S1").iterdir():
+        head, *rows = history.read_text(encoding="utf-8").splitlines()
+        cells = (row.split(",") for row in rows)
+        rows = [",".join([time, f"{-float(q):.12g}", *rest]) for time, q, *rest in cells]
+        history.write_text("\n".join([head, *rows]), encoding="utf-8")
     lines = ["kit kit", "judge kit/sample --report page.html --json found.json"]
-    got = answers_of(lines, tmp_path, *NOT_TO_JUDGE)
+    with_a_mistake = "judge wrong/sample --case S1"
+    got = answers_of([*lines, with_a_mistake], tmp_path, *NOT_TO_JUDGE)
     assert {line: got[line]["code"] for line in lines} == dict.fromkeys(lines, 0)
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "pip install matplotlib xarray" in page
     assert "<figure" not in page
     assert json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))["passed"]
-    for history in (tmp_path / "kit/sample/S1").iterdir():
-        head, *rows = history.read_text(encoding="utf-8").splitlines()
-        cells = (row.split(",") for row in rows)
-        rows = [",".join([time, f"{-float(q):.12g}", *rest]) for time, q, *rest in cells]
-        history.write_text("\n".join([head, *rows]), encoding="utf-8")
-    line = "judge kit/sample --case S1"
-    got = answers_of([line], tmp_path, *NOT_TO_JUDGE)[line]
-    assert (got["code"], got["error"]) == (1, "")
-    assert "S1: a usual mistake?" in got["out"]
+    judged = got[with_a_mistake]
+    assert (judged["code"], judged["error"]) == (1, "")
+    assert "S1: a usual mistake?" in judged["out"]
 
 
 def test_packages_import_nothing_slow():

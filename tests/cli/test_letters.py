@@ -30,27 +30,6 @@ def test_letters_are_spelled_where_they_must_be(monkeypatch, encoding, shown):
     assert raw.getvalue().decode(encoding) == shown
 
 
-@pytest.mark.slow  # a child that runs and draws; the streams it prints to are tested above
-@pytest.mark.parametrize(
-    "locale",
-    [
-        {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
-        {"PYTHONIOENCODING": "latin-1"},
-    ],
-    ids=["POSIX", "latin-1"],
-)
-def test_a_run_ends_well_in_any_locale(tmp_path, locale):
-    done = subprocess.run(
-        [sys.executable, "-m", "rotbeam_exu.cli", "run", "--elements", "2", "--step", "0.01",
-         "--duration", "8", "--out", tmp_path],
-        capture_output=True, env={**os.environ, "MPLBACKEND": "agg", **locale}, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert b"omega_NL = 3." in done.stdout
-    assert b"checks passed" in done.stdout
-    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv", ".nc", ".pdf", ".png"]
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "command",

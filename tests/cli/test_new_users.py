@@ -38,7 +38,7 @@ STATIONS = """x [mm],EA [MN],GJ [N m^2],EI2 [N m^2],EI3 [kN m^2],m [kg/m],twist 
 """
 
 
-@pytest.mark.parametrize("name", BEAMS)
+@pytest.mark.parametrize("name", ["ruler", pytest.param("silicon", marks=pytest.mark.slow)])
 def test_a_beam_in_units_of_ones_own(call, tmp_path, name):
     """First frequency in closed form, 1.8751² √(EI/ρA)/L²; a run in Exudyn with default times."""
     length, area, inertia, modulus, density = BEAMS[name]

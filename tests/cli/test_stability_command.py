@@ -25,9 +25,10 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     monkeypatch.setattr(
         analytic,
         "stability_limit",
-        lambda blade, omega, mode, *, growth, largest: StabilityLimit(
-            blade=blade, omega=omega, mode=mode, growth=growth, amplitude=np.inf, searched=largest,
-            kind="", modes=(), tongues=(tongue,), converged=True,
+        lambda blade, omega, mode, *, damping, growth, largest: StabilityLimit(
+            blade=blade, omega=omega, mode=mode, damping=damping, growth=growth,
+            amplitude=np.inf, searched=largest, kind="", modes=(), tongues=(tongue,),
+            converged=True,
         ),
     )  # fmt: skip
     arguments = ("stability", "--omega", "2", "--section", "rectangle", "--ratio", "3")
@@ -56,24 +57,51 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     assert pairs.to_numpy() == pytest.approx(exact.multipliers)
     assert beam_of(data.attrs) == blade
     # The limit is 0.3825, beyond what was asked for.
-    assert np.isinf(data.attrs["limit"])
+    assert np.isinf(data["limit"])
     assert data.attrs["growth"] == 0.01
-    assert "0.29" in data.attrs["tongues"]
+    assert data["tongue_low"].item() == pytest.approx(0.29, abs=0.01)
     table = pd.read_csv(tmp_path / f"{name}.csv", comment="#", keep_default_na=False)
     assert {"sum resonance", ""} == set(table["kind"])
+
+
+def test_damping_makes_the_growth_slower(call, tmp_path, beam, monkeypatch):
+    """By the ratio, and by the damping of the file's blade; the limit is tested without a door."""
+
+    def told(blade, omega, mode, **asked):
+        assert asked["growth"] < 1e-5, "any growth counts"
+        return StabilityLimit(
+            blade=blade, omega=omega, mode=mode, damping=asked["damping"], growth=asked["growth"],
+            amplitude=0.0402, searched=0.1, kind="divergence", modes=("flap 1",), tongues=(),
+            converged=True,
+        )  # fmt: skip
+
+    monkeypatch.setattr(analytic, "stability_limit", told)
+    command = ("stability", "--omega", "2", "--section", "rectangle", "--amplitude", "0.045")
+    code, out, _ = call(*command, "--damping-ratio", "0.005", "--out", tmp_path)
+    assert code == 0
+    sentence = "damped out of the plane by 0.005 of the critical, leave their plane from a = 0.0402"
+    assert sentence in " ".join(out.split())
+    data = load(tmp_path / "stability-rectangle-omega-2-mode-1.nc")
+    free = planar_stability(beam.with_shape(Rectangle()), 2.0, [0.045]).growth_rate[0]
+    assert 0.0 < data["growth_rate"].item() < free
+    # Without damping it is another result.
+    code, _, error = call(*command, "--out", tmp_path)
+    assert code == 2
+    assert "damping_ratio 0.005" in error
+    assert call(*command, "--damping-ratio", "-1", "--out", tmp_path)[0] == 2
 
 
 def test_a_section_out_of_a_file(call, tmp_path, monkeypatch):
     file = tmp_path / "blade.toml"
     file.write_text(BLADE_TOML + STIFF)
-    command = ("stability", "--omega", "2", "--amplitude", "0.1", "--config", file)
+    command = ("stability", "--omega", "2", "--amplitude", "0.02", "--config", file)
     code, out, _ = call(*command, "--out", tmp_path)
     assert code == 0
-    assert "stay in their plane, up to a = 0.1." in out
+    assert "stay in their plane, up to a = 0.02." in out
     growth = load(tmp_path / "stability-given-omega-2-mode-1.nc")["growth_rate"].to_numpy()
     assert np.array_equal(growth, [0.0])
 
-    def stopped(*_):
+    def stopped(*_, **__):
         raise KeyboardInterrupt
 
     # What it found is no input: the same may be asked again, and is computed.

@@ -15,7 +15,7 @@ from rotbeam_exu.runs.oscillation import steady_oscillation
 from rotbeam_exu.sweeps.cache import maker
 
 COARSE = {
-    "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 5e-3, "duration": 9.0, "jobs": 1,
+    "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 1e-2, "duration": 8.0, "jobs": 1,
 }  # fmt: skip
 
 MINE = """

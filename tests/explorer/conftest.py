@@ -43,7 +43,7 @@ def data():
             ramp_times=(3.0, 2.5),
             exact_ramp_times=RAMPS,
             elements=4,
-            step=2e-3,
+            step=4e-3,
         )
 
 

@@ -1,15 +1,13 @@
 """Blades in Exudyn: hub, point masses and taper against the exact blade, and their files."""
 
 import math
-import warnings
 
 import numpy as np
 import pytest
 
-from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import Beam, SpinUp, linear_modes
 from analytic.exact.beam.steady import steady_rotation
-from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
+from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.linearization import Linearization
@@ -66,39 +64,6 @@ def test_reissners_beam_takes_blades_too(beam):
         step=4e-3,
     )  # fmt: skip
     assert run.attrs["verdict"] == "passed"
-
-
-@pytest.mark.slow  # test_set_blades has one with all there is
-def test_a_spin_up_follows_the_exact_blade(beam):
-    blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.1, 0.1)
-    spin_up = SpinUp(omega=3.0, ramp_time=4.0)
-    run = simulate(blade, spin_up, elements=64, duration=10.0, step=4e-3, frame="rotating")
-    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-6)
-    assert run.attrs["verdict"] == "passed"
-    size = np.abs(exact.q).max()
-    # The taper's second order leaves 6e-4 with 64 elements.
-    assert np.abs(run["q"] - exact.q).max() < 1e-3 * size
-    assert np.abs(run["tip_x"] - exact.tip[:, 0]).max() < 1e-2 * size
-    steady = steady_oscillation(run)
-    with warnings.catch_warnings():
-        # The sixth harmonic is near the second mode, and tiny.
-        warnings.simplefilter("ignore", RotbeamWarning)
-        orbit = periodic_orbits(blade, 3.0, [steady.amplitude])
-    assert steady.frequency == pytest.approx(orbit.frequency[0], rel=2e-4)
-
-
-def test_both_frames_agree_to_second_order_in_the_step(beam):
-    """For the cable on a hub test_loads asks it."""
-    options = {"element": "exact", "elements": 4, "duration": 4.0}
-
-    def apart(step):
-        inertial, rotating = (
-            simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), **options, step=step, frame=frame)["q"]
-            for frame in ("inertial", "rotating")
-        )
-        return float(abs(inertial - rotating).max())
-
-    assert apart(8e-3) / apart(4e-3) == pytest.approx(4.0, rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from rotbeam_exu.fem.elements import (
     SpaceCable,
     SpaceExact,
     Substructures,
+    formulation,
 )
 from rotbeam_exu.fem.elements.ancf3 import _Row
 from rotbeam_exu.fem.elements.linear_frames import FrameRow
@@ -152,7 +153,14 @@ def test_tangent_and_force_are_derivatives(row, reference):
         # Soft in shear, for which round-off stays below the error of 32 elements. Its section is
         # that of each Gauss point, and it turns with a tip mass.
         (Ancf3(shear_correction=0.1), TAPERED, 6.0, 8, Ancf3(shear_correction=0.1)),
-        (Ancf3(shear_correction=0.01), TURNING, 3.3, 8, Ancf3(shear_correction=0.01)),
+        pytest.param(
+            Ancf3(shear_correction=0.01),
+            TURNING,
+            3.3,
+            8,
+            Ancf3(shear_correction=0.01),
+            marks=pytest.mark.slow,  # test_point_inertia has the limit of one mesh
+        ),
         (Linear(), BEAM, 2.0, 4, Linear()),
         (Substructures(cells=1), BEAM, 4.0, 8, Cable()),
         (Substructures(frame="pinned", cells=1), BEAM, 4.0, 8, Cable()),
@@ -189,3 +197,21 @@ def test_stiff_shear_leaves_the_exact_beam_with_rotary_inertia(
     ]
     gaps = 1.0 - np.array(found) / limit
     assert fitted_order(stiffness, gaps) == pytest.approx(-1.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("element", "options", "sentence"),
+    [
+        ("exact", {"nodes": 4}, "nodes must be 2 or 3, got 4"),
+        ("exact", {"poisson_ratio": 0.5}, r"must lie between -1 and 0\.5, got 0\.5"),
+        ("exact", {"shear_correction": 0.0}, "shear_correction must be positive"),
+        ("exact", {"law": "coupled"}, "has no option 'law'; its options are nodes, poisson"),
+        ("linear", {"cells": 2}, "element 'linear' has no option 'cells'; it has no options"),
+        ("ancf3", {"law": "linear"}, "unknown law 'linear'; known are 'uncoupled' and 'coupled'"),
+        ("substructures", {"frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
+        ("substructures", {"cells": 0}, "cells must be at least 1, got 0"),
+    ],
+)
+def test_options_that_an_element_does_not_have_are_refused(element, options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        formulation(element, options)

@@ -5,13 +5,12 @@ import pytest
 
 from analytic import Beam, SpinUp
 from rotbeam_exu import simulate, steady_oscillation
-from rotbeam_exu.fem.elements import Exact, formulation
+from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.runs.check import energy_drift
 
 
-@pytest.mark.parametrize(
-    ("nodes", "frequency"), [(2, 3.72223), pytest.param(3, 3.72233, marks=pytest.mark.slow)]
-)
+@pytest.mark.slow  # frequencies, an orbit and spin-ups of sections with shear are in test_shear
+@pytest.mark.parametrize(("nodes", "frequency"), [(2, 3.72223), (3, 3.72233)])
 def test_nonlinear_frequency(beam, spin_up, nodes, frequency):
     """Sixteen elements at ω = 6, T = 3, h = 1e-3: shear and mesh shift it by digits known."""
     run = simulate(beam, spin_up, element=Exact(nodes=nodes))
@@ -32,17 +31,3 @@ def test_euler_acceleration_turns_the_sections():
         for frame in ("inertial", "rotating")
     )
     assert np.abs(inertial - rotating).max() < 1e-3 * np.abs(rotating).max()
-
-
-@pytest.mark.parametrize(
-    ("options", "sentence"),
-    [
-        ({"nodes": 4}, "nodes must be 2 or 3, got 4"),
-        ({"poisson_ratio": 0.5}, r"poisson_ratio must lie between -1 and 0\.5, got 0\.5"),
-        ({"shear_correction": 0.0}, "shear_correction must be positive"),
-        ({"law": "coupled"}, "element 'exact' has no option 'law'; its options are nodes, poisson"),
-    ],
-)
-def test_refuses(options, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        formulation("exact", options)

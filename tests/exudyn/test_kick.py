@@ -3,12 +3,22 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Section, SteadyRotation, periodic_orbits
+from analytic import (
+    Beam,
+    Blade,
+    Section,
+    SpinUp,
+    SteadyRotation,
+    Tube,
+    periodic_orbits,
+    spin_up_response,
+)
 from analytic.section import OutOfPlane
 from rotbeam_exu import kicked, simulate
 from rotbeam_exu.runs.check import SimulationError
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
+TUBE = Beam.reference().with_shape(Tube(radius=0.015, wall=0.00077))
 
 
 def test_the_kick_bends_and_does_not_stretch():
@@ -29,6 +39,57 @@ def test_the_kick_bends_and_does_not_stretch():
             np.testing.assert_allclose(getattr(many, place)[::100], getattr(bent, place), atol=1e-9)
     straight = kicked(ALIKE, 1e-2)(x)
     np.testing.assert_allclose(straight.w, 400.0 * (1.0 - np.cos(2.5e-3 * x)), rtol=1e-9)
+
+
+def first_mode(x):
+    """The clamped beam's closed form, 1 at the tip."""
+    root, ends = 1.8751040687119611, np.append(x, 1.0)
+    ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
+    z = root * ends
+    shape = np.cosh(z) - np.cos(z) - ratio * (np.sinh(z) - np.sin(z))
+    return shape[:-1] / shape[-1]
+
+
+@pytest.mark.parametrize("bending_ratio", [1.0, 25.0, 0.003])
+def test_both_codes_start_in_the_first_flap_mode(bending_ratio):
+    """If both planes are alike flap and lag have one frequency; of a deep blade lag is lower."""
+    blade = ALIKE.with_section_out_of_plane(bending_ratio, 1.0)
+    x, motion = np.linspace(0.0, blade.length, 5), SpinUp(omega=2.0, ramp_time=3.0)
+    # Simpson's rule of the finite elements has 32 pieces. The flap mode of the exact response has
+    # the inertia of its slices as well.
+    close = 1e-7 + 2.0 * bending_ratio * blade.slenderness
+    for kick, digits in ((1e-6, 1e-7), (1e-2, 1e-4)):
+        found = spin_up_response(blade, motion, [0.0, 0.1], tolerance=1e-6, points=x, bent=kick)
+        start = kicked(blade, kick, by_mode=True)(x)
+        places = np.stack((x + start.u, start.v, start.w), axis=-1)
+        np.testing.assert_allclose(found.axis[0], places, rtol=close, atol=1e-15)
+        # Turned tangents have the mode's deflections but for the square of the kick.
+        mode = kick * blade.length * first_mode(x / blade.length)
+        np.testing.assert_allclose(start.w, mode, rtol=digits, atol=1e-15)
+
+
+def test_a_kicked_tube_swings_as_exudyn_has_it():
+    tube, motion = TUBE, SpinUp(omega=6.0, ramp_time=0.5)
+    settings = {"element": "space_exact", "duration": 0.6, "elements": 16, "step": 2.5e-3}
+    run = simulate(tube, motion, initial_state=kicked(tube, 1e-3, by_mode=True), **settings)
+    exact = spin_up_response(tube, motion, run["time"].to_numpy(), tolerance=1e-5, bent=1e-3)
+    assert exact.flap.min() < -0.25e-3 * tube.length
+    # The element's error, of order 2: 1e-3 of each with 16 of them.
+    assert np.abs(run["w"] - exact.flap).max() / tube.length < 2e-6
+    assert np.abs(run["q"] - exact.q).max() / tube.length < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("blade", "kick", "sentence"),
+    [
+        (TUBE, 0.2, "at most 0.1 of the length"),
+        (Beam.reference(), 1e-3, r"kick.*with_section_out_of_plane\("),
+        (TUBE.blade.with_twist(0.1), 1e-3, "in its plane"),
+    ],
+)
+def test_kicks_that_are_refused(blade, kick, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.0), [0.5], bent=kick)
 
 
 def slender(slenderness, bending_ratio):

@@ -63,7 +63,9 @@ def divergent(beam, spin_up):
 
     @cache
     def of(frame):
-        options = {"elements": 4, "duration": 3.5 if frame == "inertial" else 6.5, "step": 2e-3}
+        # In the rotating frame far enough for its rate.
+        duration, step = (3.5, 1e-2) if frame == "inertial" else (6.5, 2e-3)
+        options = {"elements": 4, "duration": duration, "step": step}
         with pytest.raises(SimulationError) as failed:
             simulate(beam, spin_up, element="linear", frame=frame, **options)
         return failed.value
@@ -101,10 +103,3 @@ def test_cells_have_the_mass_of_the_cable(beam):
     """Both interpolate r cubically between the same coordinates."""
     linear, cable = (mass_matrix(formulation(n), beam, 3).toarray() for n in ("linear", "cable"))
     assert np.abs(linear - cable).max() < 1e-14 * np.abs(cable).max()
-
-
-def test_refuses(beam, spin_up):
-    with pytest.raises(ValueError, match="element 'linear' has no option 'cells'; it has no opti"):
-        formulation("linear", {"cells": 2})
-    with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
-        simulate(beam, spin_up, element="linear", elements=0)

@@ -111,7 +111,8 @@ MOTION = HalfSine(omega=4.0, ramp_time=2.0)
 PULL = TipPull(amplitude=20.0, frequency=0.0)
 
 
-@pytest.mark.parametrize("frame", ["inertial", "rotating"])
+# That both frames agree on loads is tested in test_loads.
+@pytest.mark.parametrize("frame", [pytest.param("inertial", marks=pytest.mark.slow), "rotating"])
 def test_exudyn_and_theory_agree_on_them(beam, frame):
     time = np.linspace(0.0, 3.0, 61)
     loads = [PULL, TipForce(amplitude=1.0, frequency=3.0)]

@@ -66,7 +66,7 @@ def test_a_spin_up_follows_the_exact_blade(beam):
     blade = beam.with_hub_radius(0.8).with_tip_mass(0.2).with_setting_angle(0.25 * math.pi)
     spin_up = SpinUp(omega=3.0, ramp_time=3.0)
     run = simulate(blade, spin_up, elements=16, duration=6.0, step=2e-3, frame="rotating")
-    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-6)
+    exact = spin_up_response(blade, spin_up, run["time"].to_numpy(), tolerance=1e-5)
     size = np.abs(exact.q).max()
     assert run.attrs["verdict"] == "passed"
     # Mesh and step leave 1e-4.

@@ -64,7 +64,7 @@ def test_sections_without_inertia_spin_up_as_the_theory_has_it(frame):
     at = np.linspace(0.0, 0.3, 31)
     q = np.interp(at, run["time"], run["q"])
     bare, heavy = (
-        spin_up_response(blade, motion, at, tolerance=1e-5, theory=Theory(shear=SHARE)).q
+        spin_up_response(blade, motion, at, tolerance=1e-4, theory=Theory(shear=SHARE)).q
         for blade in (stubby, with_rotary_inertia(HOMOGENEOUS))
     )
     apart = np.abs(bare - heavy).max()

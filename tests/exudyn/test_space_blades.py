@@ -15,7 +15,7 @@ from analytic import (
     linear_modes,
     spin_up_response,
 )
-from rotbeam_exu import natural_frequencies, simulate
+from rotbeam_exu import dataset_of, natural_frequencies, simulate
 from rotbeam_exu.fem.elements import SpaceExact
 
 ELEMENT = SpaceExact()
@@ -28,7 +28,9 @@ BLADES = {
 }
 
 
-@pytest.mark.parametrize("name", BLADES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow if n == "precone" else ()) for n in BLADES]
+)
 def test_frequencies_go_to_the_exact_ones_with_the_square_of_the_mesh(name, fitted_order):
     """Errors of 2e-4 to 3e-3 with 32 elements, all of second order: their limit is exact."""
     blade, meshes = BLADES[name], [8, 16, 32]
@@ -57,7 +59,8 @@ def test_a_twisted_spin_up_follows_the_exact_one():
         stations=[0.0, 0.45, 1.0],
     )  # fmt: skip
     theory = Theory(extension=False, rotary_inertia=True, trapeze=False)
-    exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-4, loads=loads)
+    # A tenth of this tolerance moves the tip by 1e-6 L, at four times the cost.
+    exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-3, loads=loads)
     tip = run["axis"][:, -1].interp(time=at)
     np.testing.assert_allclose(tip, exact.tip, atol=2e-3)
     np.testing.assert_allclose(run["q"].interp(time=at), exact.tip[:, 1], atol=2e-3)
@@ -67,11 +70,19 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     assert most > 0.3
     np.testing.assert_allclose(run["twist"].interp(time=at), exact.twist, atol=0.02 * most)
     # At the clamp the section has its axes. Short waves of the sudden loads leave 2 %.
+    data = dataset_of(exact)
+    for kind in ("force", "moment"):
+        here, there = (
+            np.array([one[f"root_{kind}_{axis}"].interp(time=at) for axis in "xyz"])
+            for one in (run, data)
+        )
+        assert np.abs(here - there).max() < 3e-2 * np.abs(there).max()
+    # All of the tip in the frame of the clamp, nothing that is called inertial.
+    for name, places in (("along", 0), ("q", 1), ("flap", 2)):
+        np.testing.assert_allclose(data[name], tip[:, places], atol=2e-3)
+    assert "tip_x" not in data
     loads = exact.section_loads([0.0, 0.45, 1.0])
     for kind, there in (("force", loads.force), ("moment", loads.moment)):
-        here = [run[f"root_{kind}_{axis}"].interp(time=at) for axis in "xyz"]
-        error = np.abs(np.transpose(here) - there[:, 0]).max()
-        assert error < 3e-2 * np.abs(there).max()
         assert np.abs(run[kind].interp(time=at) - there).max() < 3e-2 * np.abs(there).max()
     assert np.abs(run["place"].interp(time=at) - loads.place).max() < 2e-3
     assert np.abs(run["section"].interp(time=at) - loads.section).max() < 2e-2

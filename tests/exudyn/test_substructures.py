@@ -7,7 +7,7 @@ import pytest
 from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import figures, simulate
-from rotbeam_exu.fem.elements import Substructures, formulation
+from rotbeam_exu.fem.elements import Substructures
 from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
 from rotbeam_exu.fem.linearization import Linearization
 
@@ -55,23 +55,6 @@ def test_a_run_above_the_divergence_speed_that_stays_bounded_says_so(beam):
         )  # fmt: skip
 
 
-@pytest.mark.slow  # by eigenvalues above, and one frame in time below
-def test_stable_below_and_unstable_above(beam):
-    """After a gentle spin-up to 6 rad/s a stable beam hardly moves; two tangent frames buckle."""
-
-    def steady(n, frame):
-        run = simulate(
-            beam, SpinUp(omega=6.0, ramp_time=10.0), element=Substructures(frame=frame, cells=1),
-            elements=n, duration=15.0, step=1.5e-2,
-        )  # fmt: skip
-        return np.abs(run["q"].sel(time=slice(12.0, 15.0))).max().item()
-
-    with pytest.warns(RotbeamWarning, match="above the divergence speed"):
-        buckled = steady(2, "tangent")
-    stable = [steady(3, "tangent"), steady(2, "pinned")]
-    assert buckled > 2.0 * max(stable), (buckled, stable)
-
-
 def test_figure(beam):
     mpl.use("agg")
     data = divergence_speeds(beam, [1, 2, 4])
@@ -81,23 +64,6 @@ def test_figure(beam):
     assert drawn["pinned frames"] == pytest.approx(data["divergence_speed"].sel(frame="pinned"))
 
 
-@pytest.mark.parametrize(
-    ("options", "sentence"),
-    [
-        ({"frame": "chord"}, "unknown frame 'chord'; known are 'tangent' and"),
-        ({"cells": 0}, "cells must be at least 1, got 0"),
-    ],
-)
-def test_refuses(options, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        Substructures(**options)
-
-
 def test_refuses_a_row_of_no_elements(beam):
     with pytest.raises(ValueError, match="elements must be at least 1, got 0"):
         Substructures().divergence_speed(beam, 0)
-
-
-def test_refuses_options_that_it_does_not_have():
-    with pytest.raises(ValueError, match="has no option 'nodes'; its options are frame, cells"):
-        formulation("substructures", {"nodes": 2})

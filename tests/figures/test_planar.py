@@ -27,15 +27,20 @@ def test_what_stays_is_drawn_at_zero(beam):
     assert axes.get_yticks().tolist() == [0.0]
 
 
-def test_the_map_has_a_color_where_it_grows_only(beam):
-    data = comparison.growth_out_of_plane(omegas=[2.0, 4.0], amplitudes=[0.02, 0.06])
+def test_the_line_of_the_map_is_where_growth_begins(beam):
+    """At 0.0402 and 0.0594, by another search; and 2 % of the amplitude lie between two points."""
+    amplitudes = np.geomspace(0.038, 0.064, 24)
+    data = comparison.growth_out_of_plane(omegas=[2.0, 4.0], amplitudes=amplitudes)
+    rate = data["growth_rate"].to_numpy()
+    assert rate[0, 0] < 0.0 < rate[0, -1], "what is stable decays"
     axes = figures.growth_out_of_plane(data, spin_ups={2.0: [0.05]})
-    drawn = np.ma.filled(axes.collections[0].get_array(), np.nan).reshape(2, 2)
-    # The plane is left from 0.040 and 0.059 on.
-    assert (drawn < 0.01).tolist() == [[True, True], [False, False]]  # white
-    assert drawn[1] == pytest.approx(data["growth_rate"].to_numpy()[:, 1])
+    points = [segment for lines in axes.collections for path in lines.get_paths()
+              for segment in path.to_polygons(closed_only=False)]  # fmt: skip
+    for omega, limit in ((2.0, 0.0402), (4.0, 0.0594)):
+        at = np.concatenate([xy[xy[:, 0] == omega, 1] for xy in points])
+        assert np.abs(at / limit - 1.0).min() < 0.02
     # White is what stays, not what was not computed.
-    assert axes.get_ylim() == pytest.approx((0.0, 0.08), abs=1e-3)
+    assert axes.get_ylim() == pytest.approx((0.038, 0.064))
 
 
 def test_a_map_of_an_unknown_section_is_refused(beam):

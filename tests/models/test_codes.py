@@ -1,5 +1,6 @@
 """Other codes: today's judge says of their folders what their records say."""
 
+import importlib.util
 import shutil
 import sys
 import tomllib
@@ -12,6 +13,8 @@ import pytest
 from analytic import Theory, linear_modes
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission import Declaration
 from rotbeam_exu.verification.submission_files import read_submission
 
 CODES = Path(__file__).parents[2] / "models" / "codes"
@@ -21,7 +24,14 @@ import overview  # noqa: E402
 
 # Of several cases each; a folder that is new is judged in the default suite.
 SLOW = {"chain", "exudyn_cable", "rod"}
-NAMES = sorted(path.parent.name for path in CODES.glob("*/submission"))
+NAMES = sorted({path.parent.name for path in CODES.glob("[!_]*/*")})
+
+
+def script(name):
+    spec = importlib.util.spec_from_file_location(f"run_{name}", CODES / name / "run.py")
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
 
 
 def record(name):
@@ -99,11 +109,43 @@ def test_the_unit_of_time_is_a_run_of_the_starter():
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("g++") is None, reason="there is no g++")
-def test_the_rod_computes_what_its_folder_holds(monkeypatch):
-    monkeypatch.syspath_prepend(str(CODES / "rod"))
-    import run as rod
-
+def test_the_rod_computes_what_its_folder_holds():
     held = np.loadtxt(CODES / "rod/submission/S1/m008_h2e-3.csv", delimiter=",", skiprows=1)
-    found = rod.history(CASES["S1"], 8, 2e-3)
+    found = script("rod").history(CASES["S1"], 8, 2e-3)
     # Nine digits are written.
     assert found == pytest.approx(held[:, 1], abs=1e-8)
+
+
+@pytest.mark.parametrize("name", ["exudyn_cable", "exudyn_space"])
+def test_exudyn_computes_what_its_folders_hold(name):
+    run = script(name)
+    table = np.loadtxt(CODES / name / "submission/L.csv", delimiter=",", skiprows=1)
+    n, speed, frequency = table[1]
+    assert run.frequency(CASES["L"], int(n), speed) == pytest.approx(frequency, rel=1e-9)
+    # Eight elements bend by 5 m in the ramp, those in space 0.15 m too little or too late.
+    case = replace(CASES["S1"], duration=3.1)
+    exact = reference(case).history(common.times(case))
+    assert run.history(case, 8, 1e-2) == pytest.approx(exact, abs=0.25)
+
+
+def test_a_folder_is_replaced_whole_or_not_at_all(tmp_path, monkeypatch):
+    monkeypatch.setattr(common, "calibration", lambda: 1.0)
+    folder = shutil.copytree(CODES / "mujoco" / "submission", tmp_path / "submission")
+    before, fault = common.digest(folder), KeyError("of the script")
+
+    def history(case, elements, step):
+        if elements == 16:
+            raise fault
+        return reference(case).history(common.times(case))
+
+    told, runs = Declaration(code="mine"), {"S1": [(8, 2e-3), (16, 2e-3)]}
+    with pytest.raises(KeyError):
+        common.take_part(tmp_path / "run.py", told, history, runs)
+    assert common.digest(folder) == before
+    assert sorted(tmp_path.iterdir()) == [folder]
+    # A failure of the code is a result.
+    fault = RuntimeError("too coarse")
+    common.take_part(tmp_path / "run.py", told, history, runs)
+    made = tomllib.loads((tmp_path / "record.toml").read_text())
+    assert made["digest"] == common.digest(folder) != before
+    assert [run.failure for run in read_submission(folder).runs] == ["", "too coarse"]

@@ -209,17 +209,26 @@ def test_internal_resonance(run):
 
 def test_is_it_planar(run):
     found = run("is_it_planar")
-    assert found["limit"].amplitude == pytest.approx(0.0592, abs=2e-4)
+    # 0.0592 without damping.
+    assert found["limit"].amplitude == pytest.approx(0.0594, abs=2e-4)
     assert found["round_one"].stable.all()
     rate = found["data"]["growth_rate"]
     # The tension holds the blade back, so that more stays in the plane as it turns faster.
-    # By less than 0.01 per radian, at 2 rad/s: below the limit tongues take some away.
     highest = [np.flatnonzero(row < 0.02).max(initial=-1) for row in rate.to_numpy()]
     assert np.all(np.diff(highest) >= 0)
-    for omega, limit in found["limits"].items():
-        k = highest[int(np.flatnonzero(rate["omega"] == omega)[0])]
-        assert k == -1 or rate["a"][k] < limit
+    k = highest[int(np.flatnonzero(rate["omega"] == 4.0)[0])]
+    assert rate["a"][k] < found["limit"].amplitude < rate["a"][k + 2]
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
+
+
+def test_leaving_the_plane(run):
+    strip, thick = run("leaving_the_plane")["branches"]
+    # Born stable; slower as they leave.
+    assert strip.stable[:8].all()
+    assert thick.stable.all()
+    assert np.all(np.diff(strip.frequency) < 0.0)
+    assert np.all(np.diff(thick.frequency) < 0.0)
+    assert thick.born.amplitude == pytest.approx(0.2479, abs=1e-4)
 
 
 def test_real_blade(run):

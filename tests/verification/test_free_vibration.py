@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import linear_modes, periodic_orbits
-from rotbeam_exu.verification.cases import CASES
+from rotbeam_exu.verification.cases import CASES, VERSION
 from rotbeam_exu.verification.history import FREE_KNOWN, FREE_SWING, free_frequency
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
@@ -68,9 +68,9 @@ def mine(tmp_path):
     named = {n: vibration(off=n**-4.0) for n in (8, 16, 32)}
     for n, q in named.items():
         put(tmp_path / "mine", f"m{n:03d}_w6.csv", q)
-    (tmp_path / "mine/entry.toml").write_text('benchmark = "1.0"\ncode = "mine"\n', "utf-8")
+    (tmp_path / "mine/entry.toml").write_text(f'benchmark = "{VERSION}"\ncode = "mine"\n', "utf-8")
     rows = tuple(free_frequency(L, n, 6.0, TIME, q) for n, q in named.items())
-    declared = Declaration(code="mine", benchmark="1.0")
+    declared = Declaration(code="mine", benchmark=VERSION)
     return tmp_path / "mine", Submission(declaration=declared, frequencies=rows)
 
 

@@ -128,17 +128,6 @@ def test_a_code_that_fails_says_why():
     assert len(found.remarks["S"]) == 1
 
 
-def test_a_mesh_on_which_the_code_fails_is_left_out(made_of_the_exact_answer):
-    def change(time, q, elements):
-        if elements < 16:
-            raise RuntimeError("too coarse")
-        return q
-
-    found = judge(made_of_the_exact_answer(change, elements=32, meshes=(8, 16, 32, 64)))
-    assert found.passed
-    assert {run.elements for run in found.histories["S"].runs} == {16, 32, 64}
-
-
 def test_a_reference_that_fails_is_not_charged_to_the_code(made_of_the_exact_answer, monkeypatch):
     submission = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
 
@@ -164,28 +153,9 @@ def test_an_estimator_that_fails_on_the_exact_answer_is_not_charged_either(
     assert found.outcome == "0 of 2 agree, 1 undecided (S), 1 not submitted"
 
 
-def history_of(submission, chosen=lambda run: True):
-    """The judgement of q(t) alone, which takes no fit, of the runs that are chosen."""
-    chosen_runs = tuple(run for run in submission.runs if chosen(run))
-    cases = {"S1": replace(CASES["S1"], oscillates=False)}
-    return judged(replace(submission, runs=chosen_runs), cases=cases)
-
-
-def test_one_step_alone_decides_nothing(made_of_the_exact_answer):
-    """Its error may be all that is seen, or hide another."""
-    for off in (0.0, 0.05):
-        entry = made_of_the_exact_answer(lambda time, q, n, off=off: q * (1.0 + off))
-        whole = handed_in(entry, [CASES["S1"]])
-        found = history_of(whole, lambda run: run.step == 2e-3).findings["S1"]
-        assert found["history"].outcome is Outcome.UNDECIDED
-        assert "refine it" in found["history"].note
-
-
-def test_one_mesh_alone_has_no_limit(made_of_the_exact_answer):
-    whole = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
-    found = history_of(whole, lambda run: run.elements == 16)
-    assert found.findings["S1"]["history"].outcome is Outcome.UNDECIDED
-    assert "one mesh has no limit" in found.findings["S1"]["history"].note
+def history_of(submission):
+    """The judgement of q(t) alone, which takes no fit."""
+    return judged(submission, cases={"S1": replace(CASES["S1"], oscillates=False)})
 
 
 def test_meshes_and_steps_may_be_refined_together(made_of_the_exact_answer):
@@ -200,18 +170,6 @@ def test_meshes_and_steps_may_be_refined_together(made_of_the_exact_answer):
     assert found.findings["S1"]["history"].outcome is Outcome.REFERENCE
     assert found.orders["S1"]["mesh"].value == pytest.approx(2.0, abs=0.1)
     assert "step" not in found.orders["S1"]
-
-
-@pytest.mark.parametrize(("off", "last"), [(0.0, Outcome.REFERENCE), (0.008, Outcome.AGREES)])
-def test_a_judgement_never_gets_worse_by_refining(made_of_the_exact_answer, off, last):
-    """Of coarse meshes nothing can be said; of fine ones what is true."""
-    rank, seen = list(Outcome), []
-    entry = made_of_the_exact_answer(lambda time, q, n: q * (1.0 + off), size=20.0)
-    for elements in (4, 8, 32, 128):
-        found = history_of(handed_in(replace(entry, elements=elements), [CASES["S1"]]))
-        seen.append(rank.index(found.findings["S1"]["history"].outcome))
-    assert seen == sorted(seen, reverse=True)
-    assert (seen[0], seen[-1]) == (rank.index(Outcome.UNDECIDED), rank.index(last))
 
 
 def test_an_order_below_the_declared_one_is_told_and_decides_nothing(made_of_the_exact_answer):
@@ -359,11 +317,11 @@ def test_what_is_off_by_half_of_what_passes_agrees_and_does_not_converge_to_the_
 
 def test_the_headline_counts_all_cases():
     found = judged(Submission(declaration=MINE, runs=exact_runs(*WHOLE)))
-    assert found.outcome == "1 of 18 agrees, 17 not submitted"
+    assert found.outcome == "1 of 20 agrees, 19 not submitted"
     coarse = replace(
         found, findings={**found.findings, "O": {"history": Finding(outcome=Outcome.UNDECIDED)}}
     )
-    assert coarse.outcome == "1 of 18 agrees, 1 undecided (O), 16 not submitted"
+    assert coarse.outcome == "1 of 20 agrees, 1 undecided (O), 18 not submitted"
     assert coarse.passed is None
     # An undecided shift, the harder demand, is told behind q(t), and does not pass either.
     right = found.findings["S1"]["history"]
@@ -373,5 +331,5 @@ def test_the_headline_counts_all_cases():
     assert (behind.outcome, behind.passed) == (said, None)
     wrong = {"history": Finding(outcome=Outcome.DIFFERS)}
     both = replace(coarse, findings={**coarse.findings, "S2": wrong})
-    assert both.outcome == "1 of 18 agrees, 1 undecided (O), 1 differs (S2), 15 not submitted"
+    assert both.outcome == "1 of 20 agrees, 1 undecided (O), 1 differs (S2), 17 not submitted"
     assert both.passed is False

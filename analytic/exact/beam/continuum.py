@@ -253,8 +253,11 @@ class Continuum(Kinematics):
         """Cos ψ, by which loads in the plane of rotation act across the blade."""
         return self.blade.setting
 
-    def push(self, force: ComplexArray, acts_on: str) -> ComplexArray:
-        """Return a force (samples,) beyond each Gauss point, times its weight."""
+    def push(
+        self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0
+    ) -> ComplexArray:
+        """Return a force (samples,) beyond each Gauss point, times its weight; it lifts nothing."""
+        del lift
         return np.asarray(np.multiply.outer(force, self.outboard[acts_on]))
 
     def tension(

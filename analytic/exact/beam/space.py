@@ -10,7 +10,8 @@ the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 
 The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
 ι = j(1 - r)/(1 + r). w has no Coriolis force: about a periodic orbit it is a Hill equation. Left
-out are the inertia of the sections against flap, and at r = 1 that of the twist.
+out are the inertia of the sections against flap, and at r = 1 that of the twist. The viscosity
+η_b of the blade resists the rates of β' - κφ and φ' + κβ, and of κ in the plane.
 """
 
 from __future__ import annotations
@@ -125,7 +126,11 @@ class Space:
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
-        moment = bending * kappa
+        # A damped planar motion has a viscous moment too, which is none of the blade's own here.
+        viscous = planar.model.blade.damping[0] * bending * model.bent(q_dot)[0]
+        moment = bending * kappa + viscous
+        # Of it, what the stiffness out of the plane does not take back.
+        excess = moment - r * bending * kappa
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * once
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
@@ -133,17 +138,17 @@ class Space:
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
-            mixed = (1.0 - r) * _form(bent, moment, twist)
-            twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
+            mixed = _form(bent, excess, twist)
+            twisted = -_form(twist, excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
         spin = planar.rate + model.bent(q_dot)[0] @ upto.T
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, strain)
-        mixed += (1.0 - r) * _form(bent, moment, once)
+        mixed += _form(bent, excess, once)
         twisted = _form(strain, torsion, strain)
-        twisted += _form(once, model.weights * turning - (1.0 - r) * moment * kappa, once)
+        twisted += _form(once, model.weights * turning - excess * kappa, once)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
@@ -155,6 +160,51 @@ class Space:
             ),
             axis=1,
         )
+
+    def resistance(
+        self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each.
+
+        Raises
+        ------
+        ValueError
+            If a twist without inertia were viscous.
+        """
+        model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
+        if viscosity and self.twist == "quasi-static" and r != 1.0:
+            raise ValueError(
+                "a twist without inertia is not resisted by the viscosity of bending: take "
+                "polar_inertia above zero, or damping as a ratio"
+            )
+        x, (strain, once, upto) = model.points, _bases(self.shapes, model)
+        (kappa, e, change), (kappa_dot, e_dot, change_dot) = model.bent(q), model.bent(q_dot)
+        s = 1.0 / (1.0 + e)
+        s_dot = -e_dot * s**2
+        angle, angle_dot = _times(s, once), _times(s_dot, once)
+        flap = _times(s, strain) - _times(change * s**2, once)
+        flap_dot = _times(s_dot, strain)
+        flap_dot -= _times(change_dot * s**2 + 2.0 * change * s * s_dot, once)
+        curved = _times(kappa, angle)
+        curved_dot = _times(kappa_dot, angle) + _times(kappa, angle_dot)
+        viscous = viscosity * model.weights * evaluated(self.unit.bending, x)
+        if self.twist == "inertial":
+            flap = np.concatenate((flap, -_times(kappa, once)), axis=2)
+            flap_dot = np.concatenate((flap_dot, -_times(kappa_dot, once)), axis=2)
+            along = np.broadcast_to(strain, curved.shape)
+            torsion = np.concatenate((curved, along), axis=2)
+            torsion_dot = np.concatenate((curved_dot, 0.0 * along), axis=2)
+            damping = _form(torsion, self.g * viscous, torsion)
+            stiffness = _form(torsion, self.g * viscous, torsion_dot)
+        else:
+            twist, twist_dot = -upto @ curved, -upto @ curved_dot
+            flap_dot = flap_dot - _times(kappa_dot, twist) - _times(kappa, twist_dot)
+            flap = flap - _times(kappa, twist)
+            damping, stiffness = np.zeros((2, len(q), self.size, self.size))
+        w = self.shapes.twice(x)
+        damping[:, : self.functions, : self.functions] += air * _form(w, model.weights, w)
+        damping += _form(flap, r * viscous, flap)
+        return damping, stiffness + _form(flap, r * viscous, flap_dot)
 
 
 def with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
@@ -169,6 +219,11 @@ def _form(left: FloatArray, weights: FloatArray, right: FloatArray) -> FloatArra
     return np.asarray(np.swapaxes(left, -1, -2) @ (weights[..., None] * right))
 
 
+def _times(factor: FloatArray, functions: FloatArray) -> FloatArray:
+    """Return the functions times a factor at the points (samples, points)."""
+    return np.asarray(factor[..., None] * functions)
+
+
 @dataclass(frozen=True)
 class OutOfPlaneMotion:
     """Small motion out of the plane about a periodic orbit, as `methods.floquet` sees an orbit.
@@ -177,10 +232,13 @@ class OutOfPlaneMotion:
     ----------
     orbit : Orbit
     space : Space
+    modal : ndarray (n, n), optional
+        Damping beside the blade's own.
     """
 
     orbit: BeamOrbit
     space: Space
+    modal: FloatArray | None = None
 
     @property
     def frequency(self) -> float:
@@ -189,10 +247,19 @@ class OutOfPlaneMotion:
 
     def tangent(self, phase: FloatArray) -> Tangent:
         """Return the coefficients of the Hill equation at the phases (phases,)."""
-        K = self.space.stiffness(self.orbit.system, *self.orbit.coordinates(phase))
-        n = self.space.size
-        M = np.broadcast_to(self.space.mass, K.shape)
-        return Tangent(np.zeros((phase.size, n)), K, np.zeros_like(K), M)
+        space, planar, state = self.space, self.orbit.system, self.orbit.coordinates(phase)
+        K = space.stiffness(planar, *state)
+        C = np.zeros_like(K) if self.modal is None else np.broadcast_to(self.modal, K.shape)
+        if any(space.unit.damping):
+            own, more = space.resistance(planar, *state[:2])
+            K, C = K + more, C + own
+        return Tangent(np.zeros(K.shape[:2]), K, C, np.broadcast_to(space.mass, K.shape))
+
+    @property
+    def reversible(self) -> bool:
+        """Whether nothing damps it."""
+        damped = any(self.space.unit.damping) or any(self.orbit.system.model.blade.damping)
+        return self.modal is None and not damped
 
     @property
     def signs(self) -> FloatArray:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+
+import numpy as np
 
 from ...arrays import FloatArray
 
@@ -48,3 +50,25 @@ class BeamState:
     w_slope: FloatArray | float = 0.0
     w_dot: FloatArray | float = 0.0
     w_slope_dot: FloatArray | float = 0.0
+
+
+def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:
+    """Return x²(6 - 4x + x²)/3 of x/L, the flap of a kick over that of the tip, or a derivative.
+
+    The shape that a uniform load gives a cantilever: its end has neither moment nor force.
+    """
+    found: FloatArray = np.polynomial.Polynomial([0.0, 0.0, 2.0, -4.0 / 3.0, 1.0 / 3.0]).deriv(
+        derivative
+    )(x)
+    return found
+
+
+def kicked_state(length: float, speed: float, x: FloatArray) -> BeamState:
+    """Return the state at `x` [m] of a straight blade whose tip is kicked out of the plane."""
+    zero = np.zeros_like(x)
+    flat = dict.fromkeys((one.name for one in fields(BeamState)), zero)
+    rates = {
+        "w_dot": speed * flap_of_kick(x / length),
+        "w_slope_dot": speed / length * flap_of_kick(x / length, 1),
+    }
+    return BeamState(**flat | rates)

@@ -99,6 +99,11 @@ def forced_response(
     unit = unit_load(beam, load)
     if load.varied is None:
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
+    if load.leaves_plane:
+        raise ValueError(
+            f"forced_response takes {load.called} in the plane of rotation: leave the tilt out, or "
+            "take spin_up_response"
+        )
     if load.frequency is not None:
         raise ValueError(
             f"the load has a frequency, {load.frequency:g} rad/s, and forced_response varies it: "

@@ -53,7 +53,8 @@ def pushes(
     total: Any = None
     for load, phase in loads:
         if load.acts_on is not None:
-            push = model.push(load.force(phase, angle, model.setting), load.acts_on)
+            force, lift = load.force(phase, angle, model.setting), load.lift(phase)
+            push = model.push(force, load.acts_on, lift)
             total = push if total is None else total + push
     return total
 

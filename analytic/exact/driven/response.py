@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, warn_if_rpm
-from ...input_checks import finite_values, points_of_beam, positive
+from ...beam import AnyBlade, require_planar, warn_if_rpm
+from ...input_checks import finite_number, finite_values, points_of_beam, positive
 from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
@@ -21,7 +21,8 @@ from ...threads import one_thread
 from ..beam.discretization import blade_continuum
 from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.steady import steady_rotation
-from ..space.steady import lives_in_space, space_continuum, space_rotation
+from ..space.modes import flap_shape
+from ..space.steady import lives_in_space, require_bent, space_continuum, space_rotation
 from .transient import BladeMotion, drive, few_at_once, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -178,6 +179,8 @@ def spin_up_response(
     theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
+    kick: float = 0.0,
+    bent: float = 0.0,
 ) -> SpinUpResponse:
     """Return the exact response of the beam, damped or not, that does not swing before t = 0.
 
@@ -199,6 +202,12 @@ def spin_up_response(
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
         What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
+    kick : float
+        Speed of the tip out of the plane at t = 0 [m/s], of a planar blade that is still straight:
+        its points move as `analytic.exact.beam.state.flap_of_kick` has it.
+    bent : float
+        Deflection of the tip out of the plane over L, from which a planar blade starts at rest. Its
+        curvature is that of the first flap mode at rest, which excites no other wave.
 
     Raises
     ------
@@ -225,7 +234,10 @@ def spin_up_response(
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     _require_feasible(beam, spin_up, float(time[-1]), digits)
-    space = lives_in_space(beam)
+    kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
+    if kick or bent:
+        require_planar(beam)
+    space = lives_in_space(beam, loads) or bool(kick or bent)
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
@@ -243,8 +255,11 @@ def spin_up_response(
         if sum(counts) > _MOST_STEPS:
             break
         grid = grid_of(corners, counts)
-        at_first = turning(beam, spin_up.start, model).equilibrium
-        finer = integrated(beam, rotation, loads, model, grid, time, along, at_first)
+        q = turning(beam, spin_up.start, model).equilibrium
+        if bent:
+            q = q + bent * flap_shape(model)
+        q_dot = model.struck(kick / (beam.length * beam.frequency_scale)) if kick else 0.0
+        finer = integrated(beam, rotation, loads, model, grid, time, along, q, q_dot)
         if finer is None:
             coarser = None
             continue

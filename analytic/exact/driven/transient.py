@@ -79,17 +79,18 @@ def integrated(
     time: FloatArray,
     points: FloatArray,
     q: FloatArray,
+    rates: FloatArray | float = 0.0,
 ) -> BladeMotion | None:
     """Return the motion on the grid of steps, None if Newton's method fails.
 
-    A step on which it does is halved first, as often as it takes. Before the first the blade does
-    not swing, in the state `q` (n,).
+    A step on which it does is halved first, as often as it takes. It starts in the state `q` (n,)
+    at the `rates`.
     """
     method, per_second = radau(_STAGES), beam.frequency_scale
     driven_at = drive(beam, rotation, loads, model)
-    q_dot = np.zeros(model.size)
+    q_dot = rates + np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
-    state = np.repeat(np.stack((q, 0.0 * q, 0.0 * q))[:, None], time.size, axis=1)
+    state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
     previous, factors = 0.0, None
     # Tangents of the steps before are tried until they have failed more often than they served.
     newton, credit = (TANGENT_BEFORE, _CREDIT) if model.has_dear_tangent else (OWN_TANGENT, 0)

@@ -17,6 +17,7 @@ from ..space.modes import orbit_modes, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
+from .leaving import LeavingBranch, leaving_branch
 from .orbits import Orbits, SpaceOrbits, orbits_of
 from .path import ModePath
 
@@ -98,6 +99,46 @@ class Backbone(ModePath):
         """
         return followed_branch(self, peak_deflection("up_to", up_to))
 
+    @one_thread
+    def leaving(
+        self, low: float, high: float, *, periods: int = 1, points: int = 30
+    ) -> LeavingBranch:
+        """Return the orbits in space that leave the plane between two amplitudes.
+
+        They are born at the smallest planar orbit between `low` and `high` at which a Floquet
+        multiplier out of the plane is 1, or -1 where their period is twice that of the planar
+        orbit. Followed by arclength, each on as many harmonics and functions as it needs.
+
+        Parameters
+        ----------
+        low, high : float
+            Peaks |q|/L of two planar orbits, below 1: one on either side of an edge of instability,
+            as `planar_stability` or `stability_limit` tell it.
+        periods : int
+            1, or 2 for period doubling.
+        points : int
+            Number of orbits at most.
+
+        Raises
+        ------
+        ValueError
+            If nothing leaves the plane between them, or the section out of it is not known.
+
+        Examples
+        --------
+        >>> from analytic import Beam, Rectangle, backbone
+        >>> strip = Beam.reference().with_shape(Rectangle())
+        >>> found = backbone(strip, omega=0.0, functions=12).leaving(0.0074, 0.0079, points=2)
+        >>> print(f"{found.born.amplitude:.6f}")
+        0.007719
+        """
+        low, high = peak_deflection("low", low), peak_deflection("high", high)
+        if not low < high:
+            raise ValueError(f"low must be below high, got {low:g} and {high:g}")
+        if whole_number("periods", periods) > 2:
+            raise ValueError(f"periods must be 1 or 2, got {periods}")
+        return leaving_branch(self, low, high, periods, whole_number("points", points))
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SpaceBackbone(Backbone):
@@ -123,6 +164,12 @@ class SpaceBackbone(Backbone):
             "internal resonances are followed for planar blades only: take orbits, which end or "
             "warn near one"
         )
+
+    def leaving(
+        self, low: float, high: float, *, periods: int = 1, points: int = 30
+    ) -> LeavingBranch:
+        """Refuse: orbits in space have no plane to leave."""
+        raise ValueError("orbits in space have no plane to leave: take those of lag")
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from three small orbits, and what the third changed.

@@ -184,16 +184,21 @@ class SpaceOrbitSet(OrbitSet):
         """Half the swing of the tip's section about the clamp's axis [rad]."""
         return self._swings[:, 2]
 
-    @cached_property
+    @property
     def _swings(self) -> FloatArray:
-        """Lag, flap and twist, (orbits, 3), between samples by their Fourier series."""
+        """Half the swings of lag, flap and twist, (orbits, 3)."""
+        return np.array([0.5 * np.ptp(course, axis=0) for course in self._courses])
+
+    @cached_property
+    def _courses(self) -> list[FloatArray]:
+        """Lag, flap and twist of each orbit, (samples, 3), between some by their Fourier series."""
         found = []
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
             series = np.fft.rfft(np.column_stack((model.tip(q)[:, 1:], model.tip_turn(q))), axis=0)
-            found.append(np.ptp(np.fft.irfft(series, _SAMPLES, axis=0), axis=0) / count)
-        return 0.5 * _SAMPLES * np.array(found)
+            found.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
+        return found
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
+from ...beam import AnyBlade, undamped
+from ...input_checks import not_negative
 from ...lazily import linalg
-from ...methods.floquet import normal_modes, reversible_monodromy
+from ...methods.floquet import flow, normal_modes, reversible_monodromy
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.discretization import resolved_model
@@ -69,15 +70,17 @@ class Growth(NamedTuple):
         return self.per_radian * frequency
 
 
-def grown_and_checked(blade: AnyBlade, orbit: BeamOrbit, theory: Theory) -> tuple[Growth, bool]:
+def grown_and_checked(
+    blade: AnyBlade, orbit: BeamOrbit, theory: Theory, ratio: float = 0.0
+) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
     Or two thirds as many, where half as many do not.
     """
     functions = settled_functions(blade, orbit.system, theory)
-    rough = grown(blade, orbit, functions, STEPS, theory)
+    rough = grown(blade, orbit, functions, STEPS, theory, ratio)
     for finer in (2, 3):
-        fine = grown(blade, orbit, finer * functions, finer * STEPS, theory)
+        fine = grown(blade, orbit, finer * functions, finer * STEPS, theory, ratio)
         if not (rough.unstable or fine.unstable):
             return fine, True
         close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
@@ -93,13 +96,20 @@ def grown(
     functions: int,
     steps: int,
     theory: Theory = BERNOULLI_EULER,
+    ratio: float = 0.0,
 ) -> Growth:
-    """Return what grows out of the plane over one period of an orbit."""
+    """Return what grows out of the plane over one period of an orbit.
+
+    The blade's own damping and the damping `ratio` of its modes resist it.
+    """
     space = _space(blade, functions, theory)
     orbit = orbit.on(with_points_for(orbit.system, space.functions))
-    motion = OutOfPlaneMotion(orbit, space)
+    motion = OutOfPlaneMotion(orbit, space, _modal(space, orbit.system, ratio) if ratio else None)
     try:
-        matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
+        if motion.reversible:
+            matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
+        else:
+            matrix, exponent = flow(motion, steps)
     except linalg.LinAlgError:
         return Growth(np.inf, np.full(2 * _REPORTED, np.nan + 0j), "divergence", ("torsion 1",))
     values, vectors = np.linalg.eig(matrix)
@@ -159,6 +169,12 @@ def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatAr
     return rows, frequencies, names
 
 
+def _modal(space: Space, planar: SteadyBeam, ratio: float) -> FloatArray:
+    """Return the damping 2ζν of all modes ν of the straight blade in rotation, (n, n)."""
+    rows, frequencies, _ = _steady_modes(space, planar)
+    return np.asarray(rows.T @ (2.0 * ratio * frequencies[:, None] * rows))
+
+
 def _shares(
     space: Space, planar: SteadyBeam, states: ComplexArray
 ) -> tuple[FloatArray, list[str], FloatArray]:
@@ -175,22 +191,53 @@ def _shares(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanarOrbits(ModePath):
-    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane."""
+    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane.
+
+    The planar orbits are undamped; what leaves the plane has the damping of the `blade`, and the
+    damping ratio `damping` of its modes.
+    """
+
+    blade: AnyBlade
+    damping: float
+
+    @property
+    def damped(self) -> bool:
+        """Whether anything resists what leaves the plane."""
+        return _resisted(self.blade, self.damping)
 
     @cached_property
     def functions(self) -> int:
         """Number of functions that settles the flap modes."""
-        return settled_functions(self.beam, self.path.at(SMALLEST).system, self.theory)
+        return settled_functions(self.blade, self.path.at(SMALLEST).system, self.theory)
 
     def growth(self, amplitude: float, finer: int = 1) -> Growth:
         """Return what grows about an orbit, at a multiple of the resolution."""
         orbit = self.path.at(amplitude)
-        return grown(self.beam, orbit, finer * self.functions, finer * STEPS, self.theory)
+        return grown(
+            self.blade, orbit, finer * self.functions, finer * STEPS, self.theory, self.damping
+        )
+
+
+def least_growth(blade: AnyBlade, damping: float) -> float:
+    """Return the growth per radian that counts unless told: any if it is damped."""
+    return GROWTH / (2.0 * np.pi) if _resisted(blade, damping) else LEAST_GROWTH
+
+
+def _resisted(blade: AnyBlade, damping: float) -> bool:
+    return bool(damping) or any(blade.unit.damping)
 
 
 def planar_orbits(
-    blade: AnyBlade, omega: float, mode: int = 1, theory: Theory = BERNOULLI_EULER
+    blade: AnyBlade,
+    omega: float,
+    mode: int = 1,
+    theory: Theory = BERNOULLI_EULER,
+    damping: float = 0.0,
 ) -> PlanarOrbits:
     """Return the planar orbits of a mode at ω [rad/s]."""
-    model = resolved_model(blade, mode, theory, _FUNCTIONS)
-    return PlanarOrbits(beam=blade, omega=omega, mode=mode, theory=theory, model=model)
+    free = undamped(blade)
+    model = resolved_model(free, mode, theory, _FUNCTIONS)
+    return PlanarOrbits(
+        beam=free, omega=omega, mode=mode, theory=theory, model=model,
+        blade=blade, damping=not_negative("damping", damping),
+    )  # fmt: skip

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_planar
-from ...input_checks import rotation_speed, whole_number
+from ...beam import AnyBlade, require_planar, undamped
+from ...input_checks import not_negative, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -23,21 +23,26 @@ _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist
 
 
 @one_thread
-def growth_rates(blade: AnyBlade, omega: float, amplitudes: FloatArray) -> FloatArray:
+def growth_rates(
+    blade: AnyBlade, omega: float, amplitudes: FloatArray, damping: float = 0.0
+) -> FloatArray:
     """Return the growth rates [1/s] about orbits of the first mode, zero where stable.
 
-    On as many functions and steps as `planar_stability` begins with, for maps; NaN from the first
+    With a damping ratio of the modes out of the plane, the least decay rates, below zero. On as
+    many functions and steps as `planar_stability` begins with, for maps; NaN from the first
     amplitude on that no orbit was found for.
     """
     require_out_of_plane(blade)
-    orbits = planar_orbits(blade, rotation_speed(omega))
+    orbits = planar_orbits(blade, rotation_speed(omega), damping=damping)
     rates = np.full(amplitudes.size, np.nan)
     for k, a in enumerate(amplitudes.tolist()):
         try:
-            frequency = orbits.path.at(a).frequency
+            frequency = orbits.path.at(a).frequency * blade.frequency_scale
         except NoOrbitError:
             break
-        rates[k] = orbits.growth(a).rate(frequency * blade.frequency_scale)
+        found = orbits.growth(a)
+        decays = damping and not found.unstable
+        rates[k] = found.exponent * frequency / (2.0 * np.pi) if decays else found.rate(frequency)
     return rates
 
 
@@ -156,6 +161,7 @@ def planar_stability(
     amplitudes: float | Sequence[float] | FloatArray,
     mode: int = 1,
     *,
+    damping: float = 0.0,
     theory: Theory = BERNOULLI_EULER,
 ) -> PlanarStability:
     """Return whether the planar orbits of a blade stay in the plane of rotation.
@@ -164,16 +170,21 @@ def planar_stability(
     is integrated over a period by Gauss's method. Modes up to 48 times the frequency of the orbit
     are resolved; those beyond follow, or oscillate too fast to be excited.
 
+    Free orbits are undamped, for damped motion is not periodic. What leaves their plane is damped:
+    by the blade's own `Damping`, of flap and torsion, and by `damping`.
+
     Parameters
     ----------
     blade : Blade
-        With a section out of the plane, of setting angle zero, undamped.
+        With a section out of the plane, of setting angle zero.
     omega : float
         Rotation speed ω [rad/s].
     amplitudes : float or sequence of float
         Peak tip deflections |q|/L of the orbits.
     mode : int
         In-plane mode from which they grow, from 1.
+    damping : float
+        Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
     theory : Theory
         Of the orbits, without shear: slices do not shear out of the plane. Without `trapeze` and
         rotary inertia the twist has none.
@@ -195,11 +206,12 @@ def planar_stability(
     [ True False] ('', 'divergence') [  0.  120.8]
     """
     require_out_of_plane(blade, theory)
+    ratio = not_negative("damping", damping)
     orbits = periodic_orbits(
-        blade, omega, amplitudes, mode, theory=theory,
+        undamped(blade), omega, amplitudes, mode, theory=theory,
         functions=max(16, 2 * whole_number("mode", mode)),
     )  # fmt: skip
-    found = [grown_and_checked(blade, orbit, theory) for orbit in orbits.nondimensional]
+    found = [grown_and_checked(blade, orbit, theory, ratio) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
     return PlanarStability(
         blade=blade,

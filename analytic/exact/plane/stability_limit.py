@@ -6,13 +6,21 @@ import math
 from dataclasses import dataclass
 from itertools import groupby
 
-from ...beam import AnyBlade, require_undamped
+from ...beam import AnyBlade
 from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import require_out_of_plane
-from .growth import LEAST_GROWTH, SMALLEST, Growth, PlanarOrbits, planar_orbits
+from .growth import (
+    GROWTH,
+    LEAST_GROWTH,
+    SMALLEST,
+    Growth,
+    PlanarOrbits,
+    least_growth,
+    planar_orbits,
+)
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
@@ -57,6 +65,8 @@ class StabilityLimit:
         Rotation speed ω [rad/s].
     mode : int
         Planar mode from which the orbits grow, from 1.
+    damping : float
+        Damping ratio of the modes out of the plane, beside the blade's own damping.
     growth : float
         Growth exponent over the orbit's frequency [1/rad] that counts.
     amplitude : float
@@ -77,6 +87,7 @@ class StabilityLimit:
     blade: AnyBlade
     omega: float
     mode: int
+    damping: float
     growth: float
     amplitude: float
     searched: float
@@ -90,6 +101,9 @@ class StabilityLimit:
 
     def __str__(self) -> str:
         at = f"At {self.omega:g} rad/s the planar orbits of this section"
+        if self.damping:
+            at = f"{at}, damped out of the plane by {self.damping:g} of the critical,"
+        grow = f", by {self.growth:g} per radian and more" if self.growth > GROWTH else ""
         limited = math.isfinite(self.amplitude)
         tongues = ""
         if self.tongues:
@@ -106,7 +120,7 @@ class StabilityLimit:
         doubt = "" if self.converged else ", not converged"
         return (
             f"{at} leave their plane from a = {self.amplitude:.4g} on, up to the "
-            f"{self.searched:.4g} looked at, by {self.growth:g} per radian and more{doubt}: "
+            f"{self.searched:.4g} looked at{grow}{doubt}: "
             f"{self.kind} of {' and '.join(self.modes)}" + (f"; {tongues}" if tongues else "")
         )
 
@@ -117,7 +131,8 @@ def stability_limit(
     omega: float,
     mode: int = 1,
     *,
-    growth: float = LEAST_GROWTH,
+    damping: float = 0.0,
+    growth: float | None = None,
     largest: float = LARGEST,
     theory: Theory = BERNOULLI_EULER,
 ) -> StabilityLimit:
@@ -129,6 +144,10 @@ def stability_limit(
     the limit. Amplitudes from 0.01 on are tried in steps of 2 %, or 5 % if the orbit grows ten
     times as fast, and of 0.25 % from 0.85 of the limit on. Narrower tongues may be missed.
 
+    With damping of flap and torsion, the blade's own or a ratio, few tongues are left, and limits
+    are properties of the blade: any growth counts, and the tongues' ends are bisected too. The
+    planar orbits stay undamped, for free damped motion is not periodic.
+
     Parameters
     ----------
     blade : Blade
@@ -137,9 +156,10 @@ def stability_limit(
         Rotation speed ω [rad/s].
     mode : int
         In-plane mode from which the orbits grow, from 1.
-    growth : float
-        Growth exponent over the orbit's frequency [1/rad] that counts. Modes that decay faster,
-        by their damping ratio times their frequency over the orbit's, keep the plane.
+    damping : float
+        Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
+    growth : float, optional
+        Growth exponent over the orbit's frequency [1/rad] that counts: 0.01, or any with damping.
     largest : float
         Largest |q|/L to look at.
     theory : Theory
@@ -161,10 +181,10 @@ def stability_limit(
     (0.059, 0.052)
     """
     require_out_of_plane(blade, theory)
-    require_undamped(blade, "a damped blade has no free periodic orbits")
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    growth, largest = positive("growth", growth), peak_deflection("largest", largest)
-    return _limit(planar_orbits(blade, omega, mode, theory), growth, largest)
+    orbits = planar_orbits(blade, omega, mode, theory, damping)
+    growth = least_growth(blade, damping) if growth is None else growth
+    return _limit(orbits, positive("growth", growth), peak_deflection("largest", largest))
 
 
 def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit:
@@ -182,10 +202,10 @@ def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit
         agreed = orbits.growth(beyond, 3).per_radian >= least
         agreed = agreed and orbits.growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
-        blade=orbits.beam, omega=orbits.omega, mode=orbits.mode,
+        blade=orbits.blade, omega=orbits.omega, mode=orbits.mode, damping=orbits.damping,
         growth=least, amplitude=amplitude, searched=searched,
         kind=what.kind if what else "", modes=what.modes if what else (),
-        tongues=_tongues(seen), converged=agreed,
+        tongues=_tongues(orbits, seen, amplitude), converged=agreed,
     )  # fmt: skip
 
 
@@ -206,7 +226,7 @@ def _scanned(orbits: PlanarOrbits, least: float, largest: float) -> dict[float, 
             break
         if a == largest:
             break
-        strong = seen[a].per_radian > _STRONG * least
+        strong = seen[a].per_radian > _STRONG * max(least, LEAST_GROWTH)
         a = min(a * (1.0 + (_LONG if strong else _STEP)), largest)
     return dict(sorted(seen.items()))
 
@@ -239,24 +259,29 @@ def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
 
 
 def _bisected(orbits: PlanarOrbits, low: float, high: float, least: float) -> float:
-    while high > (1.0 + _BISECTED) * low:
+    while abs(high - low) > _BISECTED * low:
         middle = 0.5 * (low + high)
-        grows = orbits.growth(middle, 2).per_radian >= least
+        grows = orbits.growth(middle, 2).per_radian >= max(least, GROWTH / (2.0 * math.pi))
         low, high = (low, middle) if grows else (middle, high)
     return high
 
 
-def _tongues(seen: dict[float, Growth]) -> tuple[Tongue, ...]:
-    """Return the intervals that grow."""
-    found = []
+def _tongues(orbits: PlanarOrbits, seen: dict[float, Growth], limit: float) -> tuple[Tongue, ...]:
+    """Return the intervals that grow; with damping their ends are bisected."""
+    found, around = [], [0.0, *seen, limit]
     for unstable, run in groupby(seen.items(), key=lambda item: item[1].unstable):
         if unstable:
             amplitudes, growths = zip(*run, strict=True)
             most = max(growths, key=lambda one: one.exponent)
+            low, high = amplitudes[0], amplitudes[-1]
+            if orbits.damped:
+                before, after = around[around.index(low) - 1], around[around.index(high) + 1]
+                low = _bisected(orbits, before, low, 0.0) if before else low
+                high = _bisected(orbits, after, high, 0.0) if math.isfinite(after) else high
             found.append(
                 Tongue(
-                    low=amplitudes[0],
-                    high=amplitudes[-1],
+                    low=low,
+                    high=high,
                     growth=most.per_radian,
                     kind=most.kind,
                     modes=most.modes,

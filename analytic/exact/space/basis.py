@@ -11,6 +11,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...profiles import evaluated, slope_of
@@ -141,18 +142,22 @@ class StrainFunctions:
         return self.blade.grid(2 * self.bending, more, of_fields=True)
 
     @cached_property
-    def odd(self) -> np.ndarray | None:
+    def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal."""
+        if self.blade.half_turn or self.blade.mirrored:
+            return self.odd_by(mirror=not self.blade.half_turn)
+        return None
+
+    def odd_by(self, *, mirror: bool) -> NDArray[np.bool_]:
+        """Return the same of the half turn about the blade, or of the mirror through the axis."""
         bending, torsion, axial, shear = self.counts
-        lag = np.tile([True, False], bending // 2)
-        across = np.repeat([True, False], shear // 2)
-        if self.blade.half_turn:
+        if not mirror:
             kinds = [np.ones(bending), np.zeros(torsion + axial), np.ones(shear)]
-        elif self.blade.mirrored:
-            # Set for flap the section's own planes change places, those of the root frame do not.
-            kinds = [lag, np.ones(torsion), np.zeros(axial), across]
         else:
-            return None
+            # Set for flap the section's own planes change places, those of the root frame do not.
+            lag = np.tile([True, False], bending // 2)
+            across = np.repeat([True, False], shear // 2)
+            kinds = [lag, np.ones(torsion), np.zeros(axial), across]
         return np.concatenate(kinds).astype(bool)
 
     def _flexibility(self, x: FloatArray) -> FloatArray:

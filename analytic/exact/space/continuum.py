@@ -29,6 +29,7 @@ import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
+from ..beam.state import flap_of_kick
 from .basis import StrainFunctions
 from .changes import Changes, Rates, State
 from .vectors import Frames, cross, turned, turned_back
@@ -313,20 +314,27 @@ class SpaceContinuum:
         """Return the tip's deflection, normal to the clamp's line."""
         return tip[..., 1:]
 
-    def push(self, force: ComplexArray, acts_on: str) -> FloatArray:
-        """Return a force in the plane of rotation, (samples,), as `residual` takes it.
+    def push(self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0) -> FloatArray:
+        """Return a force in the plane of rotation and along its axis, as `residual` takes it.
 
-        Along the hub's radius and in the direction of rotation, from where the precone tilts it
-        into the root frame. What acts on mass pulls at its centers.
+        Both (samples,). Along the hub's radius, in the direction of rotation and up, from where
+        the precone tilts it into the root frame. What acts on mass pulls at its centers.
         """
         cone = self.blade.line.precone
-        parts = (math.cos(cone) * force.real, force.imag, -math.sin(cone) * force.real)
+        c, s = math.cos(cone), math.sin(cone)
+        parts = (c * force.real + s * lift, force.imag, c * lift - s * force.real)
         result = np.zeros((3, 3, force.size, self.points.size))
         if acts_on == "mass":
             result[1] = np.stack(parts)[..., None]
         else:
             result[0] = np.multiply.outer(np.stack(parts), self.outboard[acts_on])
         return result
+
+    def struck(self, speed: float) -> FloatArray:
+        """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""
+        bending = -speed * flap_of_kick(self.points, 2)
+        found: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
+        return found
 
     def refined(self) -> SpaceContinuum:
         """Return the discretization with half as many functions again, on every panel."""

@@ -183,7 +183,18 @@ def _packed(
 def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
     bending, twists, *_ = steady.model.functions.counts
-    moving = slice(bending, bending + twists) if torsion else slice(None)
+    return _block(steady, slice(bending, bending + twists) if torsion else slice(None))
+
+
+def flap_shape(model: SpaceContinuum) -> FloatArray:
+    """Return the first flap mode of a planar blade at rest, (n,), its tip 1 out of the plane."""
+    at_rest = SpaceBlade(model, 0.0, DIRECTIONS["flap"])
+    shape = _block(at_rest, slice(1, model.functions.counts[0], 2))[1][:, 0].real
+    return np.asarray(shape / (at_rest.gauge_gradient(at_rest.equilibrium[None])[0] @ shape))
+
+
+def _block(steady: SpaceBlade, moving: slice) -> tuple[FloatArray, ComplexArray]:
+    """Return the same where only some coordinates move."""
     parts: list[Any] = [part[0, moving, moving] for part in steady.linearized[1:]]
     K, C, M = parts
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_blade, require_steady_state
+from ...input_checks import finite_number
+from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
@@ -27,6 +29,7 @@ MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
 _LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
 _SHORTEST = 1e-3
+_LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
 
 
@@ -56,23 +59,33 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     )
 
 
-def lives_in_space(beam: AnyBlade) -> bool:
-    """Whether flap, lag and torsion of a blade go together.
+def lives_in_space(beam: AnyBlade, loads: Sequence[Load] = ()) -> bool:
+    """Whether flap, lag and torsion of a blade under loads go together.
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
     require_blade(beam)
     blade = beam.blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
-    return turned or not blade.is_planar
+    return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
+
+
+def require_bent(name: str, bent: float) -> float:
+    """Return a start out of the plane, over L; refuse one that is not small."""
+    if not abs(finite_number(name, bent)) <= _LARGEST_KICK:
+        raise ValueError(
+            f"{name} must be at most {_LARGEST_KICK:g} of the length, got {bent:g}: it is to be "
+            "small, 1e-6 say"
+        )
+    return float(bent)
 
 
 def require_section(beam: AnyBlade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not beam.blade.section.knows_space:
         raise ValueError(
-            "a blade with twist, precone, prebend, sweep, offsets or a setting angle bends out of "
-            "its plane and twists: give its stiffness there by "
+            "twist, precone, prebend, sweep, offsets, a setting angle, a kick or tilted gravity "
+            "bend a blade out of its plane and twist it: give its stiffness there by "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
             "that does not twist"
         )
@@ -93,6 +106,11 @@ class SpaceBlade(AtConstantRate):
         Coordinates from which the steady state is found; from rest by default.
     load : tuple
         Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
+    lift : float
+        Pull on all masses along the axis of rotation, over EI3/(m0 L³).
+    mirror : bool
+        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
+        would as well.
     """
 
     model: SpaceContinuum
@@ -100,17 +118,24 @@ class SpaceBlade(AtConstantRate):
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
     near: FloatArray | None = None
     load: tuple[tuple[float, ...], ...] = ()
+    lift: float = 0.0
+    mirror: bool = False
 
     @cached_property
     def push(self) -> FloatArray | None:
         """The load, as `model.residual` takes it."""
-        if not self.load:
+        if not self._is_loaded:
             return None
-        result = np.zeros((3, 3, 1, self.model.points.size))
-        result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
+        result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
+        if self.load:
+            result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
 
     @property
+    def _is_loaded(self) -> bool:
+        return bool(self.load or self.lift)
+
+    @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal.
 
@@ -118,7 +143,7 @@ class SpaceBlade(AtConstantRate):
         """
         if self.direction[2] and not self.model.functions.blade.half_turn:
             return None
-        return self.model.functions.odd
+        return self.model.functions.odd_by(mirror=True) if self.mirror else self.model.functions.odd
 
     @property
     def pinned(self) -> int:
@@ -139,7 +164,7 @@ class SpaceBlade(AtConstantRate):
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        straight = unit.half_turn and unit.mirrored and not self.load
+        straight = unit.half_turn and unit.mirrored and not self._is_loaded
         whole = max(self.rate / _LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
@@ -150,7 +175,7 @@ class SpaceBlade(AtConstantRate):
                     return found
                 q, reached, step = found, share, min(1.5 * step, longest)
             elif share == 0.0 or step < _SHORTEST * longest:
-                load = f" and at {share:.4g} of the load" if self.load else ""
+                load = f" and at {share:.4g} of the load" if self._is_loaded else ""
                 raise ValueError(
                     f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
                     f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
@@ -162,11 +187,12 @@ class SpaceBlade(AtConstantRate):
     @property
     def _loaded(self) -> float:
         """Angle by which the load bends or twists the softest section's blade, about."""
-        if not self.load:
+        if not self._is_loaded:
             return 0.0
         own = self.model.functions
         soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]
-        return float(np.sum(np.abs(self.load)) * np.trace(soft, axis1=1, axis2=2).max())
+        whole = float(np.sum(np.abs(self.load))) + abs(self.lift)
+        return whole * float(np.trace(soft, axis1=1, axis2=2).max())
 
     def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
         """Return the state near `q` (n,) at shares of speed and load; None if lost, or unstable."""

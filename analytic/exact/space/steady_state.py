@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, warn_if_rpm
-from ...input_checks import finite_array, points_of_beam, rotation_speed
+from ...input_checks import finite_array, finite_number, points_of_beam, rotation_speed
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -29,6 +29,8 @@ class SteadyState:
     theory : Theory
     force, moment : tuple
         At the tip [N], [N m].
+    gravity : float
+        Along the axis of rotation, against it [m/s²].
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.
@@ -43,6 +45,7 @@ class SteadyState:
     theory: Theory
     force: tuple[float, ...]
     moment: tuple[float, ...]
+    gravity: float
     tip: FloatArray
     twist: float
     error: float
@@ -81,9 +84,10 @@ def steady_state(
     *,
     force: ArrayLike = (0.0, 0.0, 0.0),
     moment: ArrayLike = (0.0, 0.0, 0.0),
+    gravity: float = 0.0,
     theory: Theory = BERNOULLI_EULER,
 ) -> SteadyState:
-    """Return the steady state of a blade in rotation, or at rest under a load at its tip.
+    """Return the steady state of a blade in rotation, under a load at its tip and its weight.
 
     Followed from rest in steps of the speed and the load; functions are added until the tip
     settles.
@@ -96,6 +100,8 @@ def steady_state(
         Rotation speed ω [rad/s].
     force, moment : array_like (3,)
         On the tip [N], [N m]; in the root frame, as `tip`, they keep their directions.
+    gravity : float
+        g [m/s²], where the axis of rotation points up, as ``Gravity(g, tilt=math.pi / 2)`` has it.
     theory : Theory
         Extension, shear, rotary inertia, trapeze effect.
 
@@ -118,7 +124,9 @@ def steady_state(
         _vector(name, value, unit)
         for name, value, unit in (("force", force, "N"), ("moment", moment, "N m"))
     )
+    gravity = finite_number("gravity", gravity, "m/s^2")
     first = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
+    first = replace(first, lift=-gravity / (blade.length * blade.frequency_scale**2))
     if any((*force, *moment)):
         EI, L = blade.bending_stiffness, blade.length
         load = tuple(f * L**2 / EI for f in force), tuple(m * L / EI for m in moment)
@@ -132,7 +140,7 @@ def steady_state(
         "rotate slower",
     )
     return SteadyState(
-        blade=blade, omega=omega, theory=theory, force=force, moment=moment,
+        blade=blade, omega=omega, theory=theory, force=force, moment=moment, gravity=gravity,
         tip=blade.length * steady.tip, error=error, _steady=steady,
         twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip

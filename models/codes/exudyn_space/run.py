@@ -24,7 +24,7 @@ def history(case: Case, n: int, h: float):
 
 def frequency(case: Case, n: int, speed: float) -> float:
     """Return the first one in the plane about the steady state."""
-    return ENTRY.first_frequency(case.blade.with_shape(Tube()), speed, n)
+    return ENTRY.frequencies(case.blade.with_shape(Tube()), speed, n, 1)[0]
 
 
 if __name__ == "__main__":
@@ -33,5 +33,5 @@ if __name__ == "__main__":
         url="https://github.com/jgerstmayr/EXUDYN", theory=ENTRY.theory, order=2.0,
         element="ObjectBeamGeometricallyExact, two nodes", order_in_step=2.0,
     )  # fmt: skip
-    runs = [(32, "2e-3"), (64, "2e-3"), (128, "2e-3"), (64, "4e-3"), (64, "1e-3")]
+    runs = [(32, 2e-3), (64, 2e-3), (128, 2e-3), (64, 4e-3), (64, 1e-3)]
     take_part(__file__, told, history, {"S1": runs}, frequency, (32, 64, 128))

@@ -18,5 +18,5 @@ if __name__ == "__main__":
         url="https://github.com/KratosMultiphysics/Kratos", order=2.0, order_in_step=2.0,
         element="CrBeamElement2D2N, corotational; Bossak's scheme, alpha = 0",
     )  # fmt: skip
-    runs = [(16, "1e-3"), (32, "1e-3"), (64, "1e-3"), (32, "2e-3"), (32, "5e-4")]
+    runs = [(16, 1e-3), (32, 1e-3), (64, 1e-3), (32, 2e-3), (32, 5e-4)]
     take_part(__file__, told, history, {"S1": runs})

@@ -75,5 +75,5 @@ if __name__ == "__main__":
         code="MuJoCo", version=version("mujoco"), url="https://mujoco.org", licence="Apache-2.0",
         element="rigid links, hinges with springs", inextensible=True, order=2.0, order_in_step=2.0,
     )  # fmt: skip
-    runs = [(32, "2e-4"), (32, "1e-4"), (64, "1e-4"), (64, "5e-5"), (128, "2.5e-5")]
+    runs = [(32, 2e-4), (32, 1e-4), (64, 1e-4), (64, 5e-5), (128, 2.5e-5)]
     take_part(__file__, told, history, {"S1": runs}, frequency, (32, 64, 128, 256))

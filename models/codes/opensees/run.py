@@ -1,6 +1,5 @@
 """OpenSees: dispBeamColumn in corotational frames of space, which turn farther than the plane's."""
 
-import math
 import sys
 from importlib.metadata import version
 from pathlib import Path
@@ -75,15 +74,11 @@ def frequency(case: Case, n: int, speed: float) -> float:
         if ops.analyze(1):
             raise RuntimeError("Newton's method fails")
     K = np.array(ops.printA("-ret")).reshape(3 * n, 3 * n)
-    turns = np.arange(3 * n) % 3 == 2  # they have no mass
-    K = K[~turns][:, ~turns] - K[~turns][:, turns] @ np.linalg.solve(
-        K[turns][:, turns], K[turns][:, ~turns]
-    )
-    M, found = np.diag(np.repeat(shares, 2)), 0.0
-    swap = np.kron(np.diag(shares), [[0.0, 1.0], [1.0, 0.0]])  # x as a cosine, y as a sine
-    for _ in range(5):
+    M, found = np.diag(np.kron(shares, [1.0, 1.0, 0.0])), 0.0  # turns have no mass
+    swap = np.kron(np.diag(shares), [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    for _ in range(5):  # x as a cosine, y as a sine
         still = K - speed**2 * M - 2.0 * speed * found * swap
-        found = math.sqrt(eigh(still, M, eigvals_only=True, subset_by_index=(0, 0))[0])
+        found = eigh(M, still, eigvals_only=True)[-1] ** -0.5
     return found
 
 
@@ -93,5 +88,5 @@ if __name__ == "__main__":
         licence="BSD-like, not for sale", element="dispBeamColumn, corotational; lumped mass",
         order=2.0, order_in_step=2.0,
     )  # fmt: skip
-    runs = [(32, "2e-3"), (64, "2e-3"), (32, "4e-3"), (32, "1e-3"), (128, "2e-3")]
+    runs = [(32, 2e-3), (64, 2e-3), (32, 4e-3), (32, 1e-3), (128, 2e-3)]
     take_part(__file__, told, history, {"S1": runs}, frequency, (32, 64, 128))

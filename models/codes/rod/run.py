@@ -1,6 +1,5 @@
 """A rod of ours in C++, written from the kit's PROBLEM.pdf: rod.cpp tells how it is called."""
 
-import subprocess
 import sys
 import tempfile
 from functools import cache
@@ -9,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import SPACING, compiled, take_part
+from common import SPACING, compiled, output_of, take_part
 
 from rotbeam_exu.verification.case_rows import row_of
 from rotbeam_exu.verification.cases import Case
@@ -29,12 +28,8 @@ def program() -> Path:
 def rod(case: Case, n: int, *words: object, speed: float | None = None, start: str = ""):
     """Call it, and return the numbers that it prints."""
     row = row_of(case) | ({} if speed is None else {"omega": speed})
-    numbers = [str(row[name] or 0.0) for name in NUMBERS]
-    call = [program(), *numbers, str(n), *map(str, words)]
-    done = subprocess.run(call, input=start, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(done.stderr.strip())
-    return np.array(done.stdout.split(), dtype=float)
+    numbers = [row[name] or 0.0 for name in NUMBERS]
+    return np.array(output_of([program(), *numbers, n, *words], input=start).split(), dtype=float)
 
 
 def history(case: Case, n: int, h: float):
@@ -61,7 +56,7 @@ if __name__ == "__main__":
         element="cubic, r and r' at two nodes; implicit midpoint rule",
         order=4.0, order_in_step=2.0,
     )  # fmt: skip
-    plain = [(8, "2e-3"), (16, "2e-3"), (32, "2e-3"), (16, "4e-3"), (16, "1e-3")]
-    finer = [(16, "1e-3"), (32, "1e-3"), (64, "1e-3"), (32, "2e-3"), (32, "5e-4")]
+    plain = [(8, 2e-3), (16, 2e-3), (32, 2e-3), (16, 4e-3), (16, 1e-3)]
+    finer = [(16, 1e-3), (32, 1e-3), (64, 1e-3), (32, 2e-3), (32, 5e-4)]
     runs = {"S1": plain, "S2": plain, "O": plain, "S4": finer}
     take_part(__file__, told, history, runs, frequency, (8, 16, 32))

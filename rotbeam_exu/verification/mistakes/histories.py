@@ -170,8 +170,11 @@ def mistake_in_space(
     before = largest((q - true) / scale)
     if not before > SMALL:
         return None
-    # A blade that is twisted the other way moves as in a mirror.
-    mirror = {"sign of the blade's twist": (f"the blade's {TWISTED}", (1.0, -1.0, -1.0))}
+    # A blade that is twisted, or kicked, the other way moves as in a mirror.
+    turned = ("sign of the blade's twist", f"the blade's {TWISTED}")
+    kicked = ("sign of the kick", "the kick is the other way round: it goes up, along the axis")
+    name, said = kicked if case.kick else turned
+    mirror = {name: (said, (1.0, -1.0, -1.0))}
     tried = [
         (name, said, largest((q / factors - true) / scale))
         for name, (said, factors) in {**SIGNS, **mirror}.items()

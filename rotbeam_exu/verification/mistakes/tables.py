@@ -45,6 +45,7 @@ _SPEED_UNITS = {
 
 _STEADY_SIGNS = {
     "sign of the precone": ("the precone tilts the blade down: it lifts it", (-1.0, -1.0, 1.0)),
+    "sign of gravity": ("gravity lifts the blade: it points down", (-1.0, -1.0, 1.0)),
     "sign of the blade's twist": (f"the blade's {TWISTED}", (-1.0, 1.0, -1.0)),
 }
 """Signs of a steady tip after a half turn about the blade, and after a mirror."""
@@ -73,8 +74,10 @@ def mistake_in_frequencies(
 
     def suspects() -> _Suspects:
         if case.asked is Asked.STEADY:
+            other = "sign of the precone" if case.loads else "sign of gravity"
             for name, (said, factors) in {**SIGNS, **_STEADY_SIGNS}.items():
-                yield name, said, true * [factors[place] for _, place, _ in places]
+                if name != other:
+                    yield name, said, true * [factors[place] for _, place, _ in places]
             return
         yield from _other_units(true)
         yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2

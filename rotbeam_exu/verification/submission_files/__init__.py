@@ -72,7 +72,7 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     >>> from tempfile import TemporaryDirectory
     >>> from rotbeam_exu.verification.submission_files import read_submission
     >>> with TemporaryDirectory() as folder:
-    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"')
+    ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.1"\ncode = "mine"')
     ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
     ...     print(read_submission(folder).frequencies[0].frequency)
     3.731123456
@@ -178,8 +178,8 @@ def _write_history(run: Run, folder: Path) -> None:
     numbers = np.column_stack([part for part in parts if part is not None])
     (folder / run.case).mkdir(exist_ok=True)
     with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
-        # 17 digits of each number are enough in any spacing of the samples.
-        np.savetxt(out, numbers, "%.17g", ",", header=",".join(held), comments="")
+        # NumPy's words of a number are its shortest ones that read back the same.
+        np.savetxt(out, numbers, "%s", ",", header=",".join(held), comments="")
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:

@@ -1,0 +1,138 @@
+"""The strip's spin-up out of its plane by three codes, into a table each: half an hour in all.
+
+``python models/strip/run.py exact 56``, ``exudyn 64 5e-4`` and ``mujoco 64 1e-4``; the last wants
+``pip install mujoco``. The rectangle with the paper's A and I turns by Eq. 1, up to 6 rad/s in 3 s,
+and starts at rest, 8 mm out of the plane in its first flap mode. No code has the trapeze effect.
+"""
+
+import sys
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from analytic import Beam, Rectangle, SpinUp, Theory, linear_modes
+from analytic.arrays import FloatArray
+from analytic.exact.driven.transient import drive
+from analytic.exact.space.modes import flap_shape
+from analytic.exact.space.steady import space_continuum
+from analytic.methods.collocation import TANGENT_BEFORE, radau
+from analytic.threads import one_thread
+from rotbeam_exu import kicked, simulate
+
+HERE = Path(__file__).parent
+STRIP = Beam.reference().with_shape(Rectangle())
+MOTION, KICK = SpinUp(omega=6.0, ramp_time=3.0), 1e-3
+TIMES = np.linspace(0.0, 1.5, 151)
+THEORY = Theory(trapeze=False, rotary_inertia=True)
+HEADER = "time,along,lag,flap,twist"  # places of the tip over L, in the frame that turns
+NEWTON = replace(TANGENT_BEFORE, converged=1e-12, stagnates=1e-11, largest=0.3)
+_QUICK, _LONGEST, _PATIENCE = 5, (0.01, 0.005), 12  # iterations; s, before the buckling and after
+
+
+def write(code: str, time: FloatArray, tip: FloatArray, twist: FloatArray) -> None:
+    """Write the table of a code."""
+    rows = np.column_stack((time, tip, twist))
+    np.savetxt(HERE / f"{code}.csv", rows, "%.10g", ",", header=HEADER, comments="")
+
+
+@one_thread
+def exact(functions: str) -> None:
+    """Radau steps of order 15, halved where Newton's method fails and doubled where it is quick.
+
+    By functions for each curvature. `spin_up_response` has equal steps, which take longer here.
+    """
+    model, method = space_continuum(STRIP, THEORY, int(functions)), radau(8)
+    driven_at = drive(STRIP, MOTION, (), model)
+    q = KICK * flap_shape(model)
+    q_dot, states, quick, factors = 0.0 * q, [q], 0, None
+    t, h, last, acceleration = 0.0, _LONGEST[0], 0.0, np.zeros((8, q.size))
+    while len(states) < TIMES.size:
+        longest = _LONGEST[t > 0.55]
+        h, factors = (h, factors) if h <= longest else (longest, None)
+        length = h * STRIP.frequency_scale
+        guess = acceleration
+        if last:
+            guess = method.values(1.0 + method.nodes * length / last) @ acceleration
+        driven = driven_at(t + h * method.nodes)
+        found = method.step(
+            length, q, q_dot, guess, newton=NEWTON, factors=factors,
+            residual=partial(model.residual, **driven), tangent=partial(model.tangent, **driven),
+        )  # fmt: skip
+        if found is None:
+            h, quick, factors = 0.5 * h, 0, None
+            continue
+        acceleration, factors, last = found.z, found.factors, length
+        positions, rates, _ = method.stages(length, q, q_dot, acceleration)
+        q, q_dot, t = positions[-1], rates[-1], round(t + h, 12)
+        if abs(t - TIMES[len(states)]) < 1e-9:
+            states.append(q)
+        quick = quick + 1 if found.steps <= _QUICK else 0
+        if quick >= _PATIENCE and h < longest and abs(t / (2.0 * h) - round(t / (2.0 * h))) < 1e-6:
+            h, quick, factors = 2.0 * h, 0, None
+    path = np.array(states)
+    write(f"exact_{functions}", TIMES, model.tip(path), model.tip_turn(path))
+
+
+def exudyn(elements: str, step: str) -> None:
+    """Elements of order 2, which shear."""
+    run = simulate(
+        STRIP, MOTION, element="space_exact", elements=int(elements), step=float(step),
+        duration=3.02, initial_state=kicked(STRIP, KICK, by_mode=True),
+    )  # fmt: skip
+    run = run.sel(time=TIMES, method="nearest")
+    write("exudyn", TIMES, run["axis"].isel(node=-1).to_numpy() / STRIP.length, run["twist"])
+
+
+def mujoco(links: str, step: str) -> None:
+    """Rigid links, which do not stretch: three hinges with springs at each joint."""
+    import mujoco as mj  # noqa: PLC0415
+
+    count, h, hub = int(links), float(step), 1e8  # inertia of the hub, which the strip cannot turn
+    beam, out = STRIP.section, STRIP.section.out_of_plane
+    link = STRIP.length / count
+    mass = beam.mass_per_length * link
+    j = mass * beam.bending_stiffness / beam.axial_stiffness
+    hinges = (("0 0 1", 1.0), ("0 -1 0", out.bending_ratio), ("1 0 0", out.torsion_ratio))
+    chain = ""
+    for k in range(count):
+        spring = (1 if k else 2) * beam.bending_stiffness / link  # the clamp is half a link away
+        chain += f'<body pos="{link if k else 0} 0 0">' + "".join(
+            f'<joint type="hinge" axis="{axis}" stiffness="{ratio * spring}"/>'
+            for axis, ratio in hinges
+        )
+        j2 = j * out.bending_ratio
+        chain += (
+            f'<inertial pos="{link / 2} 0 0" mass="{mass}" '
+            f'diaginertia="{j + j2} {mass * link**2 / 12 + j2} {mass * link**2 / 12 + j}"/>'
+        )
+    model = mj.MjModel.from_xml_string(
+        f'<mujoco><option timestep="{h}" integrator="RK4" gravity="0 0 0"><flag contact="disable" '
+        'constraint="disable"/></option><worldbody><body><joint type="hinge" axis="0 0 1" '
+        f'armature="{hub}"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{chain}'
+        f'<site name="tip" pos="{link} 0 0"/>{"</body>" * count}</body></worldbody></mujoco>'
+    )
+    data, tip = mj.MjData(model), []
+    middles = (np.arange(count) + 0.5) * link
+    near = np.add.outer(1e-4 * link * np.array([1.0, -1.0]), middles)
+    above, below = linear_modes(STRIP, 0.0, 1, plane="flap").shapes(near.ravel()).reshape(2, -1)
+    slopes = KICK * STRIP.length * (above - below) / (2e-4 * link)
+    data.qpos[2::3] = np.diff(slopes, prepend=0.0)
+    t = h * np.arange(round(TIMES[-1] / h) + 1)
+    angle, rate, push = MOTION.angle(t), MOTION.rate(t), hub * MOTION.acceleration(t + h / 2)
+    for k in range(t.size):
+        data.qpos[0] = angle[k]
+        if k % round(TIMES[1] / h) == 0:
+            mj.mj_kinematics(model, data)
+            x, y, z = data.site("tip").xpos / STRIP.length
+            turned = (x + 1j * y) * np.exp(-1j * angle[k])
+            section = data.site("tip").xmat.reshape(3, 3)
+            tip.append((turned.real, turned.imag, z, np.arctan2(section[2, 1], section[2, 2])))
+        data.qvel[0], data.qfrc_applied[0] = rate[k], push[k]
+        mj.mj_step(model, data)
+    write("mujoco", TIMES, np.array(tip)[:, :3], np.array(tip)[:, 3])
+
+
+if __name__ == "__main__":
+    {one.__name__: one for one in (exact, exudyn, mujoco)}[sys.argv[1]](*sys.argv[2:])

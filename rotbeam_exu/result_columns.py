@@ -1,0 +1,211 @@
+"""Labeled data: names, dims and labels of numbers, and the columns of most kinds of result.
+
+They are those whose columns are attributes of theirs; others have a function in `datasets`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from analytic.exact.free.branches import BackboneBranch
+from analytic.exact.free.curve import BackboneCurve
+from analytic.exact.free.orbits import Orbits, SpaceOrbits
+from analytic.exact.linear.modes import LinearModes
+from analytic.exact.space.modes import SpaceModes
+from analytic.exact.space.steady_state import SteadyState
+from analytic.reduced.tables import PaperTable
+from analytic.spin_up.quiet import QuietRamps
+
+from .lazily import xr
+from .runs.attributes import beam_attributes
+from .runs.oscillation import SteadyOscillation
+
+OMEGA = "angular velocity ω [rad/s]"
+GROWTH = "growth rate out of the plane [1/s]"
+ORBIT = "amplitude a = |q|/L of the planar orbit"
+AMPLITUDE = "peak amplitude a = |q|/L"
+
+
+def labeled(label: str) -> dict[str, str]:
+    """Return a label, "angular velocity ω [rad/s]", as the attributes of a variable.
+
+    Without a unit it is 1.
+    """
+    name, _, unit = label.partition(" [")
+    attrs = {"units": unit.removesuffix("]") or "1"}
+    return {**attrs, "long_name": name} if name else attrs
+
+
+def dataset(
+    variables: Mapping[str, tuple[Any, Any, str]],
+    coords: Mapping[str, Any],
+    attrs: Mapping[str, Any] | None = None,
+) -> xr.Dataset:
+    """Return a Dataset of labeled numbers.
+
+    Parameters
+    ----------
+    variables : mapping
+        Dims, values and label by name.
+    coords : mapping
+        Values and label by dimension, or values alone.
+    attrs : mapping, optional
+        All else that is known.
+    """
+    return xr.Dataset(
+        {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},
+        {
+            name: (name, found[0], labeled(found[1])) if isinstance(found, tuple) else found
+            for name, found in coords.items()
+        },
+        attrs,
+    )
+
+
+Dims = str | tuple[str, ...]
+Column = tuple[Dims, str, Callable[[Any], Any]]
+"""Dims, label with unit, and how the values come from the result."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Columns:
+    """Columns of a kind of result.
+
+    Parameters
+    ----------
+    columns : mapping
+        By name.
+    beam : str
+        Attribute that holds the beam; none if empty.
+    known : tuple of str
+        Attributes that are numbers or texts about all of it.
+    """
+
+    columns: Mapping[str, Column]
+    beam: str = ""
+    known: tuple[str, ...] = ()
+
+    def of(self, result: Any) -> xr.Dataset:
+        """Return the Dataset of a result; modes and harmonics count from 1."""
+        data = dataset(
+            {name: (dims, of(result), label) for name, (dims, label, of) in self.columns.items()},
+            {},
+            {
+                **(beam_attributes(getattr(result, self.beam)) if self.beam else {}),
+                **{name: getattr(result, name) for name in self.known},
+            },
+        )
+        counted = {"mode", "harmonic"} & set(data.dims)
+        return data.assign_coords({name: np.arange(1, data.sizes[name] + 1) for name in counted})
+
+
+def _own(name: str, dims: Dims, label: str) -> Column:
+    return dims, label, attrgetter(name)
+
+
+def _part(name: str, k: int, dims: Dims, label: str) -> Column:
+    return dims, label, lambda found: getattr(found, name)[..., k]
+
+
+def _of_rows(name: str, table: PaperTable) -> list[str]:
+    return [getattr(row, name) for row in table.rows]
+
+
+def _columns(dims: Dims, **labels: str) -> dict[str, Column]:
+    """Return columns that have the names of the result's attributes."""
+    return {name: _own(name, dims, label) for name, label in labels.items()}
+
+
+_ORBITS = _columns(
+    "orbit",
+    amplitude="peak amplitude |q|/L",
+    frequency="nonlinear frequency ω_NL [rad/s]",
+    frequency_error="relative error of ω_NL",
+    first_harmonic="first harmonic of q/L",
+    residual="residual of the equations of motion",
+    jacobi_drift="drift of the Jacobi integral",
+) | {"sine": _own("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
+_OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
+_FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
+
+COLUMNS = {
+    Orbits: Columns(columns=_ORBITS, beam="beam", known=_OF_ORBITS),
+    SpaceOrbits: Columns(
+        columns=_ORBITS | _columns(
+            "orbit", lag="half the way of the tip in lag over L",
+            flap="half the way of the tip in flap over L",
+            twist="half the swing of the tip's section [rad]",
+        ),
+        beam="beam", known=_OF_ORBITS,
+    ),
+    BackboneBranch: Columns(
+        columns=_columns(
+            "point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]",
+            piece="0 on the main path, then the tongue's number",
+        ) | {"mark": ("point", "what is special about the point", lambda found: [*found.marks])},
+        beam="beam", known=("omega", "mode"),
+    ),
+    BackboneCurve: Columns(
+        columns={
+            "ratio": _own("series.coef", "coefficient", "ω_NL/ω_n, of Chebyshev's series in a²"),
+            "first_harmonic": _own(
+                "first.coef", "coefficient", "first harmonic over the peak, of the same series"
+            ),
+        },
+        beam="beam", known=("omega", "mode", "omega_n", "holds_up_to", "error"),
+    ),
+    LinearModes: Columns(columns=_FREQUENCY, beam="beam", known=("omega",)),
+    SpaceModes: Columns(
+        columns=_FREQUENCY | {
+            f"{name}_share": _part("shares", k, "mode", f"share of {name} in the kinetic energy")
+            for k, name in enumerate(("flap", "lag", "torsion"))
+        },
+        beam="blade", known=("omega", "error"),
+    ),
+    SteadyState: Columns(
+        columns={
+            **{
+                f"tip_{axis}": _part("tip", k, (), f"tip from the clamp, {axis} of its frame [m]")
+                for k, axis in enumerate("xyz")
+            },
+            **_columns((), twist="turn of the tip's section by the load [rad]",
+                       error="change of the tip over L by the last refinement"),
+        },
+        beam="blade", known=("omega",),
+    ),
+    QuietRamps: Columns(
+        columns={
+            "ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]"),
+            **_columns("ramp", left="amplitude left over L, exact",
+                       linear="amplitude left over L, closed form"),
+        },
+        beam="beam", known=("omega",),
+    ),
+    SteadyOscillation: Columns(
+        columns=_columns(
+            (), amplitude="amplitude a = q/L, half peak to peak",
+            amplitude_error="error bar of a, estimator",
+            frequency="nonlinear frequency ω_NL [rad/s]",
+            frequency_error="error bar of ω_NL, estimator [rad/s]", offset="mean of q over L",
+            first_harmonic="first harmonic over L", residual="other modes, rms over L",
+            cycles="whole cycles in the window",
+        ) | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
+    ),
+    PaperTable: Columns(
+        columns={
+            name: ("row", label, partial(_of_rows, name))
+            for name, label in (
+                ("quantity", "quantity"), ("printed", "as printed"), ("derived", "as derived"),
+                ("difference", "derived less printed"), ("note", "erratum"),
+            )
+        },
+        known=("number", "title"),
+    ),
+}  # fmt: skip
+"""By kind."""

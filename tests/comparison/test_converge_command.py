@@ -1,0 +1,83 @@
+"""`rotbeam converge`: orders, errors and what to take, beside the exact beam."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, SpinUp, linear_modes, spin_up_response
+from rotbeam_exu import load, natural_frequencies, simulate
+from rotbeam_exu.files.beam_file import load_beam
+
+SHORT = ("--duration", "8", "--jobs", "1", "--step")
+TAPERED = """
+[blade]
+length = 8.0
+[blade.section]
+axial_stiffness = 5.03e6
+bending_stiffness = [566.0, -283.0]
+mass_per_length = [0.2, -0.1]
+"""
+
+
+def converged(call, folder, *arguments):
+    code, out, error = call("converge", *SHORT, *arguments, "-o", folder, "--cache", folder / "c")
+    assert code == 0, error
+    (path,) = folder.glob("converge-*.nc")
+    return load(path), out, error
+
+
+def test_orders_errors_and_a_mesh_that_keeps_the_tolerance(call, tmp_path):
+    data, out, error = converged(call, tmp_path, "4e-3", "--elements", "8", "--tolerance", "1e-3")
+    assert data["order"] == pytest.approx(4.0, abs=0.4)  # of q(t), on 4, 8 and 16 cables
+    assert data["order_in_step"] == pytest.approx(2.0, abs=0.05)
+    np.testing.assert_allclose(data["frequency_order"], 4.0, atol=0.25)
+    # The fit has no exact answer, and its errors are those from it: within a tenth of the least.
+    np.testing.assert_allclose(data["error"], data["exact_error"], rtol=0.02, atol=3e-5)
+    assert np.abs(data["exact_distance"]).max() < 1e-6
+    # Its 4e-4 are luck: the parts of mesh and step, 3.5e-3 and 3.4e-3, cancel.
+    assert data["error"][3] < 1e-3
+    assert "8 elements with a step of 0.004 s have errors of 8.7e-04" in error
+    beam, motion = Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0)
+    n, h = int(data["recommended_elements"]), float(data["recommended_step"])
+    assert f"{n} elements, step {h:.3g} s" in out
+    exact = None
+    # The two parts of the error, apart, for together they cancel: each has half the tolerance.
+    for elements, step in ((n, h / 2.0), (2 * n, h)):
+        run = simulate(beam, motion, elements=elements, step=step, duration=8.0)[["q"]]
+        run = run.sel(time=np.arange(0.0, 8.0, 40.0 * h), method="nearest")
+        if exact is None:
+            exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-6).q
+        off = np.abs(run["q"] - exact).max() / np.abs(exact).max()
+        # Of the other part a quarter and a sixteenth are left.
+        assert 0.2e-3 < off < 0.55e-3
+    found = natural_frequencies(beam, 6.0, elements=n)
+    assert np.abs(found / linear_modes(beam, 6.0).frequencies - 1.0).max() < 1e-3
+
+
+def test_a_tapered_blade_on_the_default_mesh_is_told(call, tmp_path):
+    """Cables of constant sections: of second order, 2e-3 off on 16 in the frequencies."""
+    (tmp_path / "beam.toml").write_text(TAPERED)
+    config = ("8e-3", "--config", tmp_path / "beam.toml", "--count", "1")
+    data, _, error = converged(call, tmp_path, *config, "--no-exact")
+    assert data.attrs["elements"] == 16
+    np.testing.assert_allclose(data["frequency_order"], 2.0, atol=0.2)
+    assert data["order"] == pytest.approx(2.0, abs=0.2)
+    assert "16 elements with a step of 0.008 s have errors of" in error
+    exact = linear_modes(load_beam(tmp_path / "beam.toml"), data.attrs["omega"], 1).frequencies
+    off = data["frequency"][:, 0] / exact - 1.0
+    np.testing.assert_allclose(data["frequency_error"][:, 0], off, rtol=0.1)
+    assert abs(off[1]) > 1e-4
+    assert np.isnan(data["exact_error"]).all()
+    assert int(data["recommended_elements"]) > 32
+
+
+def test_what_it_refuses(call, tmp_path):
+    for arguments, sentence in (
+        (("--omega", "0"), "nothing oscillates"),
+        (("--elements", "1"), "elements must be at least 2"),
+        (("--tolerance", "0"), "tolerance"),
+        (("--duration", "4"), "run for"),  # too short to be measured
+    ):
+        run = ("--step", "4e-3", "--jobs", "1", "-o", tmp_path, "--cache", tmp_path)
+        code, _, error = call("converge", *run, *arguments)
+        assert code
+        assert sentence in error

@@ -1,0 +1,138 @@
+"""Every kind of result as a Dataset and as tidy tables."""
+
+import inspect
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import analytic
+import rotbeam_exu
+from analytic import Beam, Blade, Damping, Rectangle, Section, SpinUp, Theory, TipForce
+from analytic.exact.plane.stability_limit import StabilityLimit, Tongue
+from rotbeam_exu import dataset_of, load, save, steady_oscillation
+from rotbeam_exu.datasets import _described, frames_of
+
+BEAM = Beam.reference()
+STRIP = BEAM.with_shape(Rectangle())
+SECTION = Section(axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0)
+TWISTED = Blade(length=1.0, section=SECTION).with_section_out_of_plane(0.0625, 0.08).with_twist(0.3)
+TIMES = np.linspace(0.0, 1.0, 5)
+MOTION = SpinUp(omega=1.0, ramp_time=1.0)
+
+
+def oscillating():
+    time = np.linspace(0.0, 20.0, 1001)
+    q = xr.DataArray(2.0 * np.sin(3.7 * time), dims="time", coords={"time": time})
+    return steady_oscillation(xr.Dataset({"q": q}, attrs={"ramp_time": 0.0, "beam_length": 8.0}))
+
+
+def spun(blade):
+    return analytic.spin_up_response(blade, MOTION, TIMES, tolerance=1e-3)
+
+
+def limit():
+    tongue = Tongue(low=0.1, high=0.2, growth=1e-3, kind="divergence", modes=("flap 1",))
+    return StabilityLimit(
+        blade=STRIP,
+        omega=6.0,
+        mode=1,
+        growth=1e-2,
+        amplitude=np.inf,
+        searched=0.3,
+        kind="",
+        modes=(),
+        tongues=(tongue,),
+        converged=True,
+    )
+
+
+def branch():
+    return analytic.backbone(BEAM, 6.0, theory=Theory(extension=False)).branch(up_to=0.1)
+
+
+def forced(blade, omega, frequencies):
+    damped = blade.with_damping(Damping(external=0.2 * blade.mass_per_length))
+    return analytic.forced_response(
+        damped, omega, TipForce(amplitude=1e-3), frequencies, functions=8
+    )
+
+
+MADE = {
+    "Orbits": lambda: analytic.periodic_orbits(BEAM, 6.0, [0.1, 0.2]),
+    "SpaceOrbits": lambda: analytic.periodic_orbits(TWISTED, 1.0, [0.02]),
+    "BackboneBranch": branch,
+    "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1, coefficients=5),
+    "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
+    "SpaceModes": lambda: analytic.linear_modes(TWISTED, 1.0),
+    "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
+    "LinearResponse": lambda: analytic.linear_response(BEAM, MOTION, TIMES),
+    "QuietRamps": lambda: analytic.quiet_ramp_times(BEAM, 2.0, longest=4.4, tolerance=1e-3),
+    "SteadyOscillation": oscillating,
+    "PaperTable": lambda: analytic.paper_table(5),
+    "SpinUpResponse": lambda: spun(BEAM),
+    "SpaceResponse": lambda: spun(TWISTED),
+    "ForcedResponse": lambda: forced(BEAM, 6.0, [3.7, 3.8]),
+    "SpaceForcedResponse": lambda: forced(TWISTED, 1.0, [3.4, 3.6]),
+    "PlanarStability": lambda: analytic.planar_stability(STRIP, 6.0, [0.02, 0.05]),
+    "StabilityLimit": limit,
+    "Campbell": lambda: analytic.campbell(BEAM, [0.0, 6.0], 2),
+    "SectionLoads": lambda: analytic.periodic_orbits(BEAM, 6.0, [0.1]).section_loads(
+        0, [0.0, 4.0], [0.0]
+    ),
+}  # fmt: skip
+# What is computed when it is asked, and inputs.
+NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "FloatArray | float"}
+NO_RESULTS |= {"Path", "Callable[[FloatArray], BeamState]", "xr.Dataset"}
+
+
+def test_no_result_of_a_public_function_is_without():
+    functions = [
+        function
+        for package in (analytic, rotbeam_exu)
+        for function in map(package.__getattr__, package.__all__)
+        if inspect.isfunction(function)
+    ]
+    returned = {str(function.__annotations__["return"]) for function in functions}
+    assert returned - NO_RESULTS <= MADE.keys()
+    described = {kind.__name__ for kind in _described.registry if kind is not object}
+    assert described == MADE.keys()
+    with pytest.raises(TypeError, match="no Dataset is known of a float"):
+        dataset_of(1.0)
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.slow if kind == "SpaceForcedResponse" else ())
+        for kind in MADE
+    ],
+)
+def test_a_result_is_labeled_saved_and_tidy(kind, tmp_path):
+    result = MADE[kind]()
+    assert type(result).__name__ == kind
+    data = dataset_of(result)
+    assert data.data_vars
+    for name, variable in data.data_vars.items():
+        assert variable.attrs["units"], name
+        assert variable.attrs["long_name"], name
+        assert "[" not in variable.attrs["long_name"], name
+    assert load(save(data, tmp_path / "result.nc")).identical(data)
+    frames = frames_of(result)
+    for name, variable in data.data_vars.items():
+        (frame,) = (one for one in frames.values() if name in one)
+        # A row for each number, beside its place.
+        assert frame[name].size == variable.size
+        assert {*variable.dims} <= {*frame}
+        np.testing.assert_array_equal(frame[name], variable.to_numpy().ravel())
+        assert frame.attrs[name] == variable.attrs["units"]
+
+
+def test_columns_are_the_result_s():
+    """Numbers of one kind, at the place that its dims say."""
+    found = MADE["Orbits"]()
+    frames = frames_of(found)
+    assert [*frames] == ["amplitude", "sine"]
+    row = frames["sine"].query("orbit == 1 and harmonic == 3")
+    assert row["sine"].item() == found.harmonics[1, 2]
+    assert frames_of(oscillating())["amplitude"]["frequency"].item() == pytest.approx(3.7)
