@@ -88,7 +88,9 @@ def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: Flo
     curvature, (y, z) = data["curvature"].to_numpy(), offsets.T
     bent = np.outer(curvature[:, 1], z) - np.outer(curvature[:, 2], y)
     values = {name: data[name].to_numpy() for name in ("station", "force", "moment")}
-    values |= {name: section[..., k] for k, name in enumerate(data["along"].to_numpy().tolist())}
+    values |= {
+        name: section[..., k] for k, name in enumerate(data["section_axis"].to_numpy().tolist())
+    }
     values = {name: np.repeat(one, corners, axis=0) for name, one in values.items()}
     values["strain"] = (data["strain"].to_numpy()[:, None] + bent).ravel()
     if "beam_youngs_modulus" in data.attrs:

@@ -22,10 +22,10 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     """Return sections over `time` and `station` [m], in the plane and in space with the same dims.
 
     `place` [m] is in the frame that turns with the clamp, by `direction` x along the clamp, y in
-    the direction of rotation, and z. `section` has the axes of the sections there, by `along`:
-    normal, chord (in the plane of bending) and thickness. By the same axes are `force` [N] and
-    `moment` [N m] of the outboard on the inboard part, and `curvature` [1/m], the twist first.
-    `strain` is that of the axis. Strains are what force and moment cause in the elastic section.
+    the direction of rotation, and z. `section` has the axes of the sections there, by
+    `section_axis` normal, chord (in the plane of bending) and thickness. By the same axes are
+    `force` [N] and `moment` [N m] of the outboard on the inboard part, and `curvature` [1/m], the
+    twist first. `strain` is that of the axis. Strains are what force and moment cause in the elastic section.
     A steady state has no `time`.
 
     Examples
@@ -35,7 +35,7 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     >>> orbits = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.3])
     >>> shape = shape_of(orbits.section_loads(0, [0.0, 4.0, 8.0], phase=[0.0, 1.57]))
     >>> print(dict(shape.sizes), outer_strain(shape, height=0.0367).max().round(5).item())
-    {'time': 2, 'station': 3, 'direction': 3, 'along': 3} 0.00428
+    {'time': 2, 'station': 3, 'direction': 3, 'section_axis': 3} 0.00428
     """
     force, moment = found.force, found.moment
     if force.shape[-1] == 2:  # in its plane
@@ -43,23 +43,23 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
         moment = np.multiply.outer(moment, [0.0, 0.0, 1.0])
     strains = _strains(found, force, moment)
     over = ("time", "station")[-found.place.ndim + 1 :]
-    by_axis = (*over, "along")
+    by_axis = (*over, "section_axis")
     named = {
         "place": ((*over, "direction"), found.place, "m", "place in the frame of the clamp"),
-        "section": ((*by_axis[:-1], "direction", "along"), found.section, "1", "section's axes"),
+        "section": ((*over, "direction", "section_axis"), found.section, "1", "section's axes"),
         "force": (by_axis, force, "N", "force on the inboard part"),
         "moment": (by_axis, moment, "N m", "moment on the inboard part"),
         "strain": (over, strains[..., 0], "1", "strain of the axis"),
         "curvature": (by_axis, strains[..., 3:], "1/m", "elastic twist and curvatures"),
     }
-    along = {"direction": ["x", "y", "z"], "along": ["normal", "chord", "thickness"]}
+    axes = {"direction": ["x", "y", "z"], "section_axis": ["normal", "chord", "thickness"]}
     labels = {"units": "m", "long_name": "distance from the clamp"}
     return xr.Dataset(
         {
             name: (dims, values, {"units": unit, "long_name": label})
             for name, (dims, values, unit, label) in named.items()
         },
-        {"station": ("station", found.stations, labels), **along},
+        {"station": ("station", found.stations, labels), **axes},
         beam_attributes(found.blade),
     )
 
@@ -92,7 +92,7 @@ def outer_strain(data: xr.Dataset, height: float, width: float = 0.0) -> xr.Data
         Of the section along its chord, which is in the plane of bending, and across it [m].
     """
     sides = not_negative("width", width, "m"), not_negative("height", height, "m")
-    bent = (abs(data["curvature"].isel(along=[1, 2])) * sides).sum("along")
+    bent = (abs(data["curvature"].isel(section_axis=[1, 2])) * sides).sum("section_axis")
     strain: xr.DataArray = abs(data["strain"]) + 0.5 * bent
     return strain.assign_attrs(units="1", long_name="largest strain in the section")
 

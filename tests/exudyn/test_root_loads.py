@@ -280,8 +280,8 @@ def test_the_largest_strain_is_that_of_the_fiber_farthest_from_the_axis(beam, re
     height = np.sqrt(12.0 * beam.second_moment / beam.area)
     strain = outer_strain(run, height)
     by_hand = (
-        abs(run["force"].sel(along="normal")) / beam.axial_stiffness
-        + 0.5 * height * abs(run["moment"].sel(along="thickness")) / beam.bending_stiffness
+        abs(run["force"].sel(section_axis="normal")) / beam.axial_stiffness
+        + 0.5 * height * abs(run["moment"].sel(section_axis="thickness")) / beam.bending_stiffness
     )
     np.testing.assert_allclose(strain, by_hand, rtol=1e-12)
     # By the shape: κ = dφ/dx between two near stations, EI of the paper's beam being uniform.
@@ -289,7 +289,7 @@ def test_the_largest_strain_is_that_of_the_fiber_farthest_from_the_axis(beam, re
         beam, SpinUp(omega=6.0, ramp_time=3.0), elements=12, duration=4.0, step=4e-3,
         frame="rotating", stations=[3.99, 4.0, 4.01],
     )  # fmt: skip
-    angle = np.arctan2(*(near["section"].sel(along="normal", direction=d) for d in "yx"))
+    angle = np.arctan2(*(near["section"].sel(section_axis="normal", direction=d) for d in "yx"))
     bent = np.diff(np.asarray(angle)[:, [0, 2]], axis=1)[:, 0] / 0.02
-    curvature = near["curvature"].sel(along="thickness").isel(station=1)
+    curvature = near["curvature"].sel(section_axis="thickness").isel(station=1)
     np.testing.assert_allclose(curvature, bent, atol=2e-2 * np.abs(bent).max())

@@ -64,7 +64,7 @@ def test_a_body_has_the_volume_of_the_blade_and_the_stress_in_its_corners(beam, 
     largest = outer_strain(shape, height, width).isel(time=1) * beam.youngs_modulus
     np.testing.assert_allclose(np.abs(stress).max(axis=1), largest, rtol=1e-12, atol=1e-3)
     # M h/2I, on the side from which the blade bends away.
-    moment = shape["moment"].sel(along="thickness").isel(time=1, station=0).item()
+    moment = shape["moment"].sel(section_axis="thickness").isel(time=1, station=0).item()
     bent = 0.5 * (stress[0, 0] - stress[0, 1])
     assert bent == pytest.approx(0.5 * moment * height / beam.second_moment, rel=1e-12)
 
