@@ -25,8 +25,8 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     the direction of rotation, and z. `section` has the axes of the sections there, by
     `section_axis` normal, chord (in the plane of bending) and thickness. By the same axes are
     `force` [N] and `moment` [N m] of the outboard on the inboard part, and `curvature` [1/m], the
-    twist first. `strain` is that of the axis. Strains are what force and moment cause in the elastic section.
-    A steady state has no `time`.
+    twist first. `strain` is that of the axis. Strains are what force and moment cause in the
+    elastic section. A steady state has no `time`.
 
     Examples
     --------
