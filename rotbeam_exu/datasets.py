@@ -7,7 +7,7 @@ their dims and their labels.
 from __future__ import annotations
 
 import json
-from functools import singledispatch
+from functools import partial, singledispatch
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from analytic.reduced.linear_frame import LinearResponse
 from .files.results import parts
 from .forced_columns import of_forced, of_forced_in_space
 from .lazily import xr
-from .result_columns import COLUMNS, GROWTH, OMEGA, ORBIT, dataset
+from .result_columns import COLUMNS, GROWTH, OMEGA, ORBIT, dataset, of_columns
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
 from .runs.shape import shape_of
 from .runs.versions import versions
@@ -107,7 +107,7 @@ def _described(result: Any) -> xr.Dataset:
 
 
 for _kind, _columns in COLUMNS.items():
-    _described.register(_kind, _columns.of)
+    _described.register(_kind, partial(of_columns, *_columns))
 _described.register(ForcedResponse, of_forced)
 _described.register(SectionLoads, shape_of)
 _described.register(SpaceForcedResponse, of_forced_in_space)

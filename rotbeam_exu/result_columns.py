@@ -5,8 +5,7 @@ They are those whose columns are attributes of theirs; others have a function in
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from operator import attrgetter
 from typing import Any
@@ -15,6 +14,7 @@ import numpy as np
 
 from analytic.exact.free.branches import BackboneBranch
 from analytic.exact.free.curve import BackboneCurve
+from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits, SpaceOrbits
 from analytic.exact.linear.modes import LinearModes
 from analytic.exact.space.modes import SpaceModes
@@ -73,36 +73,21 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 """Dims, label with unit, and how the values come from the result."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Columns:
-    """Columns of a kind of result.
+def of_columns(
+    columns: Mapping[str, Column], beam: str, known: Sequence[str], result: Any
+) -> xr.Dataset:
+    """Return the Dataset of a result; modes and harmonics count from 1.
 
-    Parameters
-    ----------
-    columns : mapping
-        By name.
-    beam : str
-        Attribute that holds the beam; none if empty.
-    known : tuple of str
-        Attributes that are numbers or texts about all of it.
+    `beam` is the attribute that holds its beam, if any; `known` are those about all of it.
     """
-
-    columns: Mapping[str, Column]
-    beam: str = ""
-    known: tuple[str, ...] = ()
-
-    def of(self, result: Any) -> xr.Dataset:
-        """Return the Dataset of a result; modes and harmonics count from 1."""
-        data = dataset(
-            {name: (dims, of(result), label) for name, (dims, label, of) in self.columns.items()},
-            {},
-            {
-                **(beam_attributes(getattr(result, self.beam)) if self.beam else {}),
-                **{name: getattr(result, name) for name in self.known},
-            },
-        )
-        counted = {"mode", "harmonic"} & set(data.dims)
-        return data.assign_coords({name: np.arange(1, data.sizes[name] + 1) for name in counted})
+    about = beam_attributes(getattr(result, beam)) if beam else {}
+    data = dataset(
+        {name: (dims, of(result), label) for name, (dims, label, of) in columns.items()},
+        {},
+        {**about, **{name: getattr(result, name) for name in known}},
+    )
+    counted = {"mode", "harmonic"} & set(data.dims)
+    return data.assign_coords({name: np.arange(1, data.sizes[name] + 1) for name in counted})
 
 
 def _own(name: str, dims: Dims, label: str) -> Column:
@@ -132,80 +117,78 @@ _ORBITS = _columns(
     jacobi_drift="drift of the Jacobi integral",
 ) | {"sine": _own("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
 _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
+_POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
+    "mark": ("point", "what is special about the point", lambda found: [*found.marks])
+}
+_SWINGS = {
+    "lag": "half the way of the tip in lag over L",
+    "flap": "half the way of the tip in flap over L",
+    "twist": "half the swing of the tip's section [rad]",
+}
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
-COLUMNS = {
-    Orbits: Columns(columns=_ORBITS, beam="beam", known=_OF_ORBITS),
-    SpaceOrbits: Columns(
-        columns=_ORBITS | _columns(
-            "orbit", lag="half the way of the tip in lag over L",
-            flap="half the way of the tip in flap over L",
-            twist="half the swing of the tip's section [rad]",
-        ),
-        beam="beam", known=_OF_ORBITS,
+OSCILLATION = {
+    "amplitude": "amplitude a = q/L, half peak to peak",
+    "amplitude_error": "error bar of a, estimator",
+    "first_harmonic": "first harmonic over L",
+    "frequency": "nonlinear frequency ω_NL [rad/s]",
+    "frequency_error": "error bar of ω_NL, estimator [rad/s]",
+    "offset": "mean of q over L",
+    "residual": "second bending mode, rms over L",
+}
+"""Numbers of a steady oscillation, with their labels."""
+
+COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
+    Orbits: (_ORBITS, "beam", _OF_ORBITS),
+    SpaceOrbits: (_ORBITS | _columns("orbit", **_SWINGS), "beam", _OF_ORBITS),
+    BackboneBranch: (
+        _POINTS | _columns("point", piece="0 on the main path, then the tongue's number"),
+        "beam", ("omega", "mode"),
     ),
-    BackboneBranch: Columns(
-        columns=_columns(
-            "point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]",
-            piece="0 on the main path, then the tongue's number",
-        ) | {"mark": ("point", "what is special about the point", lambda found: [*found.marks])},
-        beam="beam", known=("omega", "mode"),
+    LeavingBranch: (
+        _POINTS | _columns("point", **_SWINGS), "beam", ("omega", "mode", "periods", "ended")
     ),
-    BackboneCurve: Columns(
-        columns={
+    BackboneCurve: (
+        {
             "ratio": _own("series.coef", "coefficient", "ω_NL/ω_n, of Chebyshev's series in a²"),
             "first_harmonic": _own(
                 "first.coef", "coefficient", "first harmonic over the peak, of the same series"
             ),
         },
-        beam="beam", known=("omega", "mode", "omega_n", "holds_up_to", "error"),
+        "beam", ("omega", "mode", "omega_n", "holds_up_to", "error"),
     ),
-    LinearModes: Columns(columns=_FREQUENCY, beam="beam", known=("omega",)),
-    SpaceModes: Columns(
-        columns=_FREQUENCY | {
+    LinearModes: (_FREQUENCY, "beam", ("omega",)),
+    SpaceModes: (
+        _FREQUENCY | {
             f"{name}_share": _part("shares", k, "mode", f"share of {name} in the kinetic energy")
             for k, name in enumerate(("flap", "lag", "torsion"))
         },
-        beam="blade", known=("omega", "error"),
+        "blade", ("omega", "error"),
     ),
-    SteadyState: Columns(
-        columns={
-            **{
-                f"tip_{axis}": _part("tip", k, (), f"tip from the clamp, {axis} of its frame [m]")
-                for k, axis in enumerate("xyz")
-            },
-            **_columns((), twist="turn of the tip's section by the load [rad]",
-                       error="change of the tip over L by the last refinement"),
+    SteadyState: (
+        {
+            f"tip_{axis}": _part("tip", k, (), f"tip from the clamp, {axis} of its frame [m]")
+            for k, axis in enumerate("xyz")
+        } | _columns((), twist="turn of the tip's section by the load [rad]"),
+        "blade", ("omega", "error"),
+    ),
+    QuietRamps: (
+        {"ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(
+            "ramp", left="amplitude left over L", linear="the same by the closed form"
+        ),
+        "beam", ("omega",),
+    ),
+    SteadyOscillation: (
+        _columns((), **OSCILLATION)
+        | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
+        "", ("cycles",),
+    ),
+    PaperTable: (
+        {
+            name: ("row", name, partial(_of_rows, name))
+            for name in ("quantity", "printed", "derived", "difference", "note")
         },
-        beam="blade", known=("omega",),
-    ),
-    QuietRamps: Columns(
-        columns={
-            "ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]"),
-            **_columns("ramp", left="amplitude left over L, exact",
-                       linear="amplitude left over L, closed form"),
-        },
-        beam="beam", known=("omega",),
-    ),
-    SteadyOscillation: Columns(
-        columns=_columns(
-            (), amplitude="amplitude a = q/L, half peak to peak",
-            amplitude_error="error bar of a, estimator",
-            frequency="nonlinear frequency ω_NL [rad/s]",
-            frequency_error="error bar of ω_NL, estimator [rad/s]", offset="mean of q over L",
-            first_harmonic="first harmonic over L", residual="other modes, rms over L",
-            cycles="whole cycles in the window",
-        ) | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
-    ),
-    PaperTable: Columns(
-        columns={
-            name: ("row", label, partial(_of_rows, name))
-            for name, label in (
-                ("quantity", "quantity"), ("printed", "as printed"), ("derived", "as derived"),
-                ("difference", "derived less printed"), ("note", "erratum"),
-            )
-        },
-        known=("number", "title"),
+        "", ("number", "title"),
     ),
 }  # fmt: skip
-"""By kind."""
+"""Columns, the beam's attribute and those about all of it, by kind."""

@@ -13,7 +13,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from .driving import DRIVING, Driving
 from .job import Job
-from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
+from .motion import Config, RampTime, SteadySpeed, configured
 from .options import (
     DISCRETIZATION,
     RESULTS,
@@ -24,7 +24,7 @@ from .options import (
     Whole,
     Workers,
 )
-from .output import formatted, print_columns, print_line
+from .output import formatted, print_columns, print_line, print_note
 
 
 def converge(
@@ -63,13 +63,7 @@ def converge(
 
     file = configured(config)
     numerics = discretization.over(file.numerics)
-    motion = motion_of(
-        file, takes_loads=True, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
-        step=numerics.step,
-    )  # fmt: skip
-    refuse_rest(motion.spin_up.omega)
-    beam = driving.dampings.on(file.beam)
-    case = numerics.case(beam, motion, driving.chosen(file.loads))
+    case = driving.spin_up_case(file, numerics, omega, ramp_time)
     whole_number("elements", case.elements, least=2)
     whole_number("count", count)
     inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
@@ -114,7 +108,9 @@ def _print(data: xr.Dataset) -> None:
         title="q(t) over its largest size: error by one fit to all runs",
     )
     orders = formatted(map(float, (data["order"], data["order_in_step"])), ".1f")
-    print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step; - is not told")
+    print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step")
+    if "-" in orders:
+        print_note("-: the runs do not show it")
     attrs, asked = data.attrs, data.sel(mesh=data.attrs["elements"], run=3)
     tolerance = attrs["tolerance"]
     take = f"{int(data['recommended_elements'])} elements, step {data['recommended_step']:.3g} s"

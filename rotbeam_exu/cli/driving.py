@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
 from analytic import AnyBlade, Damping
 from analytic.description import kinds_of
 from analytic.loads import Load
+
+from .motion import motion_of, refuse_rest
+
+if TYPE_CHECKING:
+    from ..fem.case import RunCase
+    from ..files.beam_file import RunFile
+    from .options import Discretization
 
 
 def option_of(kind: type[Load]) -> str:
@@ -149,6 +156,18 @@ class Driving:
         if self.load_frequency is None and any(one.varied == "frequency" for one in loads):
             raise ValueError("give the frequency of the load in rad/s with --load-frequency")
         return loads or in_file
+
+    def spin_up_case(
+        self, file: RunFile, numerics: Discretization, omega: float | None, ramp_time: float | None
+    ) -> RunCase:
+        """Return the case of a spin-up, by the options given, then by the file."""
+        motion = motion_of(
+            file, takes_loads=True, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
+            step=numerics.step,
+        )  # fmt: skip
+        refuse_rest(motion.spin_up.omega)
+        beam = self.dampings.on(file.beam)
+        return numerics.case(beam, motion, self.chosen(file.loads))
 
 
 DRIVING = Driving()

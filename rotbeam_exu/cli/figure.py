@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ..files.results import writable_folder
-from ..lazily import xr
 from .job import Job
 from .options import RESULTS, WORKERS, Results, Workers, numbered
 
@@ -52,12 +48,9 @@ def _made(n: int, workers: Workers, results: Results) -> None:
         options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
         data = made.data(**options if made.sweeps else {})
 
-    def drawn(_: Any, data: xr.Dataset) -> Any:
-        axes = made.draw(data)
-        return axes[0] if isinstance(axes, Sequence) else axes
-
     # Data has its inputs, so files are compared with it after it is computed.
     Job(
         path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
-        show=lambda *_: None, draw=drawn, caption=f"Figure {n}. {made.caption(data)}",
+        show=lambda *_: None, draw=lambda _, data: made.draw(data),
+        caption=f"Figure {n}. {made.caption(data)}",
     ).run()  # fmt: skip

@@ -140,7 +140,9 @@ def motion_of(file: RunFile, *, takes_loads: bool = False, **options: float | No
     Loads of the file are refused, unless the command takes them.
     """
     if file.loads and not takes_loads:
-        raise ValueError("the file has [[loads]], which run and sweep take only: leave them out")
+        raise ValueError(
+            "the file has [[loads]], which only run, sweep and converge take: leave them out"
+        )
     given = {name: value for name, value in options.items() if value is not None}
     return chosen_motion(file.beam, **{**file.motion, **given})
 

@@ -16,7 +16,7 @@ from ..lazily import xr
 from ..runs.check import SimulationError, energy_drift
 from .driving import DRIVING, Driving
 from .job import Job, UnfinishedError
-from .motion import Config, RampTime, SteadySpeed, configured, motion_of, refuse_rest
+from .motion import Config, RampTime, SteadySpeed, configured
 from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results, Whole
 from .output import bar, print_line
 
@@ -62,21 +62,11 @@ def run(
 
     file = configured(config)
     numerics = discretization.over(file.numerics)
-    beam = driving.dampings.on(file.beam)
-    motion = motion_of(
-        file,
-        takes_loads=True,
-        omega=omega,
-        ramp_time=ramp_time,
-        duration=numerics.duration,
-        step=numerics.step,
-    )
+    case = driving.spin_up_case(file, numerics, omega, ramp_time)
     given = omega is not None or "omega" in file.motion
     chosen = "" if given else ", the benchmark's"
-    refuse_rest(motion.spin_up.omega)
-    case = numerics.case(beam, motion, driving.chosen(file.loads))
     count = 0 if stations is None else whole_number("stations", stations, least=2)
-    kept = np.linspace(0.0, beam.length, count)
+    kept = np.linspace(0.0, case.beam.length, count)
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
@@ -92,7 +82,7 @@ def run(
         compute=lambda: _computed(case, kept),
         table=lambda data: data.drop_dims("station", errors="ignore"),
         show=shown,
-        draw=None if no_figure else lambda figures, data: figures.spin_up(data)[0],
+        draw=None if no_figure else lambda figures, data: figures.spin_up(data),
     ).run()  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)

@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -80,7 +81,8 @@ def refinement(
     meshes = [n // 2, n, 2 * n, 4 * n]
     # As `converged` has them: the finest mesh last, on each the smallest step.
     resolutions = [(n // 2, h), (n // 2, h / 2.0), (n // 2, h / 4.0), (n, h), (2 * n, h)]
-    found = np.array([_frequencies(case, elements, count) for elements in meshes])
+    of_mesh = partial(natural_frequencies, case.beam, case.omega, element=case.element, count=count)
+    found = np.array([of_mesh(elements=elements) for elements in meshes])
     modes = [
         converged(meshes, None, one / one[-1], noise=FLOOR, declared=(case.model.order, None))
         for one in found.T
@@ -132,12 +134,6 @@ def refinement(
         {"mesh": (meshes, "elements"), "mode": (np.arange(1, len(modes) + 1), "mode")},
         {**case.describe(), "tolerance": tolerance, "versions": json.dumps(versions())},
     )  # fmt: skip
-
-
-def _frequencies(case: RunCase, elements: int, count: int) -> FloatArray:
-    return natural_frequencies(
-        case.beam, case.omega, element=case.element, elements=elements, count=count
-    )
 
 
 def _exact_frequencies(case: RunCase, count: int) -> FloatArray:

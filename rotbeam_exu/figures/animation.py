@@ -19,7 +19,7 @@ from ..lazily import xr
 from ..paper import BLUE, RED
 from ..runs.attributes import beam_of, motion_of
 from ..runs.shape import in_space
-from .style import STYLE, new_figure, shade_ramp
+from .style import STYLE, fitting_units, new_figure, prefix_of, quantity, shade_ramp
 
 _LETTERS: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "axes.titlesize", "xtick.labelsize", "ytick.labelsize"), 11.0
@@ -75,6 +75,7 @@ def animate(
     _require_drawable(data, beside)
     time, motion = _times(data), motion_of(data.attrs)
     q, flap, space = _q(data), _flap(data), _leaves_plane(data)
+    (scale, prefix), faster = prefix_of(time[-1]), prefix_of(motion.fastest)
     with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(data, beside) if beside is not None else _two_frames(data)
         _ramp(history, data)
@@ -84,8 +85,9 @@ def animate(
     def draw(n: int) -> list[Any]:
         for move in moving:
             move(n)
-        rate_now = float(motion.rate(time[n]))
-        line = f"t = {time[n]:5.2f} s  dθ/dt = {rate_now:4.2f} rad/s  q/L = {q[n]:+5.2f}"
+        rate_now = float(motion.rate(time[n])) / faster[0]
+        line = f"t = {time[n] / scale:5.2f} {prefix}s  dθ/dt = {rate_now:4.2f} {faster[1]}rad/s"
+        line += f"  q/L = {q[n]:+5.2f}"
         if beside is not None:
             other = _q(beside)[n]
             line += f", linear {other:{'+6.2f' if abs(other) < 100.0 else '+6.0f'}}"
@@ -226,7 +228,7 @@ def _two_models(data: xr.Dataset, beside: xr.Dataset) -> tuple[Axes, list[_Movin
     seen = np.maximum(np.abs(path.real), np.abs(path.imag)) <= _REACH * reach
     left = float(_between(time)[seen][-1])
     if left < time[-1]:
-        said = f"left the picture at {left:.2f} s"
+        said = f"left the picture at {quantity(left, 's', 3)}"
         text = linear.text(0.0, 0.02, said, color=RED, transform=linear.transAxes)
         moving.append(lambda n: text.set_visible(time[n] >= left))
     return history, moving
@@ -294,7 +296,7 @@ def _mark_instability(history: Axes, beside: xr.Dataset) -> None:
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
     # Where there is more room.
     side, shift = ("right", -4) if start > 0.5 * fine[-1] else ("left", 4)
-    said = f"from {start:.2f} s on linear unstable"
+    said = f"from {quantity(start, 's', 3)} on linear unstable"
     history.annotate(
         said, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(shift, -4),
         textcoords="offset points", ha=side, va="top", color=RED,
@@ -326,9 +328,9 @@ def _scale_bar(ax: Axes, data: xr.Dataset, start: float) -> None:
     bar, reach = 0.25 * data.attrs["beam_length"], _reach(data)
     low, left = -0.98 * _REACH * reach, start * reach
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
-    ax.text(left + 1.2 * bar, low, f"{bar:g} m", va="center", color="0.35")
-    ax.plot([left + 2.4 * bar, left + 3.2 * bar], [low, low], **_CLAMP)
-    ax.text(left + 3.4 * bar, low, "clamp", va="center", color="0.35")
+    ax.text(left + 1.2 * bar, low, quantity(bar, "m"), va="center", color="0.35")
+    ax.plot([left + 2.6 * bar, left + 3.3 * bar], [low, low], **_CLAMP)
+    ax.text(left + 3.5 * bar, low, "clamp", va="center", color="0.35")
 
 
 def _history(history: Axes, data: xr.Dataset, values: FloatArray, color: str, dot: str) -> _Moving:
@@ -345,6 +347,7 @@ def _ramp(history: Axes, data: xr.Dataset) -> None:
     shade_ramp(history, data.attrs["ramp_time"])
     history.axhline(0.0, color="0.6", lw=0.5)
     history.set(xlim=(0.0, _times(data)[-1]), xlabel="time [s]")
+    fitting_units(history)
 
 
 def _between(time: FloatArray) -> FloatArray:

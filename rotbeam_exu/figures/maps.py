@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import SymLogNorm
 
 from ..paper import BLUE, RED
-from .style import colormap, column, house_axes, ink, label
+from .style import colormap, column, house_axes, ink, label, takes_own
 
 _GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
 
 
+@takes_own
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
@@ -38,6 +39,7 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@takes_own
 def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω of lag alone and of flap alone, with the speeds at which it changes sign."""
     x = data["w_bar"].to_numpy()
@@ -68,6 +70,7 @@ def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@takes_own
 def growth_out_of_plane(
     data: xr.Dataset,
     ax: Axes | None = None,

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import xarray as xr
-from matplotlib.ticker import EngFormatter
 
-from ..paper import MODEL_NAMES, MODELS
+from analytic import Beam
+
+from ..paper import MODEL_NAMES, MODELS, RAMP_TIMES, SPEEDS
 from ..runs.attributes import beam_of
-from .style import typeset
+from .style import quantity, takes_own, typeset
 
-DrawT = TypeVar("DrawT", bound=Callable[..., Any])
+T = TypeVar("T")
 
 EXACT = "black: the geometrically exact beam, by harmonic balance"
 
@@ -43,9 +44,13 @@ class PaperFigure:
     sweeps: bool
 
     def caption(self, data: xr.Dataset) -> str:
-        """Return the caption: the content, the beam, the paper's claim, and our answer."""
+        """Return the caption: the content, the beam, the paper's claim, and our answer.
+
+        Claim and answer are about the paper's beam and speeds, and are left out of other data.
+        """
         plane = str(data.attrs.get("out_of_plane", ""))
-        words = " ".join([self.shows(data), _beam(data), self.claim, plane])
+        claim = self.claim if _of_paper(data) else ""
+        words = " ".join([self.shows(data), _beam(data), claim, plane])
         return typeset(" ".join(words.split()))
 
 
@@ -59,10 +64,11 @@ def paper_figure(
     shows: Callable[[xr.Dataset], str],
     claim: str,
     sweeps: bool = False,
-) -> Callable[[DrawT], DrawT]:
+) -> Callable[[Callable[..., T]], Callable[..., T]]:
     """Decorate the drawing `figure_N` of the data that a function makes: Figure N."""
 
-    def known(draw: DrawT) -> DrawT:
+    def known(draw: Callable[..., T]) -> Callable[..., T]:
+        draw = takes_own(draw)
         PAPER_FIGURES[int(draw.__name__.removeprefix("figure_"))] = PaperFigure(
             data=data, draw=draw, shows=shows, claim=claim, sweeps=sweeps
         )
@@ -71,13 +77,22 @@ def paper_figure(
     return known
 
 
+def _of_paper(data: xr.Dataset) -> bool:
+    """Return whether data are of the paper's beam, and of all its spin-ups if it has a grid."""
+    known = {"beam_length", "blade"} & set(data.attrs)
+    if known and beam_of(data.attrs) != Beam.reference():
+        return False
+    grid = {"omega": SPEEDS, "ramp_time": RAMP_TIMES} if "ramp_time" in data.dims else {}
+    return all(set(values) <= set(data[name].values.tolist()) for name, values in grid.items())
+
+
 def _beam(data: xr.Dataset) -> str:
     if not {"beam_length", "blade"} & set(data.attrs):
         return ""
     beam = beam_of(data.attrs)
     return (
-        f"Beam: L = {beam.length:g} m, EI = {beam.bending_stiffness:.5g} N m², "
-        f"EA = {EngFormatter('N')(float(f'{beam.axial_stiffness:.4g}'))}, "
+        f"Beam: L = {quantity(beam.length, 'm')}, EI = {beam.bending_stiffness:.5g} N m², "
+        f"EA = {quantity(beam.axial_stiffness, 'N', 4)}, "
         f"ρA = {beam.mass_per_length:.5g} kg/m, "
         f"μ = {beam.slenderness:.4g}."
     )

@@ -15,12 +15,13 @@ from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
 
 from ..paper import BLUE, ORANGE, RED
-from .style import column, cycle, house_axes, ink, label
+from .style import column, cycle, house_axes, ink, label, quantity, takes_own
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
 
 
+@takes_own
 def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
     """Draw lag, flap and torsional frequencies over the speed, and the lines kω.
 
@@ -40,6 +41,7 @@ def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None
         return diagram.plot(axes, highest=highest)
 
 
+@takes_own
 def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = None) -> Axes:
     """Draw response curves as `ForcedResponse.plot` does, and the backbone thin.
 
@@ -62,7 +64,7 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
             free = highest["backbone_frequency"].to_numpy()
             line = backbone_drawn(free, highest["backbone_amplitude"].to_numpy())
             axes.plot(*line, color="0.3", lw=0.5, zorder=1, label="backbone")
-            axes.set_title(f"ω = {highest.attrs['omega']:g} rad/s", loc="left")
+            axes.set_title(f"ω = {quantity(highest.attrs['omega'], 'rad/s')}", loc="left")
         if any(not curve["stable"].all() for curve in curves):
             axes.plot([], [], color="0.3", label="unstable", **UNSTABLE)
         if any(fold.any() for fold in folds):
@@ -79,15 +81,16 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
 def _title(curve: xr.Dataset) -> str:
     """Return load and damping in the theory's symbols."""
     attrs = curve.attrs
-    parts = [f"{attrs['load_symbol']} = {attrs['load_size']:g} {attrs['load_unit']}"]
+    parts = [f"{attrs['load_symbol']} = {quantity(attrs['load_size'], attrs['load_unit'])}"]
     parts += [
-        f"{symbol} = {attrs[f'damping_{name}']:.3g} {unit}"
+        f"{symbol} = {quantity(attrs[f'damping_{name}'], unit, 3)}"
         for name, (symbol, unit) in _DAMPINGS.items()
         if attrs[f"damping_{name}"]
     ]
     return ", ".join(parts)
 
 
+@takes_own
 def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the growth rate out of the plane over the amplitude, at one speed."""
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
@@ -101,7 +104,7 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             a[stable], np.zeros(stable.sum()), "o", color="black", ms=3, label="stays in plane",
             transform=axes.get_xaxis_transform(), clip_on=False,
         )  # fmt: skip
-        limit = float(data.attrs.get("limit", np.inf))
+        limit = float(data.get("limit", np.inf))
         if np.isfinite(limit):
             axes.axvline(limit, color="0.5", lw=0.7, ls="--", label=f"limit, a = {limit:.3g}")
         if stable.all():
@@ -109,11 +112,12 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         else:
             axes.set_yscale("log")
         axes.set(xlabel=label(data["a"]), ylabel=label(data["growth_rate"]), xlim=(0.0, None))
-        axes.set_title(f"ω = {data.attrs['omega']:g} rad/s", loc="left")
+        axes.set_title(f"ω = {quantity(data.attrs['omega'], 'rad/s')}", loc="left")
         axes.legend()
     return axes
 
 
+@takes_own
 def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the amplitude left over the ramp time: closed form, exact, by elements, quiet ramps."""
     times, blue, red = data["ramp_time"], ink(BLUE), ink(RED)
@@ -135,19 +139,20 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
                 axes.semilogy(at, data[name], ls="none", clip_on=clipped, **look)
         for T, left in zip(data["quiet_ramp_time"].values, data["quiet"].values, strict=True):
             axes.annotate(
-                f"{T:.2f} s", (T, left), xytext=(0, -5), textcoords="offset points",
-                ha="center", va="top", size=6.5, color=red,
+                quantity(T, "s", 3), (T, left), xytext=(0, -5),
+                textcoords="offset points", ha="center", va="top", size=6.5, color=red,
             )  # fmt: skip
         lowest = float(np.nanmin(np.append(data["linear"], data["quiet"])))
         axes.set(
             xlabel=label(times), ylabel="amplitude left, $|q|/L$",
             xlim=(float(times[0]), float(times[-1])), ylim=(0.3 * lowest, 1.5),
         )  # fmt: skip
-        axes.set_title(f"ω = {data.attrs['omega']:g} rad/s", loc="left")
+        axes.set_title(f"ω = {quantity(data.attrs['omega'], 'rad/s')}", loc="left")
         axes.legend(loc="upper right")
     return axes
 
 
+@takes_own
 def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the divergence speed over the number of substructures, for either frame."""
     omega_0, counts = float(data.attrs["omega_0"]), data["substructures"]

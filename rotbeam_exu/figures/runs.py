@@ -12,7 +12,19 @@ from matplotlib.axes import Axes
 from ..comparison import runs as made
 from ..paper import BLUE
 from .paper_figure import listed, models, numerics, paper_figure
-from .style import column, columns, cycle, house_axes, ink, label, model_line, ramp, shade_ramp
+from .style import (
+    column,
+    columns,
+    cycle,
+    house_axes,
+    ink,
+    label,
+    model_line,
+    quantity,
+    ramp,
+    shade_ramp,
+    takes_own,
+)
 
 _DASHES = ((0, (1, 1)), (0, (5, 1, 1, 1)), "--")
 _POINTS: Any = {
@@ -72,8 +84,16 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         )  # fmt: skip
         axes.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
-        axes.set_title(f"ω = {data.attrs['omega']:g} rad/s, T = {ramp_time:g} s", loc="left")
+        axes.set_title(
+            f"ω = {quantity(data.attrs['omega'], 'rad/s')}, T = {quantity(ramp_time, 's')}",
+            loc="left",
+        )
     return axes
+
+
+def _motion(data: xr.Dataset) -> str:
+    known = data.attrs
+    return f"ω = {quantity(known['omega'], 'rad/s')}, T = {quantity(known['ramp_time'], 's')}"
 
 
 def _elements(count: int) -> str:
@@ -236,6 +256,7 @@ def _orbits(ax: Axes, data: xr.Dataset) -> None:
         ax.plot(q[-1], rate[-1], marker="o", ms=4.0, color=line["color"], zorder=7)
 
 
+@takes_own
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
     """Draw q(t), the ramp shaded, and the steady orbit (q, q_dot) of a run by `simulate`.
 
@@ -249,11 +270,10 @@ def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Ax
         history.plot(run["time"], run["q"], color=ink(BLUE))
         history.set(xlabel=label(run["time"]), ylabel=label(run["q"]), xlim=(0.0, end))
         history.set_title(
-            f"ω = {run.attrs['omega']:g} rad/s, T = {ramp_time:g} s, "
-            f"{run.attrs['elements']} {run.attrs['element']} elements",
+            f"{_motion(run)}, {run.attrs['elements']} {run.attrs['element']} elements",
             loc="left",
         )
         phase.plot(steady["q"], steady["q_dot"], color=ink(BLUE), lw=0.6)
         phase.set(xlabel=label(run["q"]), ylabel=label(run["q_dot"]))
-        phase.set_title(f"steady orbit, t > {ramp_time:g} s", loc="left")
+        phase.set_title(f"steady orbit, t > {quantity(ramp_time, 's')}", loc="left")
     return history, phase

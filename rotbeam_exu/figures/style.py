@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import functools
+import math
+import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -60,6 +63,8 @@ class Style:
         Widths of one and of two columns [mm].
     grey : bool
         Black and greys only; lines are told apart by dashes and marks.
+    font : str
+        Family, such as "Times New Roman"; matplotlib's own unless given.
     formats : tuple of str
         Endings of the saved files, such as "svg".
     """
@@ -67,7 +72,15 @@ class Style:
     column: float = 88.9
     columns: float = 182.88
     grey: bool = False
+    font: str = ""
     formats: tuple[str, ...] = ("png", "pdf")
+
+    @property
+    def settings(self) -> Any:
+        """Matplotlib's settings of the style."""
+        colors = tuple(_GREYS[color] for color in _CYCLE) if self.grey else _CYCLE
+        font = {"font.family": self.font} if self.font else {}
+        return {**STYLE, "axes.prop_cycle": cycler(color=(*colors, "0.4")), **font}
 
 
 STYLES = {
@@ -77,23 +90,29 @@ STYLES = {
 }
 """Styles by name: "journal" has Springer's widths, "grey" is that without colors."""
 
+_GAP = 6.0  # between two columns [mm]
 _ACTIVE: ContextVar[Style] = ContextVar("style", default=STYLES["house"])
+_OWN: ContextVar[Sequence[Mapping[str, Any]]] = ContextVar("own", default=())
+_OWN_POINTS: Any = {"ls": "none", "ms": 4.0, "mfc": "white", "mew": 1.0, "zorder": 9}
 
 
 @contextmanager
-def style(wanted: str | Style = "journal") -> Iterator[Style]:
+def style(wanted: str | float | Style = "journal") -> Iterator[Style]:
     """Draw and save in another style: with figures.style("grey"): figures.figure_8(data).
 
     Parameters
     ----------
-    wanted : {"house", "journal", "grey"} or Style
-        `Style(column=90.0, columns=190.0, grey=True, formats=("svg",))` is one of your own.
+    wanted : {"house", "journal", "grey"}, float or Style
+        The width of a journal's column [mm], of two columns twice that and a gap of 6 mm; or
+        `Style(column=90.0, columns=190.0, grey=True, formats=("svg",))`, one of your own.
 
     Raises
     ------
     ValueError
         If there is no style of that name.
     """
+    if isinstance(wanted, int | float):
+        wanted = Style(column=wanted, columns=2.0 * wanted + _GAP, formats=("pdf", "svg"))
     if not isinstance(wanted, Style) and wanted not in STYLES:
         raise ValueError(
             f"unknown style {wanted!r}; known are {', '.join(STYLES)}; another is a figures.Style"
@@ -101,7 +120,7 @@ def style(wanted: str | Style = "journal") -> Iterator[Style]:
     chosen = wanted if isinstance(wanted, Style) else STYLES[wanted]
     before = _ACTIVE.set(chosen)
     try:
-        with mpl.rc_context({**STYLE, "axes.prop_cycle": cycler(color=(*cycle(), "0.4"))}):
+        with mpl.rc_context(chosen.settings):
             yield chosen
     finally:
         _ACTIVE.reset(before)
@@ -147,17 +166,90 @@ def new_figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]
     """Return a figure of the family, in inches, and its axes."""
     import matplotlib.pyplot as plt  # noqa: PLC0415  (pyplot opens a backend)
 
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context(_ACTIVE.get().settings):
         figure, axes = plt.subplots(figsize=(width, height), **layout)
     return figure, axes
 
 
 @contextmanager
 def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) -> Iterator[_Given]:
-    """Draw in the house's style: on `ax`, or on the axes of a new figure [in]."""
-    given = new_figure(width, height, **layout)[1] if ax is None else ax
-    with mpl.rc_context(STYLE):
+    """Draw in the house's style: on `ax`, or on the axes of a new figure [in].
+
+    The reader's own data is drawn as well, and axes have units of a fitting size.
+    """
+    given: Any = new_figure(width, height, **layout)[1] if ax is None else ax
+    every = np.ravel(np.asarray(given, dtype=object)).tolist()
+    with mpl.rc_context(_ACTIVE.get().settings):
+        own = [
+            one.plot(x, y, mec=ink(RED), label=name, **{**_OWN_POINTS, "marker": marker})[0]
+            for one, data in zip(every, _OWN.get(), strict=False)
+            for marker, (name, (x, y)) in zip("oDs^v", data.items(), strict=False)
+        ]
         yield given
+        for one in every:
+            fitting_units(one)
+        legends = [one.get_legend() for one in every] + every[0].figure.legends if own else []
+        named = {text.get_text() for legend in legends if legend for text in legend.texts}
+        for line in own:
+            if line.get_label() not in named:
+                line.axes.legend(handles=[one for one in own if one.axes is line.axes])
+
+
+def takes_own(draw: Callable[..., _Given]) -> Callable[..., _Given]:
+    """Decorate a drawing: its argument `own` has data of the reader's, to compare.
+
+    A mapping of names to pairs (x, y) in the units of the data, for the first axes; or a sequence
+    of such, one for each of the axes.
+    """
+
+    @functools.wraps(draw)
+    def drawing(*data: Any, own: Mapping[str, Any] | Sequence[Any] = (), **options: Any) -> _Given:
+        before = _OWN.set([own] if isinstance(own, Mapping) else own)
+        try:
+            return draw(*data, **options)
+        finally:
+            _OWN.reset(before)
+
+    return drawing
+
+
+_PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
+_PREFIXED = "m", "s", "rad/s", "m/s", "N", "N m", "J"  # units that take one
+
+
+def prefix_of(largest: float, least: float = 0.1) -> tuple[float, str]:
+    """Return the factor and the prefix of a unit for numbers up to `largest`: 1e-6 and µ.
+
+    None from `least` to ten thousand, where the numbers of the paper's beam are.
+    """
+    if not (0.0 < abs(largest) < least or 1e4 <= abs(largest) < math.inf):
+        return 1.0, ""
+    power = min(max(math.floor(math.log10(abs(largest)) / 3.0), min(_PREFIXES)), max(_PREFIXES))
+    return 1e3**power, _PREFIXES[power]
+
+
+def quantity(value: float, unit: str, digits: int = 6) -> str:
+    """Return a number with its unit, which has a prefix where it is small or large."""
+    factor, prefix = prefix_of(value, 1e-4) if unit in _PREFIXED else (1.0, "")
+    return f"{value / factor:.{digits}g} {prefix}{unit}"
+
+
+def fitting_units(ax: Axes) -> None:
+    """Give the axes units with a prefix, as µm, where numbers are small or large.
+
+    The data stays in SI units, and so does what is drawn later.
+    """
+    for name, axis in (("x", ax.xaxis), ("y", ax.yaxis)):
+        words, _, unit = axis.get_label_text().removesuffix("]").rpartition(" [")
+        factor, prefix = prefix_of(float(np.abs(axis.get_view_interval()).max()))
+        if unit not in _PREFIXED or not prefix or axis.get_scale() == "log":
+            continue
+        axis.set_label_text(f"{words} [{prefix}{unit}]")
+        for one in (ax, *ax.child_axes):
+            form = mpl.ticker.FuncFormatter(
+                lambda x, _, factor=factor: f"{x / factor:.6g}".replace("-", "−")
+            )
+            getattr(one, f"{name}axis").set_major_formatter(form)
 
 
 def shade_ramp(ax: Axes, ramp_time: float) -> None:
@@ -187,8 +279,15 @@ def typeset(words: str) -> str:
     return re.sub(r"(?<![\w)-])-(?=[\d.])", "−", words)
 
 
-def save_figure(axes: Axes, path: Path) -> tuple[Path, ...]:
-    """Write the figure of `axes` as `path` with the style's endings, each whole or not; close it.
+def save_figure(axes: Axes | Sequence[Axes], path: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Write a figure as `path` with the style's endings, each whole or not; close it.
+
+    Parameters
+    ----------
+    axes : Axes or sequence of Axes
+        As drawings return them.
+    path : path
+        Without an ending.
 
     Returns
     -------
@@ -197,10 +296,12 @@ def save_figure(axes: Axes, path: Path) -> tuple[Path, ...]:
     """
     import matplotlib.pyplot as plt  # noqa: PLC0415
 
-    figure: Any = axes.get_figure(root=True)
-    written = tuple(path.with_name(f"{path.name}.{end}") for end in _ACTIVE.get().formats)
-    for target in written:
-        with whole_file(target) as partial, mpl.rc_context(STYLE):
+    first: Any = axes if isinstance(axes, Axes) else axes[0]
+    figure, target = first.get_figure(root=True), Path(path)
+    active = _ACTIVE.get()
+    written = tuple(target.with_name(f"{target.name}.{end}") for end in active.formats)
+    for one in written:
+        with whole_file(one) as partial, mpl.rc_context(active.settings):
             figure.savefig(partial)
     plt.close(figure)
     return written

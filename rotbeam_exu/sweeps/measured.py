@@ -16,21 +16,12 @@ from ..fem.elements import Formulation
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..lazily import xr
-from ..result_columns import OMEGA, dataset
+from ..result_columns import OMEGA, OSCILLATION, dataset
 from ..runs.check import SimulationError
 from ..runs.oscillation import NoOscillationError, steady_oscillation
 from ..runs.versions import versions
 
-MEASURED = {
-    "amplitude": "amplitude a = q/L, half peak to peak",
-    "amplitude_error": "error bar of a, estimator",
-    "first_harmonic": "first harmonic over L",
-    "frequency": "nonlinear frequency ω_NL [rad/s]",
-    "frequency_error": "error bar of ω_NL, estimator [rad/s]",
-    "offset": "mean of q over L",
-    "residual": "second bending mode, rms over L",
-    "omega_n": "natural frequency ω_n of the mesh [rad/s]",
-}
+MEASURED = {**OSCILLATION, "omega_n": "natural frequency ω_n of the mesh [rad/s]"}
 """Quantities measured of a case, with their labels."""
 
 

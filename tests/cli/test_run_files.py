@@ -123,7 +123,10 @@ def test_loads_that_cannot_be_taken_are_refused(call, config, tmp_path):
     assert "with --load-frequency" in call("run", "--tip-force", "1", "-o", tmp_path)[2]
     config.write_text(f"{RUN}[[loads]]\nkind = 'Gravity'\n")
     code, _, error = call("reference", "--config", config, "-o", tmp_path)
-    assert (code, "the file has [[loads]], which run and sweep" in error) == (2, True)
+    assert (code, "the file has [[loads]], which only run, sweep and converge" in error) == (
+        2,
+        True,
+    )
 
 
 def test_no_exact_leaves_the_exact_orbit_out(call, config, tmp_path, monkeypatch):

@@ -49,7 +49,7 @@ def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):
 
 
 def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
-    options = {"omega_max": 12.0, "points": 3, "count": 1, "orders": 6}
+    options = {"omega_max": 12.0, "points": 2, "count": 1, "orders": 6}
     shape = SectionOptions(section="rectangle", ratio=18.5)
     command(**options, shape=shape, format="csv", out=tmp_path, frequency_max=80.0)
     printed = capsys.readouterr()
@@ -57,7 +57,7 @@ def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tm
     assert rows[0] == ["omega [rad/s]", *(f"{p} 1 [rad/s]" for p in ("lag", "flap", "torsion"))]
     blade = beam.blade.with_shape(Rectangle(ratio=18.5))
     frequencies = [linear_modes(blade, 12.0, 1, plane=p).frequencies[0] for p in PLANES]
-    assert np.array(rows[3][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
+    assert np.array(rows[2][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
     written = sorted(path.name for path in tmp_path.iterdir())
     ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
     assert written == [f"campbell-rectangle-18.5{end}" for end in ends]

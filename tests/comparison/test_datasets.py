@@ -37,6 +37,7 @@ def limit():
         blade=STRIP,
         omega=6.0,
         mode=1,
+        damping=0.0,
         growth=1e-2,
         amplitude=np.inf,
         searched=0.3,
@@ -62,6 +63,10 @@ MADE = {
     "Orbits": lambda: analytic.periodic_orbits(BEAM, 6.0, [0.1, 0.2]),
     "SpaceOrbits": lambda: analytic.periodic_orbits(TWISTED, 1.0, [0.02]),
     "BackboneBranch": branch,
+    "LeavingBranch": lambda: (
+        analytic.backbone(BEAM.with_section_out_of_plane(0.9, 0.8), 0.0, functions=8)
+        .leaving(0.3, 0.4, points=3)
+    ),
     "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1, coefficients=5),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
     "SpaceModes": lambda: analytic.linear_modes(TWISTED, 1.0),
@@ -104,7 +109,9 @@ def test_no_result_of_a_public_function_is_without():
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(kind, marks=pytest.mark.slow if kind == "SpaceForcedResponse" else ())
+        pytest.param(
+            kind, marks=pytest.mark.slow if kind in ("SpaceForcedResponse", "LeavingBranch") else ()
+        )
         for kind in MADE
     ],
 )

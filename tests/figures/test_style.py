@@ -4,11 +4,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
 
 from rotbeam_exu import figures
-from rotbeam_exu.figures.style import typeset
-from rotbeam_exu.paper import MODEL_LINES
+from rotbeam_exu.figures.style import fitting_units, prefix_of, quantity, typeset
+from rotbeam_exu.paper import MODEL_LINES, RAMP_TIMES, SPEEDS
 
 
 @pytest.fixture
@@ -39,14 +41,18 @@ def test_the_journal_sets_the_width_and_the_endings(data, tmp_path):
     with figures.style("journal"):
         axes = figures.figure_14(data)[0]
         assert axes.figure.get_figwidth() == pytest.approx(174.0 / 25.4)
-        written = figures.save_figure(axes, tmp_path / "one")
+        written = figures.save_figure([axes], f"{tmp_path}/one")
     assert [path.name for path in written] == ["one.pdf", "one.svg"]
     assert all(path.stat().st_size > 1000 for path in written)
     # The house's own again.
     assert figures.figure_14(data)[0].figure.get_figwidth() == pytest.approx(7.2)
-    own = figures.Style(columns=190.0, formats=("svg",))
+    with figures.style(85):  # of one column [mm]
+        assert figures.figure_14(data)[0].figure.get_figwidth() == pytest.approx(176.0 / 25.4)
+    own = figures.Style(columns=190.0, font="DejaVu Serif", formats=("svg",))
     with figures.style(own):
-        assert figures.figure_14(data)[0].figure.get_figwidth() == pytest.approx(190.0 / 25.4)
+        axes = figures.figure_14(data)[0]
+        assert axes.figure.get_figwidth() == pytest.approx(190.0 / 25.4)
+        assert axes.xaxis.label.get_family() == ["DejaVu Serif"]
 
 
 def test_grey_has_no_color_and_tells_lines_apart(data):
@@ -92,3 +98,84 @@ def test_models_are_spelled_out_where_there_is_room(data):
     figure, ax = plt.subplots(figsize=(3.5, 3.0))
     figures.figure_14(data, ax=[ax])
     assert figure.legends[0].get_texts()[0].get_text() == "CE"
+
+
+DRAWINGS = {name for name in figures.__all__ if name.islower()} - {
+    "animate", "caption", "save_animation", "save_figure", "style",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", sorted(DRAWINGS))
+def test_every_figure_takes_data_of_one_s_own(name):
+    """By the one argument; what it does is below."""
+    assert "own" in getattr(figures, name).__kwdefaults__
+
+
+def test_own_data_is_drawn_and_named(data):
+    own = {"mine": ([0.99, 0.995], [0.1, 0.2]), "theirs": ([0.985], [0.3])}
+    axes = figures.figure_14(data, own=own)[0]
+    drawn = {line.get_label(): line for line in axes.lines if line.get_label() in own}
+    for name, (x, y) in own.items():
+        np.testing.assert_array_equal(drawn[name].get_data(), (x, y))
+    assert drawn["mine"].get_marker() != drawn["theirs"].get_marker()
+    named = [text.get_text() for text in axes.figure.legends[0].texts]
+    assert named.count("mine") == named.count("theirs") == 1
+    # By axes; one without a legend has one of its own, and colors do not move.
+    run = xr.Dataset(
+        {"q": ("time", [0.0, 1.0]), "q_dot": ("time", [0.0, 1.0])}, {"time": [0.0, 1.0]},
+        {"ramp_time": 0.5, "omega": 1.0, "elements": 1, "element": "cable"},
+    )  # fmt: skip
+    plain, both = (figures.spin_up(run, **more) for more in ({}, {"own": [{}, {"a": (0, 1)}]}))
+    assert both[0].get_legend() is None
+    assert [text.get_text() for text in both[1].get_legend().texts] == ["a"]
+    assert both[1].lines[-1].get_color() == plain[1].lines[-1].get_color()
+    assert len(figures.spin_up(run)[1].lines) == 1
+
+
+@given(st.floats(1e-12, 1e14))
+def test_a_prefix_leaves_three_digits_before_the_point(value):
+    factor, prefix = prefix_of(value)
+    if prefix:
+        assert 1.0 - 1e-12 <= value / factor < 1000.0 * (1.0 + 1e-12) or prefix in "pT"
+    else:
+        assert 0.1 <= value < 1e4
+
+
+@pytest.mark.parametrize(
+    ("size", "unit", "shown"),
+    [(3e-4, "m", "µm"), (8.0, "m", "m"), (1.2e6, "rad/s", "Mrad/s"), (3e-4, "1", "1"),
+     (2e-6, "kg/m", "kg/m")],
+)  # fmt: skip
+def test_axes_have_fitting_units_and_keep_their_data(size, unit, shown):
+    axes = plt.subplots()[1]
+    axes.plot([0.0, 0.5 * size, size], [0.0, 1.0, 2.0])
+    axes.set_xlabel(f"x [{unit}]")
+    fitting_units(axes)
+    assert axes.get_xlabel() == f"x [{shown}]"
+    factor = prefix_of(size)[0] if shown != unit else 1.0
+    axes.figure.draw_without_rendering()
+    offset = axes.xaxis.get_offset_text().get_text()
+    if not offset:
+        for place, text in zip(axes.get_xticks(), axes.get_xticklabels(), strict=True):
+            assert float(text.get_text().replace("−", "-")) * factor == pytest.approx(place)
+    np.testing.assert_array_equal(axes.lines[0].get_xdata(), [0.0, 0.5 * size, size])
+
+
+def test_numbers_in_words_have_a_prefix_beyond_those_of_the_paper_s_beam():
+    assert quantity(0.002, "rad/s") == "0.002 rad/s"
+    assert quantity(4.5e-5, "s") == "45 µs"
+    assert quantity(5.0328e6, "N", 4) == "5.033 MN"
+    assert quantity(2e-6, "kg/m") == "2e-06 kg/m"
+
+
+def test_a_caption_has_the_claim_of_the_paper_s_data_only(data):
+    claim = figures.PAPER_FIGURES[14].claim
+    assert "The paper explains" in claim
+    assert "The paper explains" not in figures.caption(14, data)
+    all_of_it = data.isel(omega=0, ramp_time=0, drop=True).expand_dims(
+        omega=list(SPEEDS), ramp_time=list(RAMP_TIMES)
+    )
+    assert "The paper explains" in figures.caption(14, all_of_it)
+    other = {"beam_length": 2.0, "beam_area": 1.0, "beam_second_moment": 1e-4}
+    other |= {"beam_youngs_modulus": 1e9, "beam_density": 1e3}
+    assert "The paper explains" not in figures.caption(14, all_of_it.assign_attrs(other))

@@ -127,8 +127,10 @@ def test_the_chain_converges_to_the_reference(chain, kit, tmp_path):
 def test_the_chain_converges_to_the_reference_in_every_case(case, chain, kit, tmp_path):
     """Damping, gravity, hub and tip mass of the reference, by a code that shares nothing."""
     # At 8 ms the midpoint rule, which damps nothing, loses the stiff springs in hard cases.
-    steps = ("4e-3", "2e-3", "1e-3")
-    found = judged(submitted(chain, kit, tmp_path / "mine", ["L", case], steps, (32, 64, 128)))
+    steps, meshes = ("4e-3", "2e-3", "1e-3"), (32, 64, 128)
+    if case == "S4":  # undecided by three meshes: q(t) is off by 1.5e-2 on 128
+        steps, meshes = ("2e-3", "1e-3", "5e-4"), (*meshes, 256)
+    found = judged(submitted(chain, kit, tmp_path / "mine", ["L", case], steps, meshes))
     assert found.outcome_of(case) is Outcome.REFERENCE, str(found)
 
 

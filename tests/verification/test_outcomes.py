@@ -8,7 +8,7 @@ import xarray as xr
 
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order, converged
-from rotbeam_exu.verification.outcomes import Finding, Outcome, found_of, worst_of
+from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, found_of, worst_of
 from rotbeam_exu.verification.verify import Entry, handed_in
 
 
@@ -81,16 +81,25 @@ def test_what_is_undecided_says_which_runs_would_decide(runs, said):
     n = np.array(elements, dtype=float)
     h = np.zeros(n.size) if steps is None else np.array(steps)
     size = 1.0 if steps is None else 1e-3
-    fit = converged(elements, steps, 0.02 * size * (32 / n) ** 2 + 2e4 * h**2, declared=(2.0, 2.0))
-    found = found_of(fit, tolerance=5e-3, bound=0.0, where="here")
+
+    def judged(n, h):
+        values = 0.02 * size * (32 / n) ** 2 + 2e4 * h**2
+        fit = converged(n, None if steps is None else h, values, declared=(2.0, 2.0))
+        return found_of(fit, tolerance=5e-3, bound=0.0, where="here")
+
+    found = judged(n, h)
     assert found.outcome is Outcome.UNDECIDED
     assert said in found.note
+    if "third" in said:
+        return
+    advised = float(found.note.split("about ")[1].split()[0])
     if said.startswith("elements"):
-        finer = int(found.note.split("about ")[1].split()[0])
-        assert 32 < finer <= 160
-        n = np.array([*elements, finer], dtype=float)
-        fit = converged(n, None, 0.02 * (32 / n) ** 2, declared=(2.0, 2.0))
-        assert found_of(fit, tolerance=5e-3, bound=0.0, where="here").outcome.passed
+        assert 32 < advised <= 160
+        found = judged(np.append(n, advised), np.append(h, 0.0))
+    else:
+        assert 0.2 <= advised < 1.0
+        found = judged(np.append(n, 16.0), np.append(h, 1e-3 * advised))
+    assert found.outcome.passed
 
 
 @pytest.mark.parametrize(
@@ -114,6 +123,10 @@ def test_a_remedy_refines_the_finest_run_by_its_orders(limit, in_mesh, in_step, 
     found = found_of(runs, tolerance=0.5, bound=0.0, where="here")
     assert found.outcome is Outcome.UNDECIDED
     assert found.note.endswith(said)
+
+
+def test_numbers_of_elements_that_are_advised_have_two_digits_and_are_even():
+    assert [_rounded(elements) for elements in (51.2, 100.0, 122.0)] == [52, 100, 140]
 
 
 def test_a_reference_that_is_not_known_well_enough_is_named():

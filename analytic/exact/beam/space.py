@@ -11,7 +11,7 @@ the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
 ι = j(1 - r)/(1 + r). w has no Coriolis force: about a periodic orbit it is a Hill equation. Left
 out are the inertia of the sections against flap, and at r = 1 that of the twist. The viscosity
-η_b of the blade resists the rates of β' - κφ and φ' + κβ, and of κ in the plane.
+η_b of the blade resists the rates of β' - κφ and φ' + κβ; the planar motion is undamped.
 """
 
 from __future__ import annotations
@@ -126,11 +126,7 @@ class Space:
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, planar.rate)
         bending = model.weights * evaluated(self.unit.bending, x)
-        # A damped planar motion has a viscous moment too, which is none of the blade's own here.
-        viscous = planar.model.blade.damping[0] * bending * model.bent(q_dot)[0]
-        moment = bending * kappa + viscous
-        # Of it, what the stiffness out of the plane does not take back.
-        excess = moment - r * bending * kappa
+        moment = bending * kappa
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * once
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
@@ -138,17 +134,17 @@ class Space:
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
-            mixed = _form(bent, excess, twist)
-            twisted = -_form(twist, excess * kappa, twist)
+            mixed = (1.0 - r) * _form(bent, moment, twist)
+            twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
         spin = planar.rate + model.bent(q_dot)[0] @ upto.T
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, strain)
-        mixed += _form(bent, excess, once)
+        mixed += (1.0 - r) * _form(bent, moment, once)
         twisted = _form(strain, torsion, strain)
-        twisted += _form(once, model.weights * turning - excess * kappa, once)
+        twisted += _form(once, model.weights * turning - (1.0 - r) * moment * kappa, once)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
@@ -258,8 +254,7 @@ class OutOfPlaneMotion:
     @property
     def reversible(self) -> bool:
         """Whether nothing damps it."""
-        damped = any(self.space.unit.damping) or any(self.orbit.system.model.blade.damping)
-        return self.modal is None and not damped
+        return self.modal is None and not any(self.space.unit.damping)
 
     @property
     def signs(self) -> FloatArray:

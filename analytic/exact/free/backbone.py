@@ -105,15 +105,15 @@ class Backbone(ModePath):
     ) -> LeavingBranch:
         """Return the orbits in space that leave the plane between two amplitudes.
 
-        They are born at the smallest planar orbit between `low` and `high` at which a Floquet
-        multiplier out of the plane is 1, or -1 where their period is twice that of the planar
-        orbit. Followed by arclength, each on as many harmonics and functions as it needs.
+        They are born at a planar orbit between `low` and `high` at which a Floquet multiplier out
+        of the plane is 1, or -1 where their period is twice that of the planar orbit. Followed by
+        arclength, each on as many harmonics and functions as it needs.
 
         Parameters
         ----------
         low, high : float
             Peaks |q|/L of two planar orbits, below 1: one on either side of an edge of instability,
-            as `planar_stability` or `stability_limit` tell it.
+            as `planar_stability` or `stability_limit` tell it. Of several edges one is found.
         periods : int
             1, or 2 for period doubling.
         points : int
