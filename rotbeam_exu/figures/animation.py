@@ -74,8 +74,8 @@ def animate(
     """
     _require_drawable(data, beside)
     time, motion = _times(data), motion_of(data.attrs)
-    q, flap, space = _q(data), _flap(data), _leaves_plane(data)
     (scale, prefix), faster = prefix_of(time[-1]), prefix_of(motion.fastest)
+    q, flap, space = _q(data), _flap(data), _leaves_plane(data)
     with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(data, beside) if beside is not None else _two_frames(data)
         _ramp(history, data)
