@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 HERE = Path(__file__).parent
-CODES = {"exact": "exact_56", "Exudyn": "exudyn", "MuJoCo": "mujoco"}
+CODES = {"exact": "exact_56", "Exudyn": "exudyn_128", "MuJoCo": "mujoco_64"}
 COARSER = "exact_40"
 """The exact blade with fewer functions; the difference is an upper estimate of its error."""
 
