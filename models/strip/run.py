@@ -1,9 +1,9 @@
 """The strip's spin-up out of its plane by three codes, into a table each: half an hour in all.
 
-``python models/strip/run.py exact 56``, ``exact 40``, ``exudyn 128 2.5e-4``, ``exudyn 64 2.5e-4``,
-``mujoco 64 1e-4`` and ``mujoco 32 1e-4``; MuJoCo wants ``pip install mujoco``. The rectangle with
-the paper's A and I turns by Eq. 1, up to 6 rad/s in 3 s, and starts at rest, 8 mm out of the plane
-in its first flap mode. No code has the trapeze effect.
+``python models/strip/run.py exact 56``, ``exact 48 tight``, ``exact 40``, ``exudyn 128 2.5e-4``,
+``exudyn 64 2.5e-4``, ``mujoco 64 1e-4`` and ``mujoco 32 1e-4``. MuJoCo wants ``pip install
+mujoco``. The rectangle with the paper's A and I turns by Eq. 1, up to 6 rad/s in 3 s, and starts at
+rest, 8 mm out of the plane in its first flap mode. No code has the trapeze effect.
 """
 
 import sys
@@ -43,8 +43,9 @@ class FirstHalf(SpeedChange):
 
 
 HEADER = "time,along,lag,flap,twist"  # places of the tip over L, in the frame that turns
-NEWTON = replace(TANGENT_BEFORE, converged=1e-12, stagnates=1e-11, largest=0.3)
-_QUICK, _LONGEST, _PATIENCE = 5, (0.01, 0.005), 12  # iterations; s, before the buckling and after
+TIGHT = replace(TANGENT_BEFORE, largest=0.3)
+LOOSE = replace(TIGHT, converged=1e-12, stagnates=1e-11)
+_LONGEST, _PATIENCE = (0.01, 0.005), 12  # s, before the buckling and after; steps
 
 
 def write(code: str, time: FloatArray, tip: FloatArray, twist: FloatArray) -> None:
@@ -54,18 +55,19 @@ def write(code: str, time: FloatArray, tip: FloatArray, twist: FloatArray) -> No
 
 
 @one_thread
-def exact(functions: str) -> None:
+def exact(functions: str, tight: str = "") -> None:
     """Radau steps of order 15, halved where Newton's method fails and doubled where it is quick.
 
-    By functions for each curvature. `spin_up_response` has equal steps, which take longer here.
+    By functions for each curvature; `tight` has tighter tolerances and, at first, half the steps.
+    `spin_up_response` has equal steps, which take longer here.
     """
     model, method = space_continuum(STRIP, THEORY, int(functions)), radau(8)
     driven_at = drive(STRIP, MOTION, (), model)
     q = KICK * flap_shape(model)
     q_dot, states, quick, factors = 0.0 * q, [q], 0, None
-    t, h, last, acceleration = 0.0, _LONGEST[0], 0.0, np.zeros((8, q.size))
+    t, h, last, acceleration = 0.0, _LONGEST[bool(tight)], 0.0, np.zeros((8, q.size))
     while len(states) < TIMES.size:
-        longest = _LONGEST[t > 0.55]
+        longest = _LONGEST[bool(tight) or t > 0.55]
         h, factors = (h, factors) if h <= longest else (longest, None)
         length = h * STRIP.frequency_scale
         guess = acceleration
@@ -73,7 +75,7 @@ def exact(functions: str) -> None:
             guess = method.values(1.0 + method.nodes * length / last) @ acceleration
         driven = driven_at(t + h * method.nodes)
         found = method.step(
-            length, q, q_dot, guess, newton=NEWTON, factors=factors,
+            length, q, q_dot, guess, newton=TIGHT if tight else LOOSE, factors=factors,
             residual=partial(model.residual, **driven), tangent=partial(model.tangent, **driven),
         )  # fmt: skip
         if found is None:
@@ -84,7 +86,7 @@ def exact(functions: str) -> None:
         q, q_dot, t = positions[-1], rates[-1], round(t + h, 12)
         if abs(t - TIMES[len(states)]) < 1e-9:
             states.append(q)
-        quick = quick + 1 if found.steps <= _QUICK else 0
+        quick = quick + 1 if found.steps <= (9 if tight else 5) else 0
         if quick >= _PATIENCE and h < longest and abs(t / (2.0 * h) - round(t / (2.0 * h))) < 1e-6:
             h, quick, factors = 2.0 * h, 0, None
     path = np.array(states)
