@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import ComplexArray, FloatArray
+from analytic.motion import SpeedChange
 
 from ..lazily import xr
 from ..paper import BLUE, RED
@@ -73,7 +74,7 @@ def animate(
         motion.
     """
     _require_drawable(data, beside)
-    time, motion = _times(data), motion_of(data.attrs)
+    time, motion = _times(data), cast(SpeedChange, motion_of(data.attrs))
     (scale, prefix), faster = prefix_of(time[-1]), prefix_of(motion.fastest)
     q, flap, space = _q(data), _flap(data), _leaves_plane(data)
     with mpl.rc_context({**STYLE, **_LETTERS}):
