@@ -63,9 +63,11 @@ def animate(
         natural frequency at rest.
     run
         Show a run in place of the exact beam: the file of `rotbeam run --stations`.
-    height, width
-        Of a rectangular section in the plane of bending and across it [m]: PVD then has a body with
-        the strain in its corners, else a line.
+    height
+        Height of a rectangular section, in the plane of bending [m]. With `--width` a .pvd has a
+        body with the strain in its corners, else a line.
+    width
+        Its width [m].
     out
         File to write, .gif, .mp4 where ffmpeg is installed, or .pvd with a folder of .vtu.
     force
