@@ -19,7 +19,7 @@ run: $(VENV)/.run  ## the main job: spin the paper's beam up
 figures: $(VENV)/.run  ## data, pictures and captions of every figure
 	$(BIN)/rotbeam figure all
 
-images: $(VENV)/.dev  ## the README's pictures, and two of the pages'
+images: $(VENV)/.dev  ## the README's pictures, and three of the pages'
 	$(BIN)/python docs/images/regenerate.py
 
 golden: $(VENV)/.dev  ## regenerate the golden data of the tests

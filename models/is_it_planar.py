@@ -7,9 +7,13 @@ white is stable. Circles are the ends of the paper's spin-ups. A thin tube with 
 and :math:`I` stays in the plane.
 """
 
+import runpy
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
+import analytic
 from analytic import Beam, Rectangle, Tube, planar_stability, stability_limit
 from rotbeam_exu import comparison, figures
 
@@ -26,5 +30,10 @@ ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.
 limit = stability_limit(strip, 4.0, damping=0.005, largest=0.1)
 round_one = planar_stability(tube, 4.0, ends[4.0])
 figures.growth_out_of_plane(data, spin_ups=ends)
-plt.show()
 print(limit, round_one, sep="\n")
+
+# %%
+# How the strip buckles in the spin-up to 6 rad/s in 3 s, by three codes: :doc:`/theory/planar`.
+tables = Path(analytic.__file__).parents[1] / "models" / "strip"
+axes = runpy.run_path(f"{tables}/three_codes.py")["figure"]()
+plt.show()

@@ -6,16 +6,18 @@ start 8 mm out of the plane. Seen in the plane and edgewise, magnified, from the
 """
 
 import matplotlib.pyplot as plt
-from matplotlib.animation import ArtistAnimation
+import numpy as np
 
 from analytic import Beam, Rectangle, SpinUp, Tube
 from rotbeam_exu import figures, kicked, simulate
-from rotbeam_exu.fem.picture import ray_traced
 
 plt.style.use([figures.STYLE, {"animation.html": "jshtml"}])
 beam, spin_up = Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0)
 settings = {"element": "space_exact", "duration": 3.4, "initial_state": kicked(beam, 1e-3)}
-rectangle = simulate(beam.with_shape(Rectangle()), spin_up, **settings, elements=32, step=2.5e-4)
+rectangle = simulate(
+    beam.with_shape(Rectangle()), spin_up, **settings, elements=32, step=2.5e-4,
+    stations=np.linspace(0.0, beam.length, 33),
+)  # fmt: skip
 tube = simulate(beam.with_shape(Tube(radius=0.015, wall=0.00077)), spin_up, **settings, step=5e-3)
 _, (above, edgewise, axes) = plt.subplots(3, figsize=(3.5, 5.6), height_ratios=[1.8, 1.0, 1.0])
 for t in (0.2, 0.8, 1.0, 1.4):
@@ -32,8 +34,7 @@ axes.legend()
 plt.show()
 left = rectangle["time"][(abs(rectangle["twist"]) > 0.1).argmax("time")].item()
 # %%
-screen = plt.figure(figsize=(5.0, 2.9)).add_subplot(frame_on=False, xticks=[], yticks=[])
-shots = (ray_traced(rectangle, [0.6 + 0.05 * k], size=(480, 280)) for k in range(57))
-animation = ArtistAnimation(screen.figure, [[screen.imshow(shot)] for shot in shots], interval=100)
-plt.close(screen.figure)
+shown = [np.abs(rectangle["time"].to_numpy() - 0.05 * k).argmin() for k in range(69)]
+animation = figures.animate(rectangle.isel(time=shown), rate=10)
+plt.close(animation._fig)
 animation  # noqa: B018

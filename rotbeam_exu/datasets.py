@@ -12,19 +12,21 @@ from typing import Any
 
 import numpy as np
 
-from analytic.exact.beam.section_loads import SectionLoads
+from analytic.exact.beam.section_loads import SectionLoads, set_at
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.loads import rippled
+from analytic.reduced.linear_frame import LinearResponse
 
 from .files.results import parts
 from .forced_columns import of_forced, of_forced_in_space
 from .lazily import xr
 from .result_columns import COLUMNS, GROWTH, OMEGA, ORBIT, dataset, of_columns
 from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.shape import shape_of
 from .runs.versions import versions
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
@@ -39,7 +41,8 @@ def dataset_of(*results: Any) -> xr.Dataset:
     *results
         Of any function of `analytic` that returns more than an array, or of this package; several
         that belong together, as a PlanarStability and its StabilityLimit. A spin-up has its root
-        loads, and the names of a run by `simulate`; a forced response its stability and backbone.
+        loads, the names of a run by `simulate`, and of points asked for what
+        `rotbeam_exu.runs.shape.shape_of` has; a forced response its stability and backbone.
 
     Returns
     -------
@@ -106,6 +109,7 @@ def _described(result: Any) -> xr.Dataset:
 for _kind, _columns in COLUMNS.items():
     _described.register(_kind, partial(of_columns, *_columns))
 _described.register(ForcedResponse, of_forced)
+_described.register(SectionLoads, shape_of)
 _described.register(SpaceForcedResponse, of_forced_in_space)
 
 
@@ -145,17 +149,14 @@ def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr
         "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
         **{
             f"root_{name}": (of[:, 0], label)
-            for name, (of, label) in _loads(response.section_loads([0.0]), "at the root").items()
+            for name, (of, label) in _loads(response.section_loads([0.0])).items()
         },
     }
-    return dataset(
+    found = dataset(
         {name: ("time", *column) for name, column in columns.items()},
         {"time": (response.time, "time t [s]")},
         {
-            **beam_attributes(response.beam),
-            "omega": response.spin_up.omega,
-            "ramp_time": response.spin_up.ramp_time,
-            **motion_attributes(response.spin_up),
+            **_inputs(response),
             **loads_attributes(response.loads),
             **{name: value for name, value in sections.items() if value},
             "duration": float(response.time[-1]),
@@ -165,6 +166,39 @@ def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr
             "versions": json.dumps(versions()),
         },
     )
+    along = response.points
+    return found.merge(shape_of(response.section_loads(along))) if along.size else found
+
+
+@_described.register
+def _(response: LinearResponse) -> xr.Dataset:
+    """Over `time`, and `place` over `station` of points asked for."""
+    place = response.axis @ set_at(response.beam.setting_angle)[:, :2].T
+    angle = response.spin_up.angle(response.time)
+    return dataset(
+        {
+            "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
+            "angle": ("time", angle, "rotation angle θ [rad]"),
+            "place": (("time", "station", "direction"), place, "place in the clamp's frame [m]"),
+        },
+        {
+            "time": (response.time, "time t [s]"),
+            "station": (response.points, "distance from the clamp [m]"),
+            "direction": ["x", "y", "z"],
+        },
+        {**_inputs(response), "foreshortening": int(response.foreshortening)},
+    )
+
+
+def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
+    """Return beam and motion as attributes."""
+    motion = response.spin_up
+    return {
+        **beam_attributes(response.beam),
+        "omega": motion.omega,
+        "ramp_time": motion.ramp_time,
+        **motion_attributes(motion),
+    }
 
 
 @_described.register
@@ -228,28 +262,18 @@ def _(found: StabilityLimit) -> xr.Dataset:
     )
 
 
-@_described.register
-def _(found: SectionLoads) -> xr.Dataset:
-    """Over `station`, and over `sample` but of a steady state; named as root loads of a run."""
-    dims = ("sample", "station")[-found.tension.ndim :]
-    return dataset(
-        {name: (dims, *column) for name, column in _loads(found, "in the section").items()},
-        {"station": (found.stations, "place from the clamp [m]")},
-    )
-
-
-def _loads(found: SectionLoads, where: str) -> dict[str, tuple[Any, str]]:
+def _loads(found: SectionLoads) -> dict[str, tuple[Any, str]]:
     """Return tension, shear forces and moments with their labels, those of the plane or all."""
     force = np.moveaxis(found.force, -1, 0)
     moment = np.moveaxis(found.moment, -1, 0) if len(force) > 2 else found.moment[None]
     axes = "xyz"[-len(moment) :]
     return {
         **{
-            f"force_{k}": (f, f"{_FORCES[k]} {where} [N]")
+            f"force_{k}": (f, f"{_FORCES[k]} at the root [N]")
             for k, f in zip("xyz", force, strict=False)
         },
         **{
-            f"moment_{k}": (m, f"{_MOMENTS[k]} {where} [N m]")
+            f"moment_{k}": (m, f"{_MOMENTS[k]} at the root [N m]")
             for k, m in zip(axes, moment, strict=True)
         },
     }

@@ -19,7 +19,6 @@ from analytic.exact.free.orbits import Orbits, SpaceOrbits
 from analytic.exact.linear.modes import LinearModes
 from analytic.exact.space.modes import SpaceModes
 from analytic.exact.space.steady_state import SteadyState
-from analytic.reduced.linear_frame import LinearResponse
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
 
@@ -172,9 +171,6 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
             for k, axis in enumerate("xyz")
         } | _columns((), twist="turn of the tip's section by the load [rad]"),
         "blade", ("omega", "error"),
-    ),
-    LinearResponse: (
-        _columns("time", q="tip displacement q, Eq. 16 [m]", time="time t [s]"), "beam", ()
     ),
     QuietRamps: (
         {"ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(

@@ -43,8 +43,10 @@ class LinearResponse:
         Times [s].
     q : ndarray (times,)
         Deflection of the tip across the turning line of the clamp, Eq. 16 [m].
+    points : ndarray (points,)
+        Material points asked for [m].
     axis : ndarray (times, points, 2)
-        Position of the points asked for in the frame that turns with the clamp [m]. A linear
+        Their positions in the frame that turns with the clamp [m]. A linear
         model moves them across only: it grows longer as it bends.
     """
 
@@ -53,6 +55,7 @@ class LinearResponse:
     foreshortening: bool
     time: FloatArray
     q: FloatArray = field(repr=False)
+    points: FloatArray = field(repr=False)
     axis: FloatArray = field(repr=False)
 
 
@@ -126,7 +129,8 @@ def linear_response(
     axis = np.stack(np.broadcast_arrays(along, across), axis=-1)
     return LinearResponse(
         beam=beam, spin_up=spin_up, foreshortening=foreshortening, time=time,
-        q=beam.length * coordinates @ (of.tip @ modes), axis=beam.length * axis,
+        q=beam.length * coordinates @ (of.tip @ modes), points=beam.length * along,
+        axis=beam.length * axis,
     )  # fmt: skip
 
 

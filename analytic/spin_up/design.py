@@ -30,7 +30,7 @@ _CORRECTIONS, _LEFT = 12, 1e-6
 _OFF = 0.01  # error of the frequency over which its derivatives are differences
 _DERIVATIVES = np.array([[1.0, 0.0, 0.0], [0.0, -0.5, 0.5], [-2.0, 1.0, 1.0]])
 _PLACES, _BELOW = 64, 0.998
-"""Places of the deflection on the way, and share of the largest one that is aimed at."""
+"""Places of the ramp at which the deflection is bounded, and the share of the bound aimed at."""
 _LONGER, _LONGEST = 1.25, 12
 """Durations tried, for the sentence, where the one asked for is too short."""
 

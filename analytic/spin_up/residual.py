@@ -165,7 +165,7 @@ class _Waves(NamedTuple):
     ahead: ComplexArray
     """The same from the ends of the pieces, (modes, pieces)."""
     force: FloatArray
-    """Euler acceleration, with the weights of Gauss's method, (modes, points)."""
+    """Force of the Euler acceleration, with the weights of Gauss's method, (modes, points)."""
     tip: FloatArray
     """At the edges of the pieces, (modes, pieces + 1)."""
 

@@ -93,7 +93,6 @@ GROUPS = (
         rotbeam_exu="simulate steady_oscillation natural_frequencies kicked SimulationError",
         rotbeam_exu__runs__oscillation="SteadyOscillation",
         rotbeam_exu__fem__linearization="Linearization",
-        rotbeam_exu__fem__picture="ray_traced",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
         rotbeam_exu__fem__elements=(
             "Cable Exact Ancf3 Linear Substructures SpaceExact SpaceCable Formulation"
@@ -105,6 +104,8 @@ GROUPS = (
         rotbeam_exu="dataset_of save load sweep",
         rotbeam_exu__sweeps__grid="failures",
         rotbeam_exu__files__beam_file="load_beam",
+        rotbeam_exu__runs__shape="shape_of",
+        rotbeam_exu__files__vtk="save_vtk",
     ),
     _group(
         "Verification",

@@ -1,4 +1,4 @@
-"""Draw the README's pictures and two of the pages' again: `make images`, two minutes.
+"""Draw the README's pictures and three of the pages' again: `make images`, two minutes.
 
 Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerate.py computes.
 """
@@ -6,13 +6,14 @@ Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerat
 from pathlib import Path
 
 import matplotlib as mpl
+import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from PIL import Image
 
-from analytic import Beam, SpinUp
-from rotbeam_exu import comparison, figures, simulate
+from analytic import Beam, SpinUp, spin_up_response
+from rotbeam_exu import comparison, dataset_of, figures, simulate
 
 HERE = Path(__file__).parent
 GOLDEN = HERE.parents[1] / "tests" / "comparison" / "golden"
@@ -38,6 +39,19 @@ def golden() -> xr.Dataset:
     return data
 
 
+def twisted() -> Axes:
+    """Return the views of a twisted, coned blade on a hub, 2.2 s after the start of its spin-up."""
+    blade = Beam.reference().with_section_out_of_plane(0.25, 0.2).with_twist(0.8)
+    blade = blade.with_precone(0.15).blade.with_hub_radius(0.8)
+    times, points = np.linspace(0.0, 5.0, 51), np.linspace(0.0, blade.length, 25)
+    motion = SpinUp(omega=4.0, ramp_time=3.0)
+    found = spin_up_response(blade, motion, times, tolerance=1e-3, points=points)
+    film = figures.animate(dataset_of(found))
+    film._draw_frame(22)
+    film._draw_was_started = True
+    return film._fig.axes[0]
+
+
 def write(ax: Axes, name: str) -> None:
     """Write a figure in full color: 8 bits each of red, green and blue, no palette."""
     path = HERE / f"{name}.png"
@@ -57,3 +71,4 @@ if __name__ == "__main__":
     growth = comparison.growth_out_of_plane()
     write(figures.growth_out_of_plane(growth, spin_ups=ends), "planar_map")
     write(figures.softening_by_plane(comparison.softening_by_plane()), "softening_by_plane")
+    write(twisted(), "shape")

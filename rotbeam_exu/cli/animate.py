@@ -1,4 +1,4 @@
-"""`rotbeam animate`: the spinning beam as a moving picture."""
+"""`rotbeam animate`: the spinning beam as a moving picture, or as files for ParaView."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from cyclopts import Parameter
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import whole_file
+from ..files.results import load, whole_file
+from ..files.vtk import save_vtk
+from ..runs.attributes import beam_of
 from .job import require_writable
 from .motion import (
     Config,
@@ -35,13 +37,16 @@ def animate(
     rate: Whole = 20,
     slow_motion: float | None = None,
     beside: Literal["linear"] | None = None,
+    run: Path | None = None,
+    height: float | None = None,
+    width: float | None = None,
     config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
-    """Write the spin-up as GIF or MP4.
+    """Write the spin-up as GIF or MP4, or as PVD for ParaView.
 
-    Inertial and rotating view, and q over time.
+    Inertial and rotating view, and q over time; of a blade in space from above and from the side.
 
     The film shows the exact beam to scale; a beam faster than the paper's is slowed down.
 
@@ -56,8 +61,13 @@ def animate(
     beside
         Show the linear model in a floating frame beside the exact beam: it diverges above the first
         natural frequency at rest.
+    run
+        Show a run in place of the exact beam: the file of `rotbeam run --stations`.
+    height, width
+        Of a rectangular section in the plane of bending and across it [m]: PVD then has a body with
+        the strain in its corners, else a line.
     out
-        File to write, .gif, or .mp4 where ffmpeg is installed.
+        File to write, .gif, .mp4 where ffmpeg is installed, or .pvd with a folder of .vtu.
     force
         Replace a file that is there.
 
@@ -66,14 +76,26 @@ def animate(
     $ rotbeam animate
     $ rotbeam animate --omega 6 --ramp-time 3 --duration 4 --rate 10 -o film.gif
     $ rotbeam animate --omega 4 --ramp-time 3 --duration 6 --beside linear
+    $ rotbeam animate --omega 4 --duration 4 --rate 10 -o film.pvd --height 0.04 --width 0.002
     """
     whole_number("rate", rate)
-    file = configured(config)
-    beam = file.beam
-    spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
-    usual = max(chosen_times(beam, 12.0)[0], 2.0 * spin_up.ramp_time)
-    known = file.numerics.get("duration", usual) if duration is None else duration
-    duration = positive("duration", known, "s")
+    kept = None if run is None else load(run)
+    if kept is None:
+        file = configured(config)
+        beam = file.beam
+        spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
+        speed, ramp = spin_up.omega, spin_up.ramp_time
+        usual = max(chosen_times(beam, 12.0)[0], 2.0 * ramp)
+        known = file.numerics.get("duration", usual) if duration is None else duration
+        duration = positive("duration", known, "s")
+    elif [one for one in (omega, ramp_time, duration, beside, config) if one is not None]:
+        raise ValueError(
+            "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside and "
+            "--config"
+        )
+    else:
+        beam, speed, ramp = beam_of(kept.attrs), kept.attrs["omega"], kept.attrs["ramp_time"]
+        duration = float(kept["time"][-1])
     slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
     slower = slower if slow_motion is None else positive("slow_motion", slow_motion)
     pictures = duration * slower * rate
@@ -82,24 +104,36 @@ def animate(
             f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
             f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
         )
-    name = f"spin-up-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
+    name = f"spin-up-omega-{speed:g}-ramp-{ramp:g}"
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))
 
+    from ..datasets import dataset_of
     from ..figures import animation
 
-    animation.check_format(target)
+    if target.suffix != ".pvd":
+        animation.check_format(target)
     require_writable(target, force=force)
-    times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
-    points = np.linspace(0.0, beam.length, 41)
-    with bar("integrating"):
-        response = spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points)
-        linear = linear_response(beam, spin_up, times, points=points) if beside else None
-    with bar("drawing") as drawn, whole_file(target) as partial:
-        animation.save_animation(
-            response, partial, beside=linear, rate=rate, progress=lambda n: drawn(n, times.size)
-        )
+    linear = None
+    if kept is None:
+        times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
+        points = np.linspace(0.0, beam.length, 41)
+        with bar("integrating"):
+            data = dataset_of(spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points))
+            if beside:
+                linear = dataset_of(linear_response(beam, spin_up, times, points=points))
+    else:
+        sampled = float(kept["time"][1] - kept["time"][0])
+        data = kept.isel(time=slice(None, None, max(1, round(1.0 / (rate * slower * sampled)))))
+    end, count = float(data["time"][-1]), data.sizes["time"]
+    if target.suffix == ".pvd":
+        save_vtk(data, target, height=height, width=width)
+    else:
+        with bar("drawing") as drawn, whole_file(target) as partial:
+            animation.save_animation(
+                data, partial, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
+            )
+    size = sum(file.stat().st_size for file in (target, *target.with_suffix("").glob("*.vtu")))
     print_text(
-        f"written {target}, {target.stat().st_size / 1e6:.1f} MB, "
-        f"{spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s, to {times[-1]:g} s"
+        f"written {target}, {size / 1e6:.1f} MB, {speed:g} rad/s in {ramp:g} s, to {end:g} s"
         + ("" if slower == 1.0 else f", {slower:g} times slower"),
     )

@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
 from cyclopts import Parameter
 
+from analytic.arrays import FloatArray
+from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
@@ -14,7 +17,7 @@ from ..runs.check import SimulationError, energy_drift
 from .driving import DRIVING, Driving
 from .job import Job, UnfinishedError
 from .motion import Config, RampTime, SteadySpeed, configured
-from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results
+from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results, Whole
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -29,6 +32,7 @@ def run(
     ramp_time: RampTime = None,
     discretization: Discretization = DISCRETIZATION,
     driving: Driving = DRIVING,
+    stations: Whole | None = None,
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
     config: Config = None,
     no_figure: NoFigure = False,
@@ -41,6 +45,9 @@ def run(
 
     Parameters
     ----------
+    stations
+        Keep places, sections, strains and loads at so many stations along the blade, in the netCDF
+        alone; `animate --run` shows them.
     no_exact
         Leave out the frequency of the exact beam at the run's amplitude.
 
@@ -58,6 +65,8 @@ def run(
     case = driving.spin_up_case(file, numerics, omega, ramp_time)
     given = omega is not None or "omega" in file.motion
     chosen = "" if given else ", the benchmark's"
+    count = 0 if stations is None else whole_number("stations", stations, least=2)
+    kept = np.linspace(0.0, case.beam.length, count)
     path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
@@ -69,7 +78,9 @@ def run(
         return found
 
     found = Job(
-        path=path, inputs=case.describe(), force=results.force, compute=lambda: _computed(case),
+        path=path, inputs=case.describe(), force=results.force,
+        compute=lambda: _computed(case, kept),
+        table=lambda data: data.drop_dims("station", errors="ignore"),
         show=shown,
         draw=None if no_figure else lambda figures, data: figures.spin_up(data),
     ).run()  # fmt: skip
@@ -87,12 +98,12 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
-def _computed(case: RunCase) -> xr.Dataset:
+def _computed(case: RunCase, stations: FloatArray) -> xr.Dataset:
     from ..fem.simulation import run_case
 
     try:
         with bar("spinning up") as drawn:
-            return run_case(case, progress=lambda done: drawn(done, 1.0))
+            return run_case(case, stations=stations, progress=lambda done: drawn(done, 1.0))
     except SimulationError as error:
         if error.run is None:
             raise

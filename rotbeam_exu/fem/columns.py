@@ -9,16 +9,26 @@ from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 
 from ..lazily import xr
+from ..runs.shape import shape_of
 from .case import RunCase
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
+from .stations import section_loads
 from .units import Units
 
 
 def columns(
-    case: RunCase, units: Units, beam: AnyBlade, built: RotatingBeam, trajectory: Trajectory
+    case: RunCase,
+    units: Units,
+    beam: AnyBlade,
+    built: RotatingBeam,
+    trajectory: Trajectory,
+    stations: FloatArray,
 ) -> xr.Dataset:
-    """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory."""
+    """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory.
+
+    `stations` are over L.
+    """
     model, setting, space = case.model, case.model.setting(beam), case.model.leaves_plane
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
@@ -76,9 +86,9 @@ def columns(
         power = _power(built, t, angle, coordinates, relative) - rate_dot * momentum
         supplied = _integral(t, power)
         values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
-    turn = model.sections(np.concatenate((trajectory.reference[None], coordinates)))
-    if turn is not None:
-        turned = frame.T @ turn[1:, -1] @ turn[0, -1].T @ frame
+    if model.twists:
+        before, turn = model.sections(trajectory.reference[-1]), model.sections(coordinates[:, -1])
+        turned = frame.T @ turn @ before.T @ frame
         values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     scale |= {"N": units.energy / units.length, "N m": units.energy}
@@ -89,16 +99,14 @@ def columns(
         },
         coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
     )
-    if not space:
-        return run
-    # How the blade lies: its axis, and its sections where known.
-    dims = ("time", "node", "direction")
-    label = "positions of the nodes in the frame of the clamp"
-    run["axis"] = dims, units.length * axis, {"units": "m", "long_name": label}
-    if turn is not None:
-        label = "third axis of the sections, across their chord"
-        run["upright"] = dims, turn[1:, ..., 2] @ frame, {"units": "1", "long_name": label}
-    return run.assign_coords(direction=["x", "y", "z"])
+    if stations.size:
+        states = coordinates, relative, absolute, trajectory.accelerations
+        run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
+    if space:
+        known = {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"}
+        run["axis"] = ("time", "node", "direction"), units.length * axis, known
+        run = run.assign_coords(direction=["x", "y", "z"])
+    return run
 
 
 def _clamp_loads(

@@ -77,12 +77,11 @@ def clamp_to_body(
             "add one to your hub, at its axis"
         )
     reference = chain.reference(mbs)
-    c, s, sections = math.cos(azimuth), math.sin(azimuth), element.sections(reference)
+    c, s = math.cos(azimuth), math.sin(azimuth)
     about, seat = np.eye(4), np.eye(4)
     about[:2, :2] = [[c, -s], [s, c]]
     seat[: element.dimensions, 3] = reference[0, : element.dimensions]
-    if sections is not None:
-        seat[:3, :3] = sections[0]
+    seat[:3, :3] = element.sections(reference[0])
     ends = (
         items.MarkerBodyRigid(
             bodyNumber=body["bodyNumber"], localHT=np.asarray(body["localHT"]) @ about @ seat

@@ -109,8 +109,10 @@ class Linearization:
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
         axes = model.line_frame(beam)
-        turn = model.sections(np.stack((unloaded, unloaded + moved)))
-        turned = np.nan if turn is None else twist(axes.T @ turn[1:] @ turn[0].T @ axes)[0]
+        turned = np.nan
+        if model.twists:
+            before, after = model.sections(np.stack((unloaded, unloaded + moved)))
+            turned = twist((axes.T @ after @ before.T @ axes)[None])[0]
         return cls(
             mass=mass, stiffness=stiffness, gyroscopic=gyroscopic,
             tip=moved[: model.dimensions] @ axes, twist=float(turned), units=units,

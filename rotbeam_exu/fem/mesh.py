@@ -70,8 +70,11 @@ class Mesh:
 
         Arrays are (elements, points).
         """
+        return self.along((np.arange(self.elements)[:, None] + inner) / self.elements)
+
+    def along(self, x: FloatArray) -> Sections:
+        """Return the sections at places `x` from 0 to 1, in arrays of its shape."""
         blade, unit = self.blade, self.blade.unit
-        x = (np.arange(self.elements)[:, None] + inner) / self.elements
         m = blade.mass_per_length * evaluated(unit.mass, x)
         EI = blade.bending_stiffness * evaluated(unit.bending, x)
         EA = blade.axial_stiffness * evaluated(unit.axial, x)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic import AnyBlade, SteadyRotation
 from analytic.arrays import FloatArray
@@ -15,6 +16,7 @@ from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState
 from analytic.exact.beam.steady import stretched_state
 from analytic.exact.plane.planarity import planar_note
+from analytic.input_checks import points_of_beam
 from analytic.loads import Load
 from analytic.motion import SpeedChange
 from analytic.warning import warn
@@ -43,6 +45,7 @@ def simulate(
     frame: Frame = "inertial",
     loads: Sequence[Load] = (),
     initial_state: Callable[[FloatArray], BeamState] | None = None,
+    stations: ArrayLike = (),
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Spin the beam up and let it oscillate (Secs. 2 and 6), damped as the blade is.
@@ -81,6 +84,9 @@ def simulate(
         ``lambda x: backbone.state(i, x)`` of `analytic.periodic_orbits` does. By default the beam
         is straight and at rest in the frame of the clamp, and stretched if a change of the speed
         begins in rotation. `kicked` bends it out of its plane.
+    stations : array_like
+        Material points [m], from 0 to L, at which the run keeps places, sections, strains, force
+        and moment over `time` and `station`: see `rotbeam_exu.runs.shape.shape_of`.
     progress : callable, optional
         Called with the fraction done, from 0 to 1, about a hundred times.
 
@@ -97,9 +103,9 @@ def simulate(
         clamp_torque [N m] of the clamp on the blade about the axis of rotation. In space also
         root_force_z, root_moment_x, root_moment_y; w [m] and w_dot [m/s] of the tip out of the
         plane, normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section
-        about its normal; axis [m], the places of the nodes, and upright, the third axes of their
-        sections, (time, node, direction) in that frame. The attributes hold every input, versions,
-        settings, wall time and the verdict. `out_of_plane` is there if the section out of the plane
+        about its normal; axis [m], the places of the nodes, (time, node, direction) in that frame.
+        The attributes hold every input, versions, settings, wall time and the verdict.
+        `out_of_plane` is there if the section out of the plane
         is known and planar orbits as large as the motion after the ramp leave the plane.
 
     Raises
@@ -124,25 +130,27 @@ def simulate(
         beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
         step=step, frame=frame, loads=loads,
     )  # fmt: skip
-    return run_case(case, initial_state=initial_state, progress=progress)
+    return run_case(case, initial_state=initial_state, stations=stations, progress=progress)
 
 
 def run_case(
     case: RunCase,
     *,
     initial_state: Callable[[FloatArray], BeamState] | None = None,
+    stations: ArrayLike = (),
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what `simulate` does, of a case."""
     warn_if_rpm(case.beam, case.fastest)
     units, model = Units.of(case.beam, case.step), case.model
+    kept = points_of_beam("stations", stations, case.beam.length)
     beam = units.beam(case.beam)
     with exudyn_system() as mbs:
         built = add_rotating_beam(
             mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
             frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
-        sensors = Sensors(mbs, built.chain, built.clamp)
+        sensors = Sensors(mbs, built.chain, built.clamp, kept.size > 0)
         if start := _start(case, units, built.chain.reference(mbs), initial_state):
             inertial = case.frame == "inertial"
             drive.set_state(
@@ -159,7 +167,7 @@ def run_case(
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = sensors.read()
-    run = columns(case, units, beam, built, trajectory)
+    run = columns(case, units, beam, built, trajectory, kept)
     run.attrs = {
         **case.describe(),
         "divergence_speed": model.divergence_speed(case.beam, case.elements),

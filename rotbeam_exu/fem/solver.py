@@ -183,6 +183,8 @@ class Trajectory:
     elastic_energy : ndarray (samples,)
     multipliers : ndarray (samples, constraints)
         Lagrange multipliers of the clamp: of the root's place, then of its direction.
+    accelerations : ndarray (samples, nodes, n)
+        With no samples unless asked for.
     """
 
     time: FloatArray
@@ -191,23 +193,26 @@ class Trajectory:
     reference: FloatArray
     elastic_energy: FloatArray
     multipliers: FloatArray
+    accelerations: FloatArray
 
 
 class Sensors:
     """Coordinates and velocities of all nodes, energy and the clamp's forces, sampled in C++."""
 
     def __init__(
-        self, mbs: exudyn.MainSystem, chain: Chain, clamp: Sequence[exudyn.ObjectIndex]
-    ) -> None:
+        self, mbs: exudyn.MainSystem, chain: Chain, clamp: Sequence[exudyn.ObjectIndex],
+        accelerations: bool = False,
+    ) -> None:  # fmt: skip
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
-        self._coordinates, self._velocities = (
+        self._coordinates, self._velocities, self._accelerations = (
             [
                 mbs.AddSensor(items.SensorNode(nodeNumber=n, outputVariableType=variable, **kept))
                 for n in chain.nodes
+                if accelerations or variable != kind.Coordinates_tt
             ]
-            for variable in (kind.Coordinates, kind.Coordinates_t)
+            for variable in (kind.Coordinates, kind.Coordinates_t, kind.Coordinates_tt)
         )
         energy = kind.PotentialEnergy
         self._elastic = [
@@ -234,4 +239,7 @@ class Sensors:
             reference=self._reference,
             elastic_energy=elastic,
             multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
+            accelerations=np.stack(
+                [table(s)[:, 1:] for s in self._accelerations] or [coordinates[:0, 0]], axis=1
+            ),
         )

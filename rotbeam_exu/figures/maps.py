@@ -89,7 +89,8 @@ def growth_out_of_plane(
     ax : Axes, optional
         Drawn on these; otherwise on a new figure.
     spin_ups : mapping, optional
-        Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s].
+        Amplitudes |q|/L on which spin-ups end, by their speeds [rad/s]; larger ones than the map's
+        are left out.
     """
     omega, a, rate = data["omega"].to_numpy(), data["a"].to_numpy(), data["growth_rate"].to_numpy()
     with house_axes(ax, column(), 3.2) as axes:
@@ -104,7 +105,12 @@ def growth_out_of_plane(
         bar.set_label(label(data["growth_rate"]))
         axes.contour(omega, a, known, [0.0], colors="black", linewidths=0.7)
         edge = axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
-        ends = [(speed, peak) for speed, peaks in (spin_ups or {}).items() for peak in peaks]
+        ends = [
+            (speed, peak)
+            for speed, peaks in (spin_ups or {}).items()
+            for peak in peaks
+            if peak <= a[-1]
+        ]
         if ends:
             edge += axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
                               clip_on=False, label="ends of spin-ups")  # fmt: skip

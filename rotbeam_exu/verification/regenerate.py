@@ -1,6 +1,7 @@
 """Make the shipped reference data anew: `python -m rotbeam_exu.verification.regenerate`.
 
-Takes four minutes. Look at what moved, and by how much against the bounds, before committing it.
+Takes eight minutes, half of it the kicked tube. Look at what moved, and by how much against the
+bounds, before committing it.
 """
 
 from __future__ import annotations

@@ -214,3 +214,39 @@ def test_stations_off_the_blade_are_refused(beam):
     found = spin_up_response(beam, SpinUp(omega=2.0, ramp_time=1.0), [0.5], tolerance=1e-3)
     with pytest.raises(ValueError, match="x must lie"):
         found.section_loads([9.0])
+
+
+@pytest.mark.parametrize("w", [0.0, 3.0])
+def test_sections_stand_across_the_axis_and_are_orthonormal(w):
+    """Without shear r' is along the normal; at rest the chord has setting and twist.
+
+    Twist shortens the axis by 3e-7: the trapeze effect.
+    """
+    blade = STRAIGHT.with_twist(0.5).with_precone(0.1).with_setting_angle(0.3)
+    x, dx = np.array([0.2, 0.5, 0.9]), 1e-4
+    at = steady_state(blade, w, theory=RIGID).section_loads([*x, *(x - dx), *(x + dx)])
+    _, before, after = np.split(at.place, 3)
+    section = at.section[:3]
+    np.testing.assert_allclose(section[..., 0], (after - before) / (2.0 * dx), atol=1e-6)
+    unit = np.broadcast_to(np.eye(3), section.shape)
+    np.testing.assert_allclose(np.swapaxes(section, 1, 2) @ section, unit, atol=1e-14)
+    angle = np.arctan2(section[:, 2, 1], section[:, 1, 1])
+    assert np.allclose(angle, 0.3 + 0.5 * x, atol=1e-12) is (w == 0.0)
+
+
+def test_a_blade_set_in_its_plane_and_the_same_in_space_stand_alike():
+    """A thousand times as stiff across its plane, one in space hardly leaves it: by 1/1000."""
+    motion = SpinUp(omega=1.0, ramp_time=1.0)
+    planar = Blade(length=1.0, section=SECTION).with_setting_angle(0.7)
+    stiff = STRAIGHT.with_section_out_of_plane(1e3, 1e3).with_setting_angle(0.7)
+    one, other = (
+        spin_up_response(blade, motion, [0.5, 1.0], theory=RIGID, tolerance=1e-4).section_loads(X)
+        for blade in (planar, stiff)
+    )
+    size = np.abs(one.place[..., 1:]).max()
+    assert size > 0.1
+    np.testing.assert_allclose(one.place, other.place, atol=5e-3 * size)
+    np.testing.assert_allclose(one.section, other.section, atol=1e-2 * size)
+    # As the tip is seen from above, and as far out of that plane as the setting angle has it.
+    _, lag, flap = one.place[:, -1].T
+    np.testing.assert_allclose(flap, math.tan(0.7) * lag, rtol=1e-12)

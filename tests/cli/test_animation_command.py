@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, spin_up_response
-from rotbeam_exu import figures
+from rotbeam_exu import figures, load
+from rotbeam_exu.runs.attributes import beam_of, motion_of
 from tests.beams import REED_TOML
 
 
 def film(call, monkeypatch, tmp_path, *options):
     shown = {}
 
-    def drawn(response, path, *, beside, rate, progress):
-        shown.update(response=response, beside=beside, rate=rate)
+    def drawn(data, path, *, beside, rate, progress):
+        shown.update(data=data, beside=beside, rate=rate)
         path.write_bytes(b"GIF")
 
     monkeypatch.setattr(figures.animation, "save_animation", drawn)
@@ -25,11 +26,11 @@ def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path)
     code, out, shown = film(call, monkeypatch, tmp_path, "--config", tmp_path / "reed.toml")
     assert code == 0
     assert "360 times slower" in out
-    response = shown["response"]
+    data = shown["data"]
     # As many pictures as of the paper's beam over 12 s, 20 a second, to two digits of each.
-    assert abs(response.time.size / 241 - 1.0) < 0.05
+    assert abs(data.time.size / 241 - 1.0) < 0.05
     assert shown["rate"] == 20
-    assert response.spin_up.omega == 2200.0
+    assert data.attrs["omega"] == 2200.0
     # The same motion, but for the two digits of the speed, 1.5 %, and of the ramp.
     paper = spin_up_response(
         Beam.reference(),
@@ -37,7 +38,7 @@ def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path)
         np.linspace(0.0, 12.0, 241),
         tolerance=1e-4,
     )
-    largest = np.abs(response.q).max() / response.beam.length
+    largest = abs(data.q).max().item() / data.attrs["beam_length"]
     assert largest == pytest.approx(np.abs(paper.q).max() / 8.0, rel=0.05)
 
 
@@ -45,8 +46,8 @@ def test_the_papers_beam_is_shown_in_real_time(call, monkeypatch, tmp_path):
     code, out, shown = film(call, monkeypatch, tmp_path, "--rate", "10", "--duration", "4")
     assert code == 0
     assert "slower" not in out
-    assert shown["response"].beam == Beam.reference()
-    assert np.diff(shown["response"].time).max() < 0.1 + 1e-9
+    assert beam_of(shown["data"].attrs) == Beam.reference()
+    assert np.diff(shown["data"].time).max() < 0.1 + 1e-9
 
 
 def test_a_single_picture_is_refused_and_the_remedy_works(call, monkeypatch, tmp_path):
@@ -60,11 +61,43 @@ def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_p
     motion = ("--omega", "4", "--ramp-time", "3", "--duration", "3", "--rate", "5")
     code, _, shown = film(call, monkeypatch, tmp_path, *motion, "--beside", "linear")
     assert code == 0
-    response, beside = shown["response"], shown["beside"]
-    assert beside.spin_up == response.spin_up
-    assert beside.axis.shape == response.axis.shape
-    assert not beside.foreshortening
+    data, beside = shown["data"], shown["beside"]
+    assert motion_of(beside.attrs) == motion_of(data.attrs)
+    assert beside.place.shape == data.place.shape
+    assert not beside.attrs["foreshortening"]
     assert film(call, monkeypatch, tmp_path, *motion)[2]["beside"] is None
     code, out, _ = film(call, monkeypatch, tmp_path, "--beside", "cable")
     assert code == 2
     assert "linear" in out
+
+
+def test_a_run_with_stations_is_shown_and_written_for_paraview(call, tmp_path):
+    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.005")
+    mesh = ("--elements", "2", "--stations", "5", "--no-figure", "--no-exact")
+    code, out, error = call(*run, *mesh, "--out", tmp_path)
+    assert (code, error) == (0, "")
+    (kept,) = tmp_path.glob("*.nc")
+    assert "place" in load(kept)
+    assert [path.name for path in tmp_path.glob("*.csv")] == [f"{kept.stem}.csv"]  # one table
+    film = ("animate", "--run", kept, "--rate", "1", "--out", tmp_path / "run.pvd")
+    code, out, _ = call(*film)
+    assert code == 0
+    assert "to 14 s" in out
+    assert len(list((tmp_path / "run").glob("*.vtu"))) == 15
+    code, _, error = call(*film, "--force", "--omega", "2")
+    assert code == 2
+    assert "leave out --omega" in error
+    # A run without stations has nothing to show.
+    call(*run, *mesh[:2], "--no-figure", "--no-exact", "--out", tmp_path, "--force")
+    code, _, error = call("animate", "--run", kept, "--out", tmp_path / "run.gif")
+    assert code == 2
+    assert "simulate for stations" in error
+
+
+def test_a_body_for_paraview_has_the_height_and_width_given(call, tmp_path):
+    out = tmp_path / "film.pvd"
+    motion = ("--omega", "4", "--duration", "1", "--rate", "2")
+    assert call("animate", *motion, "--height", "0.04", "--width", "0.02", "-o", out)[0] == 0
+    text = (tmp_path / "film" / "film-0002.vtu").read_text()
+    assert f'NumberOfPoints="{4 * 41}" NumberOfCells="40"' in text
+    assert 'Name="stress"' in text

@@ -43,7 +43,7 @@ BEYOND = {
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.speeds",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
-    "rotbeam_exu.fem.picture", "rotbeam_exu.files.beam_file",
+    "rotbeam_exu.files.beam_file", "rotbeam_exu.files.vtk", "rotbeam_exu.runs.shape",
     "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
     "rotbeam_exu.verification.submission_files", "rotbeam_exu.verification.verify",

@@ -1,4 +1,4 @@
-"""Root force, root moment and the clamp's torque of runs, beside the exact beam and the energy."""
+"""Loads of runs at the root and at stations, and their shape, beside the exact beam and energy."""
 
 from dataclasses import replace
 
@@ -8,7 +8,10 @@ from scipy.integrate import cumulative_simpson
 
 from analytic import (
     Damping,
+    DistributedForce,
     Gravity,
+    PointMass,
+    SpeedRipple,
     SpinUp,
     SteadyRotation,
     TipForce,
@@ -16,17 +19,32 @@ from analytic import (
     spin_up_response,
 )
 from rotbeam_exu import simulate
+from rotbeam_exu.runs.shape import outer_strain, shape_of
 
 WITHOUT_HUB = ("linear", "substructures", "space_cable")
 TIMES = np.linspace(0.0, 4.0, 101)
 ROOT = ("root_force_x", "root_force_y", "root_moment_z")
+STATIONS = [0.0, 1.3, 4.0, 7.7, 8.0]  # of the meshes below two are at nodes
+MESHES = [6, 8, 12]
 
 
 @pytest.fixture(scope="module")
-def exact(beam, spin_up):
+def along(beam, spin_up):
+    """The exact answer at the stations."""
+    return spin_up_response(beam, spin_up, TIMES, tolerance=1e-8).section_loads(STATIONS)
+
+
+@pytest.fixture(scope="module")
+def exact(along):
     """Tension, shear force and moment at the root, (times, 3)."""
-    found = spin_up_response(beam, spin_up, TIMES, tolerance=1e-8).section_loads([0.0])
-    return np.column_stack((found.force[:, 0], found.moment))
+    return np.column_stack((along.force[:, 0], along.moment[:, 0]))
+
+
+@pytest.fixture(scope="module")
+def refined(beam, spin_up):
+    """Runs on finer and finer meshes; steps of 2 ms leave 4e-6 in the rotating frame."""
+    settings = {"duration": 4.0, "step": 2e-3, "frame": "rotating", "stations": STATIONS}
+    return [simulate(beam, spin_up, elements=n, **settings) for n in MESHES]
 
 
 def at_root(run):
@@ -36,32 +54,46 @@ def at_root(run):
     return np.stack([seen[name] for name in ROOT], axis=1)
 
 
+def off(run, along):
+    """Largest errors of a run's shape and loads at all stations over the largest, by name."""
+    exact = shape_of(along)
+    seen = run.sel(time=TIMES, method="nearest").assign_coords(time=exact["time"])
+    return {
+        name: float(abs(seen[name] - one).max() / abs(one).max())
+        for name, one in exact.data_vars.items()
+    }
+
+
 def errors(found, exact):
     """Largest errors over the largest of the exact ones, (3,)."""
     return np.abs(found - exact).max(axis=0) / np.abs(exact).max(axis=0)
 
 
-def test_they_go_to_the_exact_ones_with_the_fourth_power_of_the_mesh(
-    beam, spin_up, exact, fitted_order
-):
-    """Steps of 2 ms leave 4e-6 in the rotating frame; 16 cables leave 1.5e-4."""
-    meshes = [6, 8, 12]
-    runs = [
-        simulate(beam, spin_up, elements=n, duration=4.0, step=2e-3, frame="rotating")
-        for n in meshes
-    ]
-    found = [errors(at_root(run), exact) for run in runs]
+def test_they_go_to_the_exact_ones_with_the_fourth_power_of_the_mesh(refined, exact, fitted_order):
+    """16 cables leave 1.5e-4."""
+    found = [errors(at_root(run), exact) for run in refined]
     for error in np.array(found).T:
-        assert -fitted_order(meshes, error) == pytest.approx(4.0, abs=0.4)
+        assert -fitted_order(MESHES, error) == pytest.approx(4.0, abs=0.4)
     assert found[-1].max() < 1e-3
+
+
+def test_shape_and_loads_of_stations_go_to_the_exact_ones_as_well(refined, along, fitted_order):
+    """Of the largest of each, 12 cables leave 2e-4 to 5e-4, between nodes as at nodes."""
+    found = [off(run, along) for run in refined]
+    for name in found[0]:
+        error = [one[name] for one in found]
+        assert -fitted_order(MESHES, error) == pytest.approx(4.0, abs=0.4), name
+        assert error[-1] < 6e-4, name
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("frame", "step"), [("rotating", 1e-3), ("inertial", 5e-4)])
-def test_64_cables_have_them_to_1e_4(beam, spin_up, exact, frame, step):
-    """Measured 1e-5 and 3e-5 of the largest moment, of the step."""
-    run = simulate(beam, spin_up, elements=64, duration=4.0, step=step, frame=frame)
+def test_64_cables_have_them_to_1e_4(beam, spin_up, exact, along, frame, step):
+    """Measured 1e-5 and 3e-5 of the largest moment, of the step; at all stations as at the root."""
+    settings = {"duration": 4.0, "step": step, "frame": frame, "stations": STATIONS}
+    run = simulate(beam, spin_up, elements=64, **settings)
     assert errors(at_root(run), exact).max() < 1e-4
+    assert max(off(run, along).values()) < 1e-4
 
 
 def test_they_go_with_the_square_of_the_step(beam, spin_up, fitted_order):
@@ -160,3 +192,104 @@ def test_an_orbit_has_those_of_the_orbit_from_its_first_sample_on(beam):
     error = errors(np.stack([run[name] for name in ROOT], axis=1), expected)
     # By the mesh, and by the axial waves with which its coarser shape starts.
     assert (error < [5e-3, 2e-3, 3e-4]).all()
+
+
+BODIES = (PointMass(position=4.0, mass=0.3, inertia=0.1), PointMass(position=8.0, mass=0.2))
+IN_SPACE = {"bending_ratio": 0.25, "torsion_ratio": 0.2}
+
+
+@pytest.mark.parametrize(
+    ("element", "frame", "changed"),
+    [
+        ("cable", "rotating", "driven"), ("cable", "inertial", "driven"),
+        ("cable", "rotating", "set"), ("exact", "rotating", "thick"),
+        ("ancf3", "inertial", "hub"),
+        ("space_exact", "inertial", "twisted"),
+        *(
+            pytest.param(element, frame, changed, marks=pytest.mark.slow)
+            for element, frame, changed in (
+                ("cable", "inertial", "bodies"), ("exact", "rotating", "bodies"),
+                ("ancf3", "rotating", "hub"),
+                ("exact", "inertial", "hub"), ("linear", "inertial", "bare"),
+                ("substructures", "rotating", "bare"), ("space_cable", "rotating", "round"),
+            )
+        ),
+    ],
+)  # fmt: skip
+def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element, frame, changed):
+    """Two ways to one number: all inertia and loads, and what holds the root. Measured 3e-8.
+
+    The place of the last station is that of the tip, and sections are orthonormal.
+    """
+    hub = beam.with_hub_radius(0.5)
+    blade = {
+        "bare": beam,
+        "hub": hub,
+        "driven": hub.with_damping(Damping(bending=0.02, external=0.05)),
+        "set": hub.with_setting_angle(0.8),
+        "thick": replace(
+            beam, second_moment=3e3 * beam.second_moment, youngs_modulus=beam.youngs_modulus / 3e3
+        )
+        .with_hub_radius(0.5)
+        .with_setting_angle(0.8),
+        "bodies": replace(hub, point_masses=BODIES),
+        "twisted": hub.with_section_out_of_plane(**IN_SPACE).with_twist(0.5).with_precone(0.1),
+        "round": beam.with_section_out_of_plane(1.0, 0.8),
+    }[changed]
+    loads = [
+        TipForce(amplitude=0.5, frequency=3.0), DistributedForce(amplitude=0.1, frequency=2.0),
+        Gravity(0.5), SpeedRipple(amplitude=0.1, frequency=2.0),
+    ]  # fmt: skip
+    run = simulate(
+        blade, SpinUp(omega=1.0, ramp_time=2.0), element=element, frame=frame, elements=4,
+        duration=2.5, step=2e-3, stations=[0.0, 3.0, 8.0],
+        loads=loads if changed == "driven" else [],
+    )  # fmt: skip
+    # What acts at the tip is outboard of it: the force, but no moment of a blade without a body.
+    at_end = {"driven": 0.5, "bodies": None}.get(changed, 0.0)
+    if at_end is not None:
+        assert float(abs(run["force"][:, -1]).max()) == pytest.approx(at_end, rel=1e-3)
+        assert float(abs(run["moment"][:, -1]).max()) == 0.0
+    space = "root_moment_x" in run
+    section, place = run["section"].to_numpy(), run["place"].to_numpy()
+    np.testing.assert_allclose(
+        np.swapaxes(section, -1, -2) @ section,
+        np.broadcast_to(np.eye(3), section.shape),
+        atol=1e-14,
+    )
+    for kind in ("force", "moment"):
+        at_root = run[kind].to_numpy()[:, 0]
+        if space:  # by the axes of the clamp, as the columns; those of the plane are of bending
+            at_root = (section[:, 0] @ at_root[..., None])[..., 0]
+        names = [name for name in run.data_vars if str(name).startswith(f"root_{kind}")]
+        largest = max(float(abs(run[name]).max()) for name in names)
+        for name in names:
+            component = at_root[:, "xyz".index(str(name)[-1])]
+            np.testing.assert_allclose(component, run[name], atol=1e-6 * largest)
+    if space:
+        tip = run["axis"].to_numpy()[:, -1] - run["axis"].to_numpy()[:, 0]
+        np.testing.assert_allclose(place[:, -1], tip, atol=1e-7)
+    else:
+        lag, flap = (run["q"] * f(blade.blade.setting_angle) for f in (np.cos, np.sin))
+        np.testing.assert_allclose(place[:, -1, 1:], np.transpose([lag, flap]), atol=1e-12)
+
+
+def test_the_largest_strain_is_that_of_the_fiber_farthest_from_the_axis(beam, refined):
+    """Of the exact section's law: ε and κ of the cable's own shape are near N/EA and M/EI."""
+    run = refined[-1]
+    height = np.sqrt(12.0 * beam.second_moment / beam.area)
+    strain = outer_strain(run, height)
+    by_hand = (
+        abs(run["force"].sel(section_axis="normal")) / beam.axial_stiffness
+        + 0.5 * height * abs(run["moment"].sel(section_axis="thickness")) / beam.bending_stiffness
+    )
+    np.testing.assert_allclose(strain, by_hand, rtol=1e-12)
+    # By the shape: κ = dφ/dx between two near stations, EI of the paper's beam being uniform.
+    near = simulate(
+        beam, SpinUp(omega=6.0, ramp_time=3.0), elements=12, duration=4.0, step=4e-3,
+        frame="rotating", stations=[3.99, 4.0, 4.01],
+    )  # fmt: skip
+    angle = np.arctan2(*(near["section"].sel(section_axis="normal", direction=d) for d in "yx"))
+    bent = np.diff(np.asarray(angle)[:, [0, 2]], axis=1)[:, 0] / 0.02
+    curvature = near["curvature"].sel(section_axis="thickness").isel(station=1)
+    np.testing.assert_allclose(curvature, bent, atol=2e-2 * np.abs(bent).max())

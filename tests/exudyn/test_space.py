@@ -20,7 +20,6 @@ from rotbeam_exu import kicked, natural_frequencies, simulate
 from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
 from rotbeam_exu.fem.elements.node_kinds import FrameNodes, directors
-from rotbeam_exu.fem.picture import ray_traced
 from rotbeam_exu.runs.check import energy_drift
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
@@ -113,23 +112,6 @@ def test_drift_of_the_geometrically_exact_beam_is_that_of_the_step():
     ]  # fmt: skip
     # Of second order: whatever the kinetic or elastic energy missed would stay.
     assert drifts[0] / drifts[1] == pytest.approx(4.0, rel=0.1)
-
-
-def test_the_picture_shows_the_blade_behind_the_clamp_as_ahead_of_it():
-    axis = np.array([[[8.0 * s, 0.0, 0.0] for s in (0.0, 0.25, 0.5, 0.75, 1.0)]])
-    upright = np.broadcast_to([0.0, 0.0, 1.0], axis.shape)
-    dimensions = ("time", "node", "direction")
-    run = xr.Dataset(
-        {"axis": (dimensions, axis), "upright": (dimensions, upright)}, {"time": [0.0]},
-        {"beam_length": 8.0},
-    )  # fmt: skip
-    ahead, behind = (
-        ray_traced(run.assign(axis=side * run["axis"]), [0.0], size=(240, 140)).astype(int)
-        for side in (1.0, -1.0)
-    )
-    blue = [np.sum(picture[..., 2] > picture[..., 0] + 40) for picture in (ahead, behind)]
-    assert min(blue) > 0
-    assert blue[0] == pytest.approx(blue[1], rel=0.2)
 
 
 def growth_rate_of(run, period):

@@ -55,8 +55,9 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     loads = [Gravity(0.3), TipForce(amplitude=0.02, frequency=2.0)]
     motion, at = SpinUp(omega=2.0, ramp_time=1.0), np.linspace(0.0, 1.25, 26)
     run = simulate(
-        blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads
-    )
+        blade, motion, element=ELEMENT, elements=16, duration=1.25, step=5e-3, loads=loads,
+        stations=[0.0, 0.45, 1.0],
+    )  # fmt: skip
     theory = Theory(extension=False, rotary_inertia=True, trapeze=False)
     # A tenth of this tolerance moves the tip by 1e-6 L, at four times the cost.
     exact = spin_up_response(blade, motion, at, theory=theory, tolerance=1e-3, loads=loads)
@@ -80,3 +81,8 @@ def test_a_twisted_spin_up_follows_the_exact_one():
     for name, places in (("along", 0), ("q", 1), ("flap", 2)):
         np.testing.assert_allclose(data[name], tip[:, places], atol=2e-3)
     assert "tip_x" not in data
+    loads = exact.section_loads([0.0, 0.45, 1.0])
+    for kind, there in (("force", loads.force), ("moment", loads.moment)):
+        assert np.abs(run[kind].interp(time=at) - there).max() < 3e-2 * np.abs(there).max()
+    assert np.abs(run["place"].interp(time=at) - loads.place).max() < 2e-3
+    assert np.abs(run["section"].interp(time=at) - loads.section).max() < 2e-2

@@ -8,8 +8,10 @@ from matplotlib.text import Text
 from PIL import Image
 
 from analytic import SpinUp, linear_response, spin_up_response
+from rotbeam_exu import dataset_of
 from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
+from rotbeam_exu.runs.shape import in_space
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +23,7 @@ def response(beam):
 
 def drawn(response, n):
     """Curves of the picture `n`, (points,) complex [m], by axes: the beam is the longest line."""
-    animation = animate(response)
+    animation = animate(dataset_of(response))
     animation._draw_frame(n)
     animation._draw_was_started = True
     inertial, rotating, history = animation._fig.axes
@@ -70,7 +72,7 @@ def two_models(beam):
 def side_by_side(two_models):
     """The two views, the history, and what draws a picture."""
     exact, linear = two_models
-    animation = animate(exact, beside=linear)
+    animation = animate(dataset_of(exact), beside=dataset_of(linear))
     animation._draw_was_started = True
     yield *animation._fig.axes, animation._draw_frame
     plt.close(animation._fig)
@@ -136,14 +138,50 @@ def test_another_motion_beside_is_refused(beam, response):
         linear_response(beam, response.spin_up, response.time[:5], points=points),
     ):
         with pytest.raises(ValueError, match="must be of the same motion at the same times"):
-            animate(response, beside=linear)
+            animate(dataset_of(response), beside=dataset_of(linear))
+
+
+def test_a_blade_in_space_is_seen_from_above_and_from_the_side(beam):
+    """Twisted, coned and on a hub; the strip is as wide as the chord is seen."""
+    blade = beam.with_section_out_of_plane(0.25, 0.2).with_twist(0.8).with_precone(0.15)
+    blade, length = blade.blade.with_hub_radius(0.8), beam.length
+    times, points = np.linspace(0.0, 0.8, 5), np.linspace(0.0, length, 9)
+    motion = SpinUp(omega=2.0, ramp_time=0.8)
+    data = dataset_of(spin_up_response(blade, motion, times, tolerance=1e-2, points=points))
+    animation = animate(data)
+    animation._draw_frame(4)
+    animation._draw_was_started = True
+    above, side, history = animation._fig.axes
+    place, section = in_space(data)
+    np.testing.assert_allclose(axis_in(above), place[4, :, :2] @ [1.0, 1j], atol=1e-12)
+    # Turned back to the clamp's line; heights do not turn.
+    along = place[4, :, :2] @ [1.0, 1j] * np.exp(-1j * motion.angle(0.8))
+    np.testing.assert_allclose(axis_in(side), along.real + 1j * place[4, :, 2], atol=1e-12)
+    assert axis_in(side)[0] == pytest.approx(0.8)  # the clamp, on its hub
+    for ax, seen in ((above, [1.0, 1j, 0.0]), (side, None)):
+        (strip,) = ax.patches
+        edges = strip.get_xy()[:18] @ [1.0, 1j]
+        chord = edges[:9] - edges[:8:-1]
+        if seen:
+            np.testing.assert_allclose(chord, 0.1 * length * section[4, ..., 1] @ seen, atol=1e-12)
+        else:
+            np.testing.assert_allclose(chord.imag, 0.1 * length * section[4, :, 2, 1], atol=1e-12)
+    lines = {tuple(line.get_ydata()[-1:]) for line in history.lines if line.get_marker() == "o"}
+    assert lines == {(data["q"][4].item() / length,), (data["place"][4, -1, 2].item() / length,)}
+    plt.close(animation._fig)
+
+
+def axis_in(ax):
+    """The blade in a view of one in space, complex [m]: the line with as many points."""
+    (line,) = (line for line in ax.lines if len(line.get_xdata()) == 9)
+    return line.get_xydata() @ [1.0, 1j]
 
 
 def test_a_gif_has_every_picture_in_real_time(beam, tmp_path):
     counted, points = [], np.linspace(0.0, beam.length, 11)
     spin_up, times = SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.0, 1.0, 6)
     response = spin_up_response(beam, spin_up, times, tolerance=1e-3, points=points)
-    save_animation(response, tmp_path / "beam.gif", progress=counted.append)
+    save_animation(dataset_of(response), tmp_path / "beam.gif", progress=counted.append)
     with Image.open(tmp_path / "beam.gif") as picture:
         assert picture.n_frames == response.time.size
         assert picture.info["duration"] == pytest.approx(200, abs=10)  # in 1/100 s
@@ -156,14 +194,14 @@ def test_a_gif_has_every_picture_in_real_time(beam, tmp_path):
 @pytest.mark.skipif(not FFMpegWriter.isAvailable(), reason="no ffmpeg")
 @pytest.mark.slow  # its pictures are those of the GIF
 def test_an_mp4_where_ffmpeg_is(response, tmp_path):
-    save_animation(response, tmp_path / "beam.mp4")
+    save_animation(dataset_of(response), tmp_path / "beam.mp4")
     assert (tmp_path / "beam.mp4").read_bytes()[4:8] == b"ftyp"
 
 
 def test_nothing_to_animate_is_refused(beam):
     response = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), [0.0, 0.1], tolerance=1e-5)
-    with pytest.raises(ValueError, match="points along the beam, got 0 of them at 2 times"):
-        animate(response)
+    with pytest.raises(ValueError, match="points along the beam, .* got 0 of them at 2 times"):
+        animate(dataset_of(response))
 
 
 @pytest.mark.parametrize(

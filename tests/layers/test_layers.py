@@ -31,7 +31,8 @@ FLOORS = {
     ],
     "rotbeam_exu": [
         {"lazily"},
-        {"paper", "runs", "files"},
+        {"paper", "runs"},
+        {"files"},
         {"result_columns"},
         {"forced_columns"},
         {"datasets"},

@@ -219,6 +219,7 @@ def test_is_it_planar(run):
     k = highest[int(np.flatnonzero(rate["omega"] == 4.0)[0])]
     assert rate["a"][k] < found["limit"].amplitude < rate["a"][k + 2]
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
+    assert len(found["axes"]) == 4
 
 
 def test_leaving_the_plane(run):

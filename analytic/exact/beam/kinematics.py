@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...arrays import ComplexArray, FloatArray
 from ...shape_functions import shape_functions
 from ...unit_blade import UnitBlade
+from .section_loads import in_plane_of_bending, set_at
 
 _MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
 
@@ -149,6 +150,17 @@ class Kinematics:
     def axis(self, q: FloatArray, x: FloatArray) -> ComplexArray:
         """Return the places z of material points `x`, (samples, points)."""
         return self.integrated(self.slope(q), x)
+
+    def standing(
+        self, q: FloatArray, x: FloatArray, setting: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
+
+        In the frame of the clamp, of a blade set at `setting` [rad]; axes of sections in columns.
+        """
+        z, angle = self.axis(q, x), self.split(q)[0] @ self._bases(x)[0].T
+        places = np.stack((z.real, z.imag), axis=-1) @ set_at(setting)[:, :2].T
+        return places, in_plane_of_bending(angle, setting)
 
     def deflection(self, tip: ComplexArray) -> FloatArray:
         """Return the tip's deflection, normal to the clamp's line."""

@@ -55,8 +55,10 @@ class SpinUpResponse:
         Its rate in the rotating frame, Eq. 16 [m/s].
     tip : ndarray (times, 2)
         Position of the tip in the inertial frame [m].
+    points : ndarray (points,)
+        Material points asked for [m].
     axis : ndarray (times, points, 2)
-        Position of the points asked for in the frame that turns with the clamp [m].
+        Their positions in the frame that turns with the clamp [m].
     error : float
         Estimated error of the tip's position over the largest |q|: the difference from the next
         coarser solution in step and functions, hence an upper estimate.
@@ -80,6 +82,7 @@ class SpinUpResponse:
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
     tip: FloatArray = field(repr=False)
+    points: FloatArray = field(repr=False)
     axis: FloatArray = field(repr=False)
     error: float
     steps: int
@@ -88,15 +91,17 @@ class SpinUpResponse:
     _state: FloatArray = field(repr=False)
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
-        """Return force and moment in the sections at `x` [m], over time."""
+        """Return the sections at `x` [m], and force and moment in them, over time."""
         at = points_of_beam("x", x, self.beam.length)
         driven_at = drive(self.beam, rippled(self.spin_up, self.loads), self.loads, self._model)
+        model, setting = self._model, self.beam.setting_angle
         parts = [
-            self._model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
+            model.standing(self._state[0, few], at, setting)
+            + model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
             for few in few_at_once(self.time.size)
         ]
-        force, moment = (np.concatenate(one) for one in zip(*parts, strict=True))
-        return in_newtons(self.beam, at, (force, moment))
+        place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
+        return in_newtons(self.beam, at, (place, section), (force, moment))
 
     @staticmethod
     def in_units(
@@ -126,7 +131,7 @@ class SpaceResponse(SpinUpResponse):
     tip : ndarray (times, 3)
         Place of the tip from the clamp [m].
     axis : ndarray (times, points, 3)
-        Places of the points asked for from the clamp [m].
+        Places of the points from the clamp [m].
     twist : ndarray (times,)
         How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
         rotation T from the unloaded section to the loaded one, in the axes of `tip`.
@@ -269,6 +274,7 @@ def spin_up_response(
                     loads=loads,
                     theory=theory,
                     time=time,
+                    points=beam.length * along,
                     **kind.in_units(beam, finer, np.exp(1j * rotation.angle(time))),
                     error=error,
                     steps=grid.size - 1,

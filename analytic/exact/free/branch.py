@@ -103,14 +103,15 @@ class OrbitSet:
         return z.real, z.imag
 
     def section_loads(self, i: int, x: ArrayLike, phase: ArrayLike) -> SectionLoads:
-        """Return force and moment in the sections at `x` [m] of orbit `i` at phases [rad].
+        """Return the sections at `x` [m] of orbit `i` at phases [rad], force and moment in them.
 
-        The first dimension of both is that of the phases.
+        The first dimension of all is that of the phases.
         """
         orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
         phases = finite_values("phase", phase, "rad")
         state = (*orbit.coordinates(phases), *orbit.drive(phases))
-        return in_newtons(self.beam, at, orbit.system.section_loads(at, *state))
+        standing = orbit.system.model.standing(state[0], at, self.beam.setting_angle)
+        return in_newtons(self.beam, at, standing, orbit.system.section_loads(at, *state))
 
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:

@@ -288,6 +288,19 @@ class SpaceContinuum:
         """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
         return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
 
+    def standing(
+        self, q: FloatArray, x: FloatArray, setting: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
+
+        In the root frame; axes of sections in columns. The setting angle is in the sections.
+        """
+        del setting
+        to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
+        frame = to_x.of(self._strains(q)[1])[..., self.points.size :]
+        sections = np.einsum("ijsp,jkp->spik", frame, self.blade.section_frames(x))
+        return self.axis(q, x), sections
+
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
         return np.moveaxis(self.changes(q).slope @ self.weights, 0, 1)

@@ -59,12 +59,13 @@ class SteadyState:
         )
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
-        """Return force and moment in the sections at `x` [m], each (points, 3)."""
+        """Return the sections at `x` [m], and force and moment in them, each (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
         state = self._steady.equilibrium[None]
         still = np.zeros_like(state)
-        force, moment = self._steady.section_loads(at, state, still, still)
-        return in_newtons(self.blade, at, (force[0], moment[0]))
+        (place,), (section,) = self._steady.model.standing(state, at, self.blade.setting_angle)
+        (force,), (moment,) = self._steady.section_loads(at, state, still, still)
+        return in_newtons(self.blade, at, (place, section), (force, moment))
 
 
 def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:

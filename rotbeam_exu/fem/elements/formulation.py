@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.description import Described
+from analytic.exact.beam.section_loads import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
 from analytic.motion import Rotation
@@ -20,6 +22,7 @@ from analytic.theory import Theory
 
 from ..lazily import exudyn, items
 from .point_masses import TurningNode, spins
+from .polynomials import lagrange
 
 POISSON_RATIO = 0.3
 """Default ν of beams that shear; the paper gives neither ν nor a shear modulus."""
@@ -82,6 +85,8 @@ class Formulation(Described, abstract=True):
     """Whether it has bending and axial damping."""
     leaves_plane: ClassVar[bool] = False
     """Whether it lives in space: z is across the plane of rotation."""
+    twists: ClassVar[bool] = False
+    """Whether its sections turn about the axis."""
     constant_mass: ClassVar[bool] = True
     """Whether the mass matrix of all coordinates is constant, as the rotating frame asks for."""
     new_jacobians: ClassVar[bool] = False
@@ -205,9 +210,25 @@ class Formulation(Described, abstract=True):
         about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
         return np.asarray(about_z)
 
-    def sections(self, coordinates: FloatArray) -> FloatArray | None:
-        """Return the axes of the sections in columns, (..., nodes, 3, 3), if they have any."""
-        return None
+    def sections(self, coordinates: FloatArray) -> FloatArray:
+        """Return the axes of the sections in columns, (..., 3, 3), of coordinates (..., n).
+
+        Here of nodes in the plane whose coordinates 2 and 3 are a vector of the section.
+        """
+        z, (_, *straight) = coordinates[..., 2] + 1j * coordinates[..., 3], self.straight
+        return in_plane_of_bending(np.angle(z / complex(*straight)), 0.0)
+
+    def spread(self, nodes: int, elements: int, length: float, s: FloatArray) -> FloatArray:
+        """Return the matrix (places, n, nodes, n) to the coordinates a node would have at `s`.
+
+        From those of the nodes of elements in a row of `length`; s is from 0 to 1. Lagrange's.
+        """
+        degree = (nodes - 1) // elements
+        cell, xi = cells(elements, s)
+        weights = np.zeros((s.size, nodes))
+        at = degree * cell[:, None] + np.arange(degree + 1)
+        np.put_along_axis(weights, at, lagrange(xi, degree), axis=1)
+        return np.asarray(np.einsum("sk,ij->sikj", weights, np.eye(self.angles.size)))
 
     @property
     def radial(self) -> FloatArray:
@@ -267,6 +288,12 @@ class Formulation(Described, abstract=True):
             twice += inertia * spin**2
         normal = (1.0 - setting**2) * rate * np.sum(along * (along @ mass), axis=1)
         return 0.5 * (twice + rate * normal), setting * about_normal + normal
+
+
+def cells(count: int, s: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
+    """Return in which of equal cells places from 0 to 1 are, and where inside, from 0 to 1."""
+    cell = np.minimum((count * s).astype(int), count - 1)
+    return cell, count * s - cell
 
 
 class Sheared:

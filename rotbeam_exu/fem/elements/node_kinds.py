@@ -14,10 +14,12 @@ import numpy as np
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
+from analytic.exact.beam.section_loads import in_plane_of_bending
 from analytic.exact.beam.state import BeamState
 from analytic.lazily import Lazily
 
-from .formulation import Formulation
+from .formulation import Formulation, cells
+from .polynomials import shapes
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""
@@ -52,6 +54,17 @@ class SlopeNodes(Formulation, abstract=True):
         values[:, self.dimensions] += 1.0
         return values, _columns(x, state, [f"{a}{of}_dot" for of in ("", "_slope") for a in axes])
 
+    def spread(self, nodes: int, elements: int, length: float, s: FloatArray) -> FloatArray:
+        """Return the matrix to r and r' at `s`: cubic between two nodes, (places, n, nodes, n)."""
+        count = nodes - 1
+        cell, xi = cells(count, s)
+        weights = np.zeros((s.size, 2, nodes, 2))
+        of_both = np.stack([shapes(xi, length / count, order) for order in (0, 1)], axis=1)
+        at, places = cell[:, None] + np.arange(2), np.arange(s.size)[:, None]
+        weights[places, :, at] = np.moveaxis(of_both.reshape(-1, 2, 2, 2), 1, 2)
+        both = np.einsum("sakb,ij->saikbj", weights, np.eye(self.dimensions))
+        return np.asarray(both.reshape(s.size, self.angles.size, nodes, -1))
+
 
 class SpaceSlopeNodes(SlopeNodes, abstract=True):
     """The same in space."""
@@ -67,6 +80,13 @@ class SpaceSlopeNodes(SlopeNodes, abstract=True):
     def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
         """Return the moment of a force on the slope."""
         return np.cross(root[:, 3:], force[:, 3:])
+
+    def sections(self, coordinates: FloatArray) -> FloatArray:
+        """Return sections whose second axis is in the plane of rotation: a cable has no twist."""
+        slope = coordinates[..., 3:]
+        across = np.cross([0.0, 0.0, 1.0], slope)
+        normal, chord = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (slope, across))
+        return np.stack((normal, chord, np.cross(normal, chord)), axis=-1)
 
 
 class SectionSlopeNodes(Formulation, abstract=True):
@@ -103,11 +123,16 @@ class AngleNodes(Formulation, abstract=True):
         values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
         return np.stack(values, axis=1), np.stack(rates, axis=1)
 
+    def sections(self, coordinates: FloatArray) -> FloatArray:
+        """Return the sections, turned by φ."""
+        return in_plane_of_bending(coordinates[..., 2], 0.0)
+
 
 class FrameNodes(Formulation, abstract=True):
     """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
 
     leaves_plane: ClassVar[bool] = True
+    twists: ClassVar[bool] = True
     constant_mass: ClassVar[bool] = False
     node: ClassVar[str] = "NodeRigidBodyEP"
     straight: ClassVar[tuple[float, ...]] = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)

@@ -32,7 +32,7 @@ def scales(length: float) -> FloatArray:
     return np.array([1.0, length, 1.0, length])
 
 
-def shapes(xi: float, length: float, order: int) -> FloatArray:
-    """Return the derivatives to x, of `order`, at ξ = x/l, (4,)."""
-    unit = np.array([(function.deriv(order) if order else function)(xi) for function in HERMITE])
-    return np.asarray(unit * scales(length) / length**order)
+def shapes(xi: float | FloatArray, length: float, order: int) -> FloatArray:
+    """Return the derivatives to x, of `order`, at ξ = x/l, (..., 4)."""
+    unit = [(function.deriv(order) if order else function)(xi) for function in HERMITE]
+    return np.asarray(np.stack(unit, axis=-1) * scales(length) / length**order)

@@ -1,0 +1,130 @@
+"""A blade over time for ParaView: VTK's XML files, a line or the body of a rectangular section."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from analytic.arrays import FloatArray
+from analytic.input_checks import positive
+
+from ..lazily import xr
+from ..runs.shape import in_space
+from .results import whole_file, writable_folder
+
+_LINE, _HEXAHEDRON = 3, 12  # VTK's numbers of cells
+_CORNERS = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])  # over height and width
+
+
+def save_vtk(
+    data: xr.Dataset, path: Path, *, height: float | None = None, width: float | None = None
+) -> Path:
+    """Write a blade over time as `path`, .pvd, and one .vtu for each time in a folder beside it.
+
+    Seen from outside, where `data` has the angle of the clamp. Points have the station [m], the
+    axes of its section (normal, chord, thickness), `force` [N] and `moment` [N m] by these axes,
+    and the strain there; of a `Beam`, whose Young's modulus is known, the stress [Pa] too.
+
+    Parameters
+    ----------
+    data : Dataset
+        A run of `simulate` with stations, what `dataset_of` makes of a SpinUpResponse with points,
+        or `rotbeam_exu.runs.shape.shape_of` of section loads.
+    path : Path
+    height, width : float, optional
+        Of a rectangular section along its chord, which is in the plane of bending, and across it
+        [m]. With both the blade is drawn as a body, else as a line.
+
+    Raises
+    ------
+    ValueError
+        If the ending is another, or there are no sections at two stations.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> from rotbeam_exu import dataset_of
+    >>> from rotbeam_exu.files.vtk import save_vtk
+    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
+    >>> found = spin_up_response(Beam.reference(), motion, [0.5, 1.0], points=[0.0, 4.0, 8.0])
+    >>> with TemporaryDirectory() as folder:
+    ...     written = save_vtk(dataset_of(found), Path(folder) / "blade.pvd")
+    ...     print(*sorted(file.name for file in (written.parent / "blade").iterdir()))
+    blade-0000.vtu blade-0001.vtu
+    """
+    if path.suffix != ".pvd":
+        raise ValueError(f"cannot write {path.name!r}: the ending must be .pvd")
+    if "section" not in data or data.sizes["station"] < 2:
+        raise ValueError(
+            "nothing to write for ParaView: give simulate stations=, or spin_up_response points=, "
+            "at least two along the blade"
+        )
+    data = data if "time" in data.dims else data.expand_dims("time")
+    offsets = np.zeros((1, 2))
+    if height is not None and width is not None:
+        offsets = _CORNERS * (positive("height", height, "m"), positive("width", width, "m"))
+    folder, sets = path.with_suffix(""), ""
+    writable_folder(folder)
+    for n, standing in enumerate(zip(*in_space(data), strict=True)):
+        name = f"{folder.name}/{folder.name}-{n:04d}.vtu"
+        with whole_file(path.parent / name) as partial:
+            partial.write_text(_grid(data.isel(time=n), *standing, offsets), encoding="ascii")
+        sets += f'<DataSet timestep="{data["time"][n].item()!r}" file={quoteattr(name)}/>\n'
+    with whole_file(path) as partial:
+        partial.write_text(_file("Collection", sets), encoding="utf-8")
+    return path
+
+
+def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: FloatArray) -> str:
+    """Return a .vtu of points at `offsets` (corners, 2) from the axis, and cells between them."""
+    corners, cells = len(offsets), len(place) - 1
+    curvature, (y, z) = data["curvature"].to_numpy(), offsets.T
+    bent = np.outer(curvature[:, 1], z) - np.outer(curvature[:, 2], y)
+    values = {name: data[name].to_numpy() for name in ("station", "force", "moment")}
+    values |= {
+        name: section[..., k] for k, name in enumerate(data["section_axis"].to_numpy().tolist())
+    }
+    values = {name: np.repeat(one, corners, axis=0) for name, one in values.items()}
+    values["strain"] = (data["strain"].to_numpy()[:, None] + bent).ravel()
+    if "beam_youngs_modulus" in data.attrs:
+        values["stress"] = data.attrs["beam_youngs_modulus"] * values["strain"]
+    points = place[:, None] + offsets @ np.swapaxes(section[..., 1:], -1, -2)
+    joined = corners * np.arange(cells)[:, None] + np.arange(2 * corners)
+    kind = np.full(cells, _LINE if corners == 1 else _HEXAHEDRON, np.uint8)
+    ends = 2 * corners * np.arange(1, cells + 1)
+    return _file(
+        "UnstructuredGrid",
+        f'<Piece NumberOfPoints="{corners * len(place)}" NumberOfCells="{cells}">\n'
+        + _part("Points", {"place": points.reshape(-1, 3)})
+        + _part("Cells", {"connectivity": joined.ravel(), "offsets": ends, "types": kind})
+        + _part("PointData", values)
+        + "</Piece>\n",
+    )
+
+
+def _part(title: str, arrays: Mapping[str, Any]) -> str:
+    """Return arrays in base64, each behind its number of bytes, so that none is rounded."""
+    text = ""
+    for name, values in arrays.items():
+        kind = {"f": "Float64", "i": "Int64", "u": "UInt8"}[values.dtype.kind]
+        content = values.astype(values.dtype.newbyteorder("<")).tobytes()
+        coded = base64.b64encode(len(content).to_bytes(8, "little") + content).decode()
+        parts = ' NumberOfComponents="3"' if values.ndim == 2 else ""
+        text += f'<DataArray type="{kind}" Name="{name}"{parts} format="binary">{coded}'
+        text += "</DataArray>\n"
+    return f"<{title}>\n{text}</{title}>\n"
+
+
+def _file(kind: str, content: str) -> str:
+    return (
+        '<?xml version="1.0"?>\n'
+        f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+        f"<{kind}>\n{content}</{kind}>\n</VTKFile>\n"
+    )
