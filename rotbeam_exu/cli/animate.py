@@ -78,7 +78,7 @@ def animate(
     $ rotbeam animate
     $ rotbeam animate --omega 6 --ramp-time 3 --duration 4 --rate 10 -o film.gif
     $ rotbeam animate --omega 4 --ramp-time 3 --duration 6 --beside linear
-    $ rotbeam animate --omega 4 --duration 4 --rate 10 -o film.pvd --height 0.04 --width 0.002
+    $ rotbeam animate --omega 4 --duration 4 -o film.pvd --height .04 --width .002
     """
     whole_number("rate", rate)
     kept = None if run is None else load(run)
