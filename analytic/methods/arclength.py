@@ -87,13 +87,7 @@ class Point:
 def corrected(
     curve: Curve, guess: FloatArray, across: FloatArray, factors: tuple[Any, Any] | None = None
 ) -> Point:
-    """Return the point in the plane through `guess` across the direction `across`.
-
-    Raises
-    ------
-    NoOrbitError
-        If Newton's method does not converge.
-    """
+    """Return the point in the plane through `guess` across `across`; raises NoOrbitError."""
 
     def residual(z: FloatArray) -> FloatArray:
         return np.append(curve.residual(z), across @ (z - guess))
@@ -141,13 +135,7 @@ def _by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArra
 
 
 def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[Point, float]:
-    """Return the next point at about the distance `step`, and the step to try after it.
-
-    Raises
-    ------
-    NoOrbitError
-        If no step, however short, finds one.
-    """
+    """Return the next point at about `step`, and the step after it; raises NoOrbitError."""
     for _ in range(_HALVINGS):
         try:
             found = corrected(curve, point.z + step * point.tangent, point.tangent, point.factors)

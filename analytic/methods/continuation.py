@@ -116,13 +116,7 @@ class Path(Generic[S]):
         self.nodes = [self.seed, self.double]
 
     def at(self, amplitude: float) -> Orbit[S]:
-        """Return the orbit of the peak `amplitude`, with the error of its frequency.
-
-        Raises
-        ------
-        NoOrbitError
-            If there is none, or none is found: where and why.
-        """
+        """Return the orbit of the peak `amplitude`, with its frequency's error; or NoOrbitError."""
         while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
@@ -143,13 +137,7 @@ class Path(Generic[S]):
         raise NoOrbitError(reasons[0], below)
 
     def laid(self, amplitude: float) -> Orbit[S]:
-        """Return the orbit of the peak `amplitude`, at or beyond the last node: it becomes a node.
-
-        Raises
-        ------
-        NoOrbitError
-            As `at` does.
-        """
+        """Return the same, at or beyond the last node: it becomes a node."""
         while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend(amplitude)
         last = self.nodes[-1]
@@ -243,12 +231,8 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
     Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
-    functions until the residual on half as many again is small.
-
-    Raises
-    ------
-    NoOrbitError
-        If it needs more than are taken.
+    functions until the residual on half as many again is small. Raises NoOrbitError where that
+    takes more than are taken.
     """
     if orbit.system.driven:
         lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"

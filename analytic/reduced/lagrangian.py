@@ -64,17 +64,8 @@ class EnergyCoefficients:
 
 
 def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
-    """Return the coefficients of Eq. 41 by Gauss quadrature of the energies.
+    """Return the coefficients of Eq. 41 by Gauss quadrature of the energies, for a shape φ_v.
 
-    Parameters
-    ----------
-    shape : Shape
-        The transverse shape φ_v.
-    axial : str
-        The axial model, one of `axial.AXIAL_MODELS`.
-
-    Notes
-    -----
     Corrected against the print: Eq. 31 has no outer square, and in Eq. 76 it is φ_u' q² that
     multiplies 2Δl'.
     """

@@ -61,13 +61,7 @@ class NormalMode(NamedTuple):
 
 @lru_cache(maxsize=64)
 def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
-    """Return the first nonlinear normal mode of the blade at w̄.
-
-    Raises
-    ------
-    ValueError
-        If as many functions as are taken do not settle λ and κ, as where a section has steps.
-    """
+    """Return the first nonlinear normal mode of the blade at w̄."""
     return settled_functions(
         lambda count: _with_functions(blade, w_bar, count),
         blade,

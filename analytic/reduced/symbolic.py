@@ -53,15 +53,7 @@ class SymbolicForms:
 
 @cache
 def symbolic_forms(shape: PolynomialShape, axial: Axial) -> SymbolicForms:
-    """Return Eq. 41 of a rational polynomial shape, exactly.
-
-    Parameters
-    ----------
-    shape : PolynomialShape
-        With rational coefficients, as `static_deflection` returns it.
-    axial : str
-        The axial model, one of `axial.AXIAL_MODELS`.
-    """
+    """Return Eq. 41 of a polynomial shape with rational coefficients, exactly."""
     phi_v = sum((sp.Rational(c) * X**k for k, c in enumerate(shape.coefficients)), sp.Integer(0))
     phi_u = -_antiderivative(sp.diff(phi_v, X) ** 2) / 2
 

@@ -114,13 +114,7 @@ class Space:
     def stiffness(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
     ) -> FloatArray:
-        """Return the stiffness (samples, n, n) about a planar motion of `planar`.
-
-        Raises
-        ------
-        LinAlgError
-            If the twist has no inertia and buckles.
-        """
+        """Return the stiffness (samples, n, n) about a planar motion of `planar`."""
         model, r = planar.model, self.section.bending_ratio
         x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         kappa, e, change = model.bent(q)
@@ -160,13 +154,7 @@ class Space:
     def resistance(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each.
-
-        Raises
-        ------
-        ValueError
-            If a twist without inertia were viscous.
-        """
+        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
         model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
         if viscosity and self.twist == "quasi-static" and r != 1.0:
             raise ValueError(

@@ -79,7 +79,7 @@ class AtConstantRate(Discretized):
 
 @dataclass(frozen=True, eq=False)
 class SteadyBeam(AtConstantRate):
-    """The beam in a frame that turns at a constant rate; a `methods.System`.
+    """The beam in a frame that turns at a constant rate; a `methods.system`.
 
     The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
     maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.

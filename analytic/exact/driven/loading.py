@@ -23,13 +23,7 @@ from ..space.steady import SpaceBlade
 
 
 def unit_load(beam: AnyBlade, load: Load) -> Load:
-    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0).
-
-    Raises
-    ------
-    TypeError
-        If it is none.
-    """
+    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0)."""
     require_blade(beam)
     require_load(load)
     return load.in_units(
@@ -61,7 +55,7 @@ def pushes(
 
 @dataclass(frozen=True, eq=False)
 class DrivenBlade(Discretized):
-    """The blade under one load in steady rotation, in its plane or in space; a `methods.System`.
+    """The blade under one load in steady rotation, in its plane or in space; a `methods.system`.
 
     Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well.
 

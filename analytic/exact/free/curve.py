@@ -57,15 +57,6 @@ class BackboneCurve:
         the error at other orbits, whichever is larger.
     series, first : Chebyshev
         Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
-
-    Examples
-    --------
-    >>> from analytic import Beam, backbone_curve
-    >>> curve = backbone_curve(Beam.reference(), omega=6.0, up_to=0.4)
-    >>> print(f"ω_NL/ω_n = 1 - {curve.lambda_omega:.5f} a² + …, within {curve.holds_up_to:.2f}")
-    ω_NL/ω_n = 1 - 0.01967 a² + …, within 0.40
-    >>> print((curve.frequency([0.1, 0.2, 0.4])).round(6))
-    [3.729665 3.727422 3.717892]
     """
 
     beam: AnyBlade

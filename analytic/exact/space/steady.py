@@ -93,7 +93,7 @@ def require_section(beam: AnyBlade) -> None:
 
 @dataclass(frozen=True, eq=False)
 class SpaceBlade(AtConstantRate):
-    """The blade in a frame that turns at a constant rate; a `methods.System`.
+    """The blade in a frame that turns at a constant rate; a `methods.system`.
 
     Attributes
     ----------
