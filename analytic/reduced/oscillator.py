@@ -24,15 +24,7 @@ _MARGIN = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
-    """Eq. 41 with numbers for its coefficients, all nondimensional.
-
-    Parameters
-    ----------
-    w_n : float
-        ω_n in units of √(EI/mL³).
-    g1, g2 : float
-        Coefficients of the cubic stiffness and of the inertial nonlinearity.
-    """
+    """Eq. 41 with numbers for its coefficients: ω_n over √(EI/mL³), g1 and g2."""
 
     w_n: float
     g1: float

@@ -212,12 +212,7 @@ def _times(factor: FloatArray, functions: FloatArray) -> FloatArray:
 class OutOfPlaneMotion:
     """Small motion out of the plane about a periodic orbit, as `methods.floquet` sees an orbit.
 
-    Attributes
-    ----------
-    orbit : Orbit
-    space : Space
-    modal : ndarray (n, n), optional
-        Damping beside the blade's own.
+    It may have `modal` damping (n, n) on top of the blade's own.
     """
 
     orbit: BeamOrbit
