@@ -50,26 +50,16 @@ class Curve(Protocol):
 class Point:
     """A point of a curve.
 
-    Attributes
-    ----------
-    z : ndarray (N + 1,)
-    tangent : ndarray (N + 1,)
-        Of unit length, along the way the curve is followed.
-    steps : int
-        Newton steps that it took.
-    factors : tuple
-        LU factors of the equations' Jacobian with a vector along the tangent as its last row, here
-        or, of many unknowns, at a point before.
-    matrix : callable
-        Returns that matrix here.
+    Its matrix is the equations' Jacobian with a vector along the tangent as its last row. The
+    factors are those of the matrix here or, of many unknowns, at a point before.
     """
 
-    z: FloatArray
-    tangent: FloatArray
-    steps: int
+    z: FloatArray  # (N + 1,)
+    tangent: FloatArray  # (N + 1,) of unit length, along the way the curve is followed
+    steps: int  # of Newton's method
     factors: Any
     matrix: Callable[[], FloatArray]
-    _own: Any
+    _own: Any  # factors of the matrix here, if they were made
 
     @cached_property
     def determinant(self) -> float:

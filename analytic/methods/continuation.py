@@ -35,27 +35,13 @@ _FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the ampli
 
 
 class Care(NamedTuple):
-    """Effort: how well orbits are resolved, and how hard the next one is sought.
+    """Effort: how well orbits are resolved, and how hard the next one is sought."""
 
-    Attributes
-    ----------
-    drift : float
-        Of the invariant, at which the harmonics suffice.
-    harmonics : int
-        The most that are taken.
-    halvings : int
-        Of a step that finds nothing.
-    functions : int
-        The most that are taken.
-    tail : float
-        Times `RESIDUAL_BOUND`, the residual that is left where kinks of the section cause one.
-    """
-
-    drift: float = 2e-11
-    harmonics: int = 64
-    halvings: int = 5
-    functions: int = 128
-    tail: float = 1.0
+    drift: float = 2e-11  # of the invariant, at which the harmonics suffice
+    harmonics: int = 64  # at most
+    halvings: int = 5  # of a step that finds nothing
+    functions: int = 128  # at most
+    tail: float = 1.0  # times `RESIDUAL_BOUND`, what kinks of the section may leave
 
 
 THOROUGH = Care()
@@ -88,27 +74,14 @@ class Path(Generic[S]):
 
     It grows from its two smallest orbits upwards in steps that do not depend on the amplitudes
     asked for; nor do the answers.
-
-    Attributes
-    ----------
-    seed, double : Orbit
-        The smallest orbits.
-    longest : float
-        Longest step of the amplitude.
-    care : Care
-        With which they are.
-    tangent : LastTangent
-        At first the tangent of the smallest orbits.
-    nodes : list of Orbit
-        Those found so far, ascending.
     """
 
     seed: Orbit[S]
     double: Orbit[S]
-    longest: float
+    longest: float  # step of the amplitude
     care: Care = THOROUGH
     tangent: LastTangent = field(default_factory=LastTangent, repr=False)
-    nodes: list[Orbit[S]] = field(init=False)
+    nodes: list[Orbit[S]] = field(init=False)  # found so far, ascending
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
 

@@ -114,10 +114,7 @@ def _lagrangian(phi_v: sp.Expr, phi_u: sp.Expr, axial: AxialModel) -> sp.Expr:
 
 
 def _truncated(density: sp.Expr) -> sp.Expr:
-    """Keep orders ε² and ε⁴ with q, q̇ ~ ε and μ ~ ε².
-
-    Odd orders are linear in q̇: total derivatives, without effect in one degree of freedom.
-    """
+    """Keep orders ε² and ε⁴, q, q̇ ~ ε and μ ~ ε²; odd ones, linear in q̇, are total derivatives."""
     ordered = sp.expand(
         density.subs({_Q: _EPSILON * _Q, _Q_DOT: _EPSILON * _Q_DOT, MU: _EPSILON**2 * MU})
     )

@@ -44,16 +44,9 @@ def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatA
 
 
 class Space:
-    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
+    """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
-    Parameters
-    ----------
-    blade : Beam or Blade
-        With a known section out of the plane.
-    functions : int
-        Least number of functions for each.
-    theory : Theory
-        Whether there are the second line of L2, and inertia of the twist, as in space.
+    The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
 
     Attributes
     ----------
