@@ -29,17 +29,14 @@ class System(Protocol):
     @property
     def size(self) -> int:
         """Number of coordinates n."""
-        ...
 
     @property
     def functions(self) -> int:
         """Number of functions that resolve the system; `refined` raises it."""
-        ...
 
     @property
     def driven(self) -> bool:
         """Whether a drive acts; without one the system is autonomous and conservative."""
-        ...
 
     @property
     def odd(self) -> NDArray[bool_] | None:
@@ -49,60 +46,46 @@ class System(Protocol):
         motions. An orbit through a state that is its own image is then a series of sines in these
         and of cosines in the others. Without reversal the series is full.
         """
-        ...
 
     @property
     def pinned(self) -> int | None:
         """Coordinate whose first cosine is zero in a free orbit without time reversal."""
-        ...
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the quantity whose peak is called the amplitude, (samples,)."""
-        ...
 
     def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return its rate, (samples,)."""
-        ...
 
     def gauge_gradient(self, q: FloatArray) -> FloatArray:
         """Return its derivatives to the coordinates, (samples, n)."""
-        ...
 
     def refined(self) -> Self:
         """Return the same system on more coordinates."""
-        ...
 
     def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
         """Return the coordinates (samples, n') of the same states in the system `finer`."""
-        ...
 
     @property
     def residual(self) -> Callable[..., FloatArray]:
         """The function r(q, q̇, q̈), or r(q, q̇, q̈, φ, Ω) under a drive: (samples, n), units of q."""
-        ...
 
     @property
     def tangent(self) -> Callable[..., Tangent]:
         """The function that returns r and its derivatives, of the same."""
-        ...
 
     def rest(self, frequency: float) -> FloatArray:
         """Return a state (n,) of a driven system, from which a small response is found."""
-        ...
 
     def loaded(self, share: float) -> Self:
         """Return a driven system under a share of its load, by which a larger response is found."""
-        ...
 
     @property
     def equilibrium(self) -> FloatArray:
         """The state about which a free system moves, (n,)."""
-        ...
 
     def potential(self, q: FloatArray) -> FloatArray:
         """Return what with the kinetic energy stays constant along a free motion, (samples,)."""
-        ...
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy, (samples,); by it changes of their sum are judged."""
-        ...
