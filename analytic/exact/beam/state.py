@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -50,6 +51,22 @@ class BeamState:
     w_slope: FloatArray | float = 0.0
     w_dot: FloatArray | float = 0.0
     w_slope_dot: FloatArray | float = 0.0
+
+
+class Driven(NamedTuple):
+    """Rotation of the clamp and loads, without units, as the equations of motion take them.
+
+    Attributes
+    ----------
+    rate, rate_dot : float or ndarray (samples,)
+        w and its rate.
+    push : ndarray or None
+        Load beyond each Gauss point, as the discretization's `push` returns it.
+    """
+
+    rate: Any
+    rate_dot: Any = 0.0
+    push: Any = None
 
 
 def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:

@@ -17,6 +17,7 @@ from ...beam import AnyBlade, require_blade
 from ...loads import Load, require_load
 from ...methods.system import Tangent
 from ..beam.continuum import Continuum
+from ..beam.state import Driven
 from ..beam.steady import Discretized, SteadyBeam
 from ..space.continuum import SpaceContinuum
 from ..space.steady import SpaceBlade
@@ -119,13 +120,14 @@ class DrivenBlade(Discretized):
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def _drive(self, phase: FloatArray, frequency: float) -> tuple[FloatArray, FloatArray, Any]:
+    def _drive(self, phase: FloatArray, frequency: float) -> Driven:
         """Return w, ẇ and the push at the phases."""
         load = self.load
         rate = self.speed(frequency) + load.rate(phase)
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
-        return rate, load.acceleration(phase, frequency), pushes(self.model, [(load, phase)], angle)
+        push = pushes(self.model, [(load, phase)], angle)
+        return Driven(rate, load.acceleration(phase, frequency), push)
 
     def residual(
         self,
@@ -136,7 +138,7 @@ class DrivenBlade(Discretized):
         frequency: float,
     ) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.residual(q, q_dot, q_ddot, self._drive(phase, frequency))
 
     def tangent(
         self,
@@ -147,9 +149,9 @@ class DrivenBlade(Discretized):
         frequency: float,
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.tangent(q, q_dot, q_ddot, self._drive(phase, frequency))
 
     def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
         q, q_dot, q_ddot, phase, frequency = state
-        return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.section_loads(x, q, q_dot, q_ddot, self._drive(phase, frequency))
