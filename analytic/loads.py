@@ -269,7 +269,7 @@ class Gravity(Load):
     >>> blade = Beam.reference().with_damping(Damping(external=0.3))
     >>> found = forced_response(blade, [5.0, 5.5], Gravity(1.62), functions=8)
     >>> found.load
-    Gravity(gravity=1.62)
+    Gravity(gravity=1.62, tilt=0.0)
     >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")
     0.0220 L at 5.0 rad/s, on the moon
     """
