@@ -85,7 +85,6 @@ class Continuum(Kinematics):
         slenderness: float,
         bending: int,
         axial: int,
-        *,
         blade: UnitBlade = UNIFORM,
         shear: float | None = None,
         engesser: bool = False,
