@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 _HANDS = 8  # that pages are dealt to: more than there are chunks for each process
 sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
 
-from gallery_order import same_resolution  # noqa: E402
+from gallery_order import grouped, same_resolution  # noqa: E402
 
 import rotbeam_exu  # noqa: E402
 from rotbeam_exu.paper import MODEL_NAMES  # noqa: E402
@@ -152,6 +152,8 @@ def without_other_hosts(app: Any, page: str, source: list[str]) -> None:
     del app
     if page.startswith("gallery/"):
         source[0] = re.sub(r'<link rel="stylesheet"\s+href="https://[^"]*">', "", source[0])
+    if page == "gallery/index":
+        source[0] = grouped(source[0])
 
 
 def spread(app: Any, env: Any, pages: list[str]) -> None:

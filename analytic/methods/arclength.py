@@ -35,15 +35,12 @@ class Curve(Protocol):
 
     def residual(self, z: FloatArray) -> FloatArray:
         """Return the N residuals at the N + 1 unknowns, the parameter last."""
-        ...
 
     def jacobian(self, z: FloatArray) -> FloatArray:
         """Return their derivatives, (N, N + 1)."""
-        ...
 
     def products(self, z: FloatArray) -> Vector:
         """Return the function that multiplies them with a vector (N + 1,)."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

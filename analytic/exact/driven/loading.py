@@ -17,6 +17,7 @@ from ...beam import AnyBlade, require_blade
 from ...loads import Load, require_load
 from ...methods.system import Tangent
 from ..beam.continuum import Continuum
+from ..beam.state import Driven
 from ..beam.steady import Discretized, SteadyBeam
 from ..space.continuum import SpaceContinuum
 from ..space.steady import SpaceBlade
@@ -113,37 +114,24 @@ class DrivenBlade(Discretized):
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def _drive(self, phase: FloatArray, frequency: float) -> tuple[FloatArray, FloatArray, Any]:
-        """Return w, ẇ and the push at the phases."""
-        load = self.load
-        rate = self.speed(frequency) + load.rate(phase)
+    def _at(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, phase: FloatArray, nu: float
+    ) -> tuple[FloatArray, FloatArray, FloatArray, Driven]:
+        """Return states q, q̇ and q̈ at phases, and what drives them there."""
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
-        return rate, load.acceleration(phase, frequency), pushes(self.model, [(load, phase)], angle)
+        push = pushes(self.model, [(self.load, phase)], angle)
+        rate = self.speed(nu) + self.load.rate(phase)
+        return q, q_dot, q_ddot, Driven(rate, self.load.acceleration(phase, nu), push)
 
-    def residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        frequency: float,
-    ) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, frequency))
+    def residual(self, *state: Any) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ at phases and ν."""
+        return self.model.residual(*self._at(*state))
 
-    def tangent(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        frequency: float,
-    ) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
+    def tangent(self, *state: Any) -> Tangent:
+        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
+        return self.model.tangent(*self._at(*state))
 
     def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
-        q, q_dot, q_ddot, phase, frequency = state
-        return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))
+        """Return force and moment at `x` in the same states, as the model does."""
+        return self.model.section_loads(x, *self._at(*state))

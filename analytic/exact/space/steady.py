@@ -18,6 +18,7 @@ from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
 from ..beam.discretization import require_shear
+from ..beam.state import Driven
 from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
@@ -201,7 +202,7 @@ class SpaceBlade(AtConstantRate):
         # A moment that keeps its direction has no potential.
         values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
         for _ in range(_STEPS):
-            tangent = self.model.tangent(q[None], still, still, rate, push=push)
+            tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
             if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
