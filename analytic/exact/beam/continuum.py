@@ -54,20 +54,8 @@ class Continuum(Kinematics):
 
     The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal in EI and
     φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
-    first in every array.
-
-    Parameters
-    ----------
-    slenderness : float
-        μ = I/(AL²); zero for the inextensible beam.
-    bending, axial : int
-        Number of functions for θ and for e; with shear, as many for γ as for e.
-    blade : UnitBlade
-        Section, point masses, hub radius and setting angle, relative to the uniform beam.
-    shear : float or None
-        σ = k_s GA/(EA); None to leave shear out.
-    engesser : bool
-        Whether the tension acts along the slope of the axis; else along the section's normal.
+    first in every array. Parameters as attributes of `Kinematics`; of the inextensible beam the
+    slenderness is zero.
 
     Attributes
     ----------
@@ -76,6 +64,8 @@ class Continuum(Kinematics):
         "mass", "length" and "tip": a load acts on one of them.
     has_dear_tangent : bool
         Whether one costs many residuals, so that it serves in the steps of time after it.
+    engesser : bool
+        Whether the tension acts along the slope of the axis; else along the section's normal.
     """
 
     has_dear_tangent: ClassVar[bool] = False

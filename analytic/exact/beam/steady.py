@@ -81,7 +81,7 @@ class AtConstantRate(Discretized):
 
 @dataclass(frozen=True, eq=False)
 class SteadyBeam(AtConstantRate):
-    """The beam in a frame that turns at a constant rate; a `methods.system`.
+    """The beam in a frame that turns at a constant rate; a system of `methods`.
 
     The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
     maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.

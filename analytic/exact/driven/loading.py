@@ -35,16 +35,7 @@ def unit_load(beam: AnyBlade, load: Load) -> Load:
 def pushes(
     model: Continuum | SpaceContinuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
 ) -> Any:
-    """Return the force of all loads as `model.residual` takes it, None if none.
-
-    Parameters
-    ----------
-    model : Continuum or SpaceContinuum
-    loads : sequence
-        Without dimensions, and their phases (samples,).
-    angle : ndarray (samples,)
-        θ [rad].
-    """
+    """Return the force of all loads, with their phases (samples,), as a model takes it, or None."""
     total: Any = None
     for load, phase in loads:
         if load.acts_on is not None:
@@ -56,16 +47,10 @@ def pushes(
 
 @dataclass(frozen=True, eq=False)
 class DrivenBlade(Discretized):
-    """The blade under one load in steady rotation, in its plane or in space; a `methods.system`.
+    """The blade under one load in steady rotation, in its plane or in space; a system of `methods`.
 
-    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well.
-
-    Attributes
-    ----------
-    steady : SteadyBeam or SpaceBlade
-        Without the load; its gauge is that of the response.
-    load : Load
-        Without dimensions.
+    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well. The
+    gauge is that of the blade without the load, which has no dimensions.
     """
 
     steady: SteadyBeam | SpaceBlade

@@ -35,13 +35,7 @@ _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the s
 
 
 def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceContinuum:
-    """Return the discretization by at least so many functions for each curvature.
-
-    Raises
-    ------
-    ValueError
-        If the stiffness out of the plane, or in torsion, is not known.
-    """
+    """Return the discretization by at least so many functions for each curvature."""
     require_section(beam)
     require_shear(beam, require_theory(theory))
     if theory.engesser:
@@ -94,7 +88,7 @@ def require_section(beam: AnyBlade) -> None:
 
 @dataclass(frozen=True, eq=False)
 class SpaceBlade(AtConstantRate):
-    """The blade in a frame that turns at a constant rate; a `methods.system`.
+    """The blade in a frame that turns at a constant rate; a system of `methods`.
 
     Attributes
     ----------
@@ -153,13 +147,7 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def equilibrium(self) -> FloatArray:
-        """Coordinates (n,) of the steady state.
-
-        Raises
-        ------
-        ValueError
-            If it ends, or becomes unstable, at a lower speed.
-        """
+        """Coordinates (n,) of the steady state; refused if it ends, or gets unstable, before."""
         found = None if self.near is None else self._newton(self.near, 1.0)
         if found is not None:
             return found
