@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-import matplotlib as mpl
+from sphinx_gallery.scrapers import matplotlib_scraper
 
 GROUPS = {
     "Benchmark": (
@@ -60,7 +60,6 @@ def grouped(index: str) -> str:
     return head
 
 
-def same_resolution(gallery: dict[str, Any], file_name: str) -> None:
-    """Save pictures at the resolution of the house, whether a script sets its style or not."""
-    del gallery, file_name
-    mpl.rcParams["savefig.dpi"] = 300
+def picture(block: Any, names: dict[str, Any], gallery: dict[str, Any]) -> str:
+    """Save a script's figures at 150 dpi, letters as large as the page's, and at twice that."""
+    return str(matplotlib_scraper(block, names, gallery, dpi=150))
