@@ -17,7 +17,7 @@ from ...settled import settled
 from ...theory import Theory
 from ..beam.discretization import require_out_of_plane
 from .continuum import SpaceContinuum
-from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
+from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
@@ -140,10 +140,21 @@ def space_modes(
 
 
 def space_modes_on(
-    model: SpaceContinuum, blade: AnyBlade, omega: float, count: int, *, torsion: bool = False
+    model: SpaceContinuum,
+    blade: AnyBlade,
+    omega: float,
+    count: int,
+    *,
+    torsion: bool = False,
+    near: SpaceModes | None = None,
 ) -> SpaceModes:
-    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    """Return the modes on a discretization that is known to resolve them, unchecked.
+
+    The steady state is sought from that of modes on the same discretization at a speed nearby.
+    """
     steady = space_rotation(blade, omega, model)
+    if near is not None and abs(near.omega - omega) <= LONGEST * blade.frequency_scale:
+        steady = replace(steady, near=near._steady)
     found, shapes = _solved(steady, torsion)
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
 

@@ -28,7 +28,8 @@ FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
 MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
-_LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
+LONGEST = 1.0
+"""Step of w̄ from one state to the next: beyond, Newton's method may leave the branch."""
 _SHORTEST = 1e-3
 _LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
@@ -154,7 +155,7 @@ class SpaceBlade(AtConstantRate):
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
         straight = unit.half_turn and unit.mirrored and not self._is_loaded
-        whole = max(self.rate / _LONGEST, self._loaded)
+        whole = max(self.rate / LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
         while True:
