@@ -119,11 +119,6 @@ class Campbell:
             Drawn on these; otherwise on a new figure.
         highest : float, optional
             Frequency [rad/s] up to which is drawn; otherwise all are.
-
-        Examples
-        --------
-        >>> from analytic import Beam, campbell
-        >>> ax = campbell(Beam.reference(), [0.0, 4.0, 8.0, 12.0]).plot()
         """
         ax = axes_or_new(ax)
         low, high = float(self.omegas[0]), float(self.omegas[-1])

@@ -106,11 +106,6 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
     The trapeze effect and the propeller moment stiffen it. Of the paper's rectangle at 12 rad/s the
     first is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75
     with both.
-
-    Raises
-    ------
-    ValueError
-        If its torsional stiffness is unknown or infinite, or its polar inertia zero.
     """
     known = require_out_of_plane(blade, torsion=False)
     if known.torsion_ratio is None or math.isinf(known.torsion_ratio):
@@ -131,13 +126,7 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
 def space_modes(
     blade: AnyBlade, omega: float, count: int, theory: Theory, *, torsion: bool = False
 ) -> SpaceModes:
-    """Return the lowest modes, or those of torsion alone, on more functions until they settle.
-
-    Raises
-    ------
-    ValueError
-        If they do not.
-    """
+    """Return the lowest modes, or those of torsion alone, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
     _, (steady, (found, shapes)), error = settled(
         lambda one: (one, _solved(one, torsion)),

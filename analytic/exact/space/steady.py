@@ -18,6 +18,7 @@ from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
 from ..beam.discretization import require_shear
+from ..beam.state import Driven
 from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
@@ -35,13 +36,7 @@ _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the s
 
 
 def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceContinuum:
-    """Return the discretization by at least so many functions for each curvature.
-
-    Raises
-    ------
-    ValueError
-        If the stiffness out of the plane, or in torsion, is not known.
-    """
+    """Return the discretization by at least so many functions for each curvature."""
     require_section(beam)
     require_shear(beam, require_theory(theory))
     if theory.engesser:
@@ -94,7 +89,7 @@ def require_section(beam: AnyBlade) -> None:
 
 @dataclass(frozen=True, eq=False)
 class SpaceBlade(AtConstantRate):
-    """The blade in a frame that turns at a constant rate; a `methods.System`.
+    """The blade in a frame that turns at a constant rate; a system of `methods`.
 
     Attributes
     ----------
@@ -153,13 +148,7 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def equilibrium(self) -> FloatArray:
-        """Coordinates (n,) of the steady state.
-
-        Raises
-        ------
-        ValueError
-            If it ends, or becomes unstable, at a lower speed.
-        """
+        """Coordinates (n,) of the steady state; refused if it ends, or gets unstable, before."""
         found = None if self.near is None else self._newton(self.near, 1.0)
         if found is not None:
             return found
@@ -202,7 +191,7 @@ class SpaceBlade(AtConstantRate):
         # A moment that keeps its direction has no potential.
         values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
         for _ in range(_STEPS):
-            tangent = self.model.tangent(q[None], still, still, rate, push=push)
+            tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
             if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
