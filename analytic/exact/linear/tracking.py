@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import count as count_from
+from functools import partial
 from itertools import pairwise
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
-from scipy.interpolate import barycentric_interpolate
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -22,9 +21,6 @@ from ..space.steady import lives_in_space
 from .modes import LinearModes, Plane, flap_blade, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
-_THROUGH = 4  # solved speeds that a crossing is interpolated through
-_HALVED = 4  # th step halves the interval, for frequencies that jump
-_NEAR = 1e-9  # of the speed: so near to a solved one an interpolated crossing is exact to rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,52 +103,40 @@ def _met(
     speeds: FloatArray,
     frequencies: FloatArray,
     orders: int,
-    tracked: Callable[[float, int], FloatArray],
+    tracked: Callable[..., FloatArray],
 ) -> list[Crossing]:
     """Return where the columns cross kω; what finds it depends on the speed before."""
     crossings = []
-    known = dict(zip(speeds.tolist(), frequencies, strict=True))
     for row, ends in enumerate(pairwise(speeds.tolist())):
+        known = dict(zip(ends, frequencies[row : row + 2], strict=True))
         for column in range(frequencies.shape[1]):
             for order in range(1, orders + 1):
                 before, after = (known[end][column] - order * end for end in ends)
                 if before > 0.0 >= after or before < 0.0 <= after:
-                    omega = _crossed(known, row, ends, column, order, tracked)
+                    square = optimize.toms748(
+                        _detuning, ends[0] ** 2, ends[1] ** 2,
+                        args=(known, partial(tracked, row=row), column, order),
+                        xtol=1e-13 * ends[1] ** 2, rtol=1e-13,
+                    )  # fmt: skip
+                    omega = math.sqrt(square)
                     crossings.append(
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
                     )
     return crossings
 
 
-def _crossed(
+def _detuning(
+    square: float,
     known: dict[float, FloatArray],
-    row: int,
-    ends: tuple[float, float],
+    tracked: Callable[[float], FloatArray],
     column: int,
     order: int,
-    tracked: Callable[[float, int], FloatArray],
 ) -> float:
-    """Return where a column crosses kω between the ends; all that is solved becomes known."""
-    low, high = ends
-    falls = known[low][column] > order * low
-    for step in count_from(1):
-        # Squares of frequencies are nearly straight over those of the speed.
-        squares = np.array(list(known)) ** 2
-        detuning = np.array([found[column] for found in known.values()]) ** 2 - order**2 * squares
-        nearest = np.argsort(np.abs(detuning))[:_THROUGH]
-        square = float(barycentric_interpolate(detuning[nearest], squares[nearest], 0.0))
-        middle = 0.5 * (low + high)
-        omega = math.sqrt(square) if low**2 < square <= high**2 else middle
-        if min(omega - low, high - omega) <= _NEAR * high:
-            break
-        if step % _HALVED == 0:
-            omega = middle
-        known[omega] = tracked(omega, row)
-        if (known[omega][column] > order * omega) == falls:
-            low = omega
-        else:
-            high = omega
-    return omega
+    """Return ω_n² - (kω)² of a column at ω²: squares of frequencies are nearly straight over it."""
+    omega = math.sqrt(square)
+    if omega not in known:
+        known[omega] = tracked(omega)
+    return float(known[omega][column] ** 2 - order**2 * square)
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:
