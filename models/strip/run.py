@@ -86,7 +86,7 @@ def exact(functions: str, tolerances: str = "loose", case: str = "") -> None:
         driven = driven_at(t + h * method.nodes)
         found = method.step(
             length, q, q_dot, guess, newton=TIGHT if tight else LOOSE, factors=factors,
-            residual=partial(model.residual, **driven), tangent=partial(model.tangent, **driven),
+            residual=partial(model.residual, by=driven), tangent=partial(model.tangent, by=driven),
         )  # fmt: skip
         if found is None:
             h, quick, factors = 0.5 * h, 0, None
