@@ -95,16 +95,26 @@ def test_the_strip_buckles_at_once():
     assert table["flap"][0] == pytest.approx(1e-3, rel=1e-6)
 
 
-def test_the_mildest_ramp_as_exactly_as_its_noise_allows():
-    """The kick of 1e-6 L grows a hundred thousand times, and round-off with it."""
-    one, other = "exact_mildest_32", "exact_mildest_40"
-    difference = three_codes.apart(one, other)
-    assert difference[:101].max() < 1e-8
-    assert difference.max() == pytest.approx(4.55e-5, rel=0.01)
-    for table in map(three_codes.history, (one, other)):
-        assert crossing(table) == pytest.approx([1.164, -0.0988], abs=1e-4)
-        assert table["time"][-1] == 1.4
-        assert table["lag"][-1] == pytest.approx(-0.17229, abs=1e-5)
+@pytest.mark.parametrize(
+    ("case", "same", "most", "first", "last"),
+    [
+        ("small", 0.75, [3.04e-4, 0.0174], [0.807, -0.1298], [1.09, -0.3612]),
+        ("mildest", 1.1, [4.55e-5, 1.2e-3], [1.164, -0.0988], [1.4, -0.1723]),
+    ],
+)
+def test_a_kick_as_small_as_1e_6_is_known_to_fewer_digits(case, same, most, first, last):
+    """It grows a hundred thousand times, and round-off with it."""
+    tables = [f"exact_{case}_{functions}" for functions in (32, 40)]
+    difference = three_codes.apart(*tables)
+    until = round(100 * same)
+    assert difference[: until + 1].max() < 1e-6 < difference[until + 1]
+    histories = [three_codes.history(table) for table in tables]
+    twists = np.abs(histories[0]["twist"] - histories[1]["twist"])
+    assert [difference.max(), twists.max()] == pytest.approx(most, rel=0.01)
+    for table in histories:
+        assert crossing(table) == pytest.approx(first, abs=6e-4)
+        assert [table["time"][-1], table["lag"][-1]] == pytest.approx(last, abs=1.1e-4)
+        assert table["flap"][0] == pytest.approx(1e-6, rel=1e-6)
 
 
 def test_the_figure_has_three_codes():
