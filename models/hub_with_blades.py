@@ -33,7 +33,7 @@ time, speed = mbs.GetSensorStoredData(spin)[:, [0, 3]].T
 torques = [mbs.GetSensorStoredData(sensor)[:, 1] for sensor in sensors]
 _, (above, below) = plt.subplots(2, sharex=True)
 above.plot(time, speed)
-above.set(ylabel="hub's speed [rad/s]")
+above.set(ylabel="hub speed [rad/s]")
 below.set(xlabel="time [s]", ylabel="clamp torque [N m]")
 below.plot(time, np.transpose(torques[:2]), label=["with ice", "each of the others"])
 below.set_ylim(top=330.0)
