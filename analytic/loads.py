@@ -314,15 +314,7 @@ def require_load(load: object) -> None:
 
 
 def loads_in_time(loads: Any) -> tuple[Load, ...]:
-    """Return the loads of a motion in time as a tuple, each with all that it needs.
-
-    Raises
-    ------
-    TypeError
-        If it is no sequence of loads.
-    ValueError
-        If a harmonic load has no frequency, or a ripple the frequency zero.
-    """
+    """Return the loads of a motion in time as a tuple; refuse one that lacks its frequency."""
     if not isinstance(loads, (tuple, list)):
         raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
     for load in loads:

@@ -21,6 +21,7 @@ from analytic import (
 from analytic.damping import UNDAMPED
 from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
+from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import SteadyBeam, steady_rotation
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import space_continuum
@@ -63,7 +64,7 @@ class Across:
     def tangent(self, phase):
         state = np.zeros((3, phase.size, self.model.size))
         state[:, :, self.inside] = np.array(self.orbit.coordinates(phase))[..., : self.inside.size]
-        at = self.model.tangent(*state, self.orbit.system.rate)
+        at = self.model.tangent(*state, Driven(self.orbit.system.rate))
         for part in at[1:]:
             mixed = np.delete(part, self.out, axis=2)[:, self.out]
             assert np.abs(mixed).max() < 1e-13 * np.abs(part).max(), "the plane is invariant"

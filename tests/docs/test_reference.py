@@ -14,6 +14,7 @@ import rotbeam_exu
 ROOT = Path(__file__).parents[2]
 PLAIN = {
     "records that the example of what makes them shows": (
+        "analytic.exact.free.curve.BackboneCurve analytic.spin_up.quiet.QuietRamps "
         "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "

@@ -44,16 +44,9 @@ def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatA
 
 
 class Space:
-    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
+    """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
-    Parameters
-    ----------
-    blade : Beam or Blade
-        With a known section out of the plane.
-    functions : int
-        Least number of functions for each.
-    theory : Theory
-        Whether there are the second line of L2, and inertia of the twist, as in space.
+    The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
 
     Attributes
     ----------
@@ -114,13 +107,7 @@ class Space:
     def stiffness(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
     ) -> FloatArray:
-        """Return the stiffness (samples, n, n) about a planar motion of `planar`.
-
-        Raises
-        ------
-        LinAlgError
-            If the twist has no inertia and buckles.
-        """
+        """Return the stiffness (samples, n, n) about a planar motion of `planar`."""
         model, r = planar.model, self.section.bending_ratio
         x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         kappa, e, change = model.bent(q)
@@ -160,13 +147,7 @@ class Space:
     def resistance(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each.
-
-        Raises
-        ------
-        ValueError
-            If a twist without inertia were viscous.
-        """
+        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
         model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
         if viscosity and self.twist == "quasi-static" and r != 1.0:
             raise ValueError(
@@ -224,12 +205,7 @@ def _times(factor: FloatArray, functions: FloatArray) -> FloatArray:
 class OutOfPlaneMotion:
     """Small motion out of the plane about a periodic orbit, as `methods.floquet` sees an orbit.
 
-    Attributes
-    ----------
-    orbit : Orbit
-    space : Space
-    modal : ndarray (n, n), optional
-        Damping beside the blade's own.
+    It may have `modal` damping (n, n) on top of the blade's own.
     """
 
     orbit: BeamOrbit
