@@ -12,6 +12,11 @@ PAGES = (
     "index", "class/index", "theory/continuum", "theory/errata", "explorer", "search",
     "reference/api/analytic.exact.free.orbits.Orbits",
 )  # fmt: skip
+KINDS = (
+    "index", "start", "class/index", "howto/judge", "gallery/index", "gallery/spin_up", "explorer",
+    "theory/errata", "reference/index", "reference/api/analytic.periodic_orbits",
+)  # fmt: skip
+AXE = SITE.parents[2] / "node_modules" / "axe-core" / "axe.min.js"
 pytestmark = [
     pytest.mark.site,
     pytest.mark.skipif(not (SITE / "index.html").exists(), reason="no site: make docs"),
@@ -100,3 +105,17 @@ def test_pages_are_whole_without_a_network(offline, name):
     page.close()
     assert [url for url in asked if not url.startswith((SITE.as_uri(), "data:"))] == []
     assert missed == []
+
+
+@pytest.mark.skipif(not AXE.exists(), reason="no axe: npm install --no-save axe-core")
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("name", KINDS)
+def test_axe_finds_nothing(offline, name, theme):
+    """Names of links and pictures, contrast, lists and heads of tables, by WCAG's own checks."""
+    page = offline.new_page()
+    page.emulate_media(color_scheme=theme)
+    page.goto((SITE / f"{name}.html").as_uri())
+    page.add_script_tag(path=AXE)
+    found = page.evaluate("axe.run().then(r => r.violations.map(v => [v.id, v.nodes[0].html]))")
+    page.close()
+    assert found == []
