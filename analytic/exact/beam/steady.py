@@ -52,6 +52,15 @@ class AtConstantRate(Discretized):
         """The load, as `model.residual` takes it."""
         return None
 
+    def unloaded(self, frequency: float) -> Self:
+        """Return it without load, at the speed that belongs to a drive's frequency."""
+        del frequency
+        return self
+
+    def forcing(self) -> tuple[Any, Any, Any]:
+        """Return w, ẇ and the push, as `model.residual` takes them."""
+        return self.rate, 0.0, self.push
+
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
         return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate, push=self.push))

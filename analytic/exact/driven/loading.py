@@ -110,16 +110,19 @@ class DrivenBlade(Discretized):
         """Return w̄."""
         return frequency if self._turns else self.steady.rate
 
+    def unloaded(self, frequency: float) -> SteadyBeam | SpaceBlade:
+        """Return the blade in steady rotation without the load."""
+        return replace(self.steady, rate=frequency) if self._turns else self.steady
+
     def rest(self, frequency: float) -> FloatArray:
         """Return the steady state without the load, (n,)."""
-        steady = replace(self.steady, rate=frequency) if self._turns else self.steady
-        return steady.equilibrium
+        return self.unloaded(frequency).equilibrium
 
     def loaded(self, share: float) -> DrivenBlade:
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def _drive(self, phase: FloatArray, frequency: float) -> tuple[FloatArray, FloatArray, Any]:
+    def forcing(self, phase: FloatArray, frequency: float) -> tuple[Any, Any, Any]:
         """Return w, ẇ and the push at the phases."""
         load = self.load
         rate = self.speed(frequency) + load.rate(phase)
@@ -136,7 +139,7 @@ class DrivenBlade(Discretized):
         frequency: float,
     ) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.residual(q, q_dot, q_ddot, *self.forcing(phase, frequency))
 
     def tangent(
         self,
@@ -147,9 +150,9 @@ class DrivenBlade(Discretized):
         frequency: float,
     ) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.tangent(q, q_dot, q_ddot, *self.forcing(phase, frequency))
 
     def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
         q, q_dot, q_ddot, phase, frequency = state
-        return self.model.section_loads(x, q, q_dot, q_ddot, *self._drive(phase, frequency))
+        return self.model.section_loads(x, q, q_dot, q_ddot, *self.forcing(phase, frequency))
