@@ -14,7 +14,7 @@ from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 
 from .lazily import xr
-from .result_columns import dataset
+from .result_columns import GROWTH, dataset
 from .runs.attributes import beam_attributes, loads_attributes
 from .runs.versions import versions
 
@@ -33,7 +33,7 @@ def of_forced(response: ForcedResponse) -> xr.Dataset:
         reason = f"Whether the response stays in its plane is not known: {unknown}"
         return data.assign_attrs(planar=reason)
     growth = {
-        "growth_rate": ("point", found.growth_rate, "growth out of the plane [1/s]"),
+        "growth_rate": ("point", found.growth_rate, GROWTH),
         "kind": ("point", list(found.kind), "how it grows"),
     }
     return data.merge(dataset(growth, {})).assign_attrs(planar=str(found))
