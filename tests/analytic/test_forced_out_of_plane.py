@@ -53,7 +53,7 @@ def test_its_multipliers_and_those_in_the_plane_are_all_of_the_blade_in_space(
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_as_load_and_damping_vanish_it_is_the_growth_about_the_free_orbit():
-    """At the peak the load stands against the damping alone; half of both, less than half of the rest."""
+    """At the peak the load stands against damping alone; half of both leaves less than half."""
     blade = RIGID.with_damping(Damping())
     apart = []
     for share in (1.0, 0.5):
