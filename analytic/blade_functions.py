@@ -121,13 +121,7 @@ def settled_functions(
     of: Callable[[FoundT], tuple[float, ...]],
     name: str,
 ) -> FoundT:
-    """Return what `solve` finds with the first number of functions that settles its numbers.
-
-    Raises
-    ------
-    ValueError
-        If the most functions still change them by more than 1e-5.
-    """
+    """Return what `solve` finds with the first number of functions that settles its numbers."""
     sizes = basis_sizes(blade, w_bar)
     remedy = "rotate slower, or smooth the section"
     return settled(solve, iter(sizes), tolerance, of, name, remedy, left=_KINKED)[1]

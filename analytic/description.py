@@ -54,13 +54,7 @@ def kinds_of(family: type[ValueT]) -> dict[str, type[ValueT]]:
 
 
 def describe(value: object) -> dict[str, Any]:
-    """Return kind and fields of a value as plain numbers, texts, lists and mappings.
-
-    Raises
-    ------
-    TypeError
-        If its class is no kind, or if its fields do not tell all of it.
-    """
+    """Return kind and fields of a value as plain numbers, texts and lists; or refuse it."""
     cls, told = type(value), _told(value)
     try:
         whole = bool(from_description(json.loads(json.dumps(told)), cls) == value)
@@ -75,13 +69,7 @@ def describe(value: object) -> dict[str, Any]:
 
 
 def from_description(told: Mapping[str, Any], family: type[ValueT]) -> ValueT:
-    """Return the value that `describe` told of.
-
-    Raises
-    ------
-    ValueError
-        If it is of no known kind of this family, or the kind has other fields.
-    """
+    """Return the value that `describe` told of; refuse one of no known kind of the family."""
     kind = told.get(_KIND)
     cls = kinds_of(family).get(str(kind))
     if cls is None:

@@ -269,7 +269,7 @@ class Gravity(Load):
     >>> blade = Beam.reference().with_damping(Damping(external=0.3))
     >>> found = forced_response(blade, [5.0, 5.5], Gravity(1.62), functions=8)
     >>> found.load
-    Gravity(gravity=1.62)
+    Gravity(gravity=1.62, tilt=0.0)
     >>> print(f"{found.amplitude[0]:.4f} L at {found.omega[0]:.1f} rad/s, on the moon")
     0.0220 L at 5.0 rad/s, on the moon
     """
@@ -314,15 +314,7 @@ def require_load(load: object) -> None:
 
 
 def loads_in_time(loads: Any) -> tuple[Load, ...]:
-    """Return the loads of a motion in time as a tuple, each with all that it needs.
-
-    Raises
-    ------
-    TypeError
-        If it is no sequence of loads.
-    ValueError
-        If a harmonic load has no frequency, or a ripple the frequency zero.
-    """
+    """Return the loads of a motion in time as a tuple; refuse one that lacks its frequency."""
     if not isinstance(loads, (tuple, list)):
         raise TypeError(f"loads must be several, as in loads=(Gravity(),), got {loads!r}")
     for load in loads:

@@ -207,21 +207,11 @@ class SpinUp(SpeedChange):
 
 @dataclass(frozen=True, kw_only=True)
 class Rippled(Motion):
-    """A rotation whose rate has a ripple, ε cos νt, from t = 0 on.
-
-    Parameters
-    ----------
-    rotation : Rotation
-        Without the ripple.
-    amplitude : float
-        ε [rad/s].
-    frequency : float
-        ν [rad/s], not zero.
-    """
+    """A rotation whose rate has a ripple, ε cos νt, from t = 0 on."""
 
     rotation: Rotation
-    amplitude: float
-    frequency: float
+    amplitude: float  # ε [rad/s]
+    frequency: float  # ν [rad/s], not zero
 
     def _at(self, t: Any, derivative: int) -> Any:
         phase = self.frequency * t

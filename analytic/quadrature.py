@@ -126,10 +126,7 @@ class Grid:
     def _inside(
         self, x: FloatArray
     ) -> tuple[NDArray[np.intp], list[tuple[NDArray[np.intp], NDArray[np.intp], FloatArray]]]:
-        """Return the cell of each place, and what integrates from its start up to the place.
-
-        That is, for each number of points: which places, their cells' points and the matrix.
-        """
+        """Return the cell of each place; by number of points the places, points and the matrix."""
         cell = np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.counts.size - 1)
         width, parts = np.diff(self.ends), []
         for count in np.unique(self.counts[cell]).tolist():
@@ -178,22 +175,11 @@ class Grid:
 
 
 class Stretch(NamedTuple):
-    """Some cells of a grid, and the places in them.
+    """Some cells of a grid, and the places in them."""
 
-    Attributes
-    ----------
-    own : slice
-        Points of the grid.
-    places : slice or ndarray
-    onto : ndarray (points, places)
-        Transpose of the matrix from values at these points to integrals from the first cell's
-        start up to these places.
-    weights : ndarray (points,)
-    """
-
-    own: slice
+    own: slice  # points of the grid
     places: slice | NDArray[np.intp]
-    onto: FloatArray
+    onto: FloatArray  # (points, places), transpose of that to integrals from the first cell's start
     weights: FloatArray
 
 
@@ -262,20 +248,14 @@ def _normalized(count: int, values: FloatArray) -> FloatArray:
 
 
 def _integrated(values: FloatArray) -> FloatArray:
-    """Return the integrals from the clamp of P_k, or of their integrals, one fewer.
-
-    ∫P_k dx = (P_{k+1} - P_{k-1})/(4k+2), where P_{-1} stands for -P_0; and so again.
-    """
+    """∫P_k dx = (P_{k+1} - P_{k-1})/(4k+2) from the clamp, P_{-1} being -P_0; and so again."""
     before = np.concatenate((-values[..., :1], values[..., :-2]), axis=-1)
     k = np.arange(values.shape[-1] - 1)
     return np.asarray((values[..., 1:] - before) / (4.0 * k + 2.0))
 
 
 def _differentiated(values: FloatArray) -> FloatArray:
-    """Return the derivatives to x of P_k or of their derivatives, as many.
-
-    P_k' = P_{k-2}' + (4k-2) P_{k-1}; and so again.
-    """
+    """P_k' = P_{k-2}' + (4k-2) P_{k-1}; and so again."""
     slopes = np.zeros_like(values)
     for k in range(1, values.shape[-1]):
         slopes[..., k] = slopes[..., max(k - 2, 0)] * (k > 1) + (4.0 * k - 2.0) * values[..., k - 1]

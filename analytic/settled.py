@@ -26,12 +26,8 @@ def settled(
     """Return a result, the finer result that confirms it, and the largest change.
 
     They are the first two in a row whose numbers `of` a result agree to the tolerance; logarithms
-    give relative changes. Of all sizes the last two may differ by what is `left`.
-
-    Raises
-    ------
-    ValueError
-        If they differ by more: the sentence says in `what`, and ends on the remedy.
+    give relative changes. Of all sizes the last two may differ by what is `left`; by more they are
+    refused in a sentence that says in `what` and ends on the `remedy`.
     """
     found, change = solve(next(sizes)), math.inf
     for size in sizes:

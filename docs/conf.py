@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 _HANDS = 8  # that pages are dealt to: more than there are chunks for each process
 sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
 
-from gallery_order import same_resolution  # noqa: E402
+from gallery_order import grouped, picture  # noqa: E402
 
 import rotbeam_exu  # noqa: E402
 from rotbeam_exu.paper import MODEL_NAMES  # noqa: E402
@@ -101,9 +101,9 @@ sphinx_gallery_conf = {
     "min_reported_time": 1000,
     "parallel": True,  # as sphinx -j says
     "write_computation_times": False,  # a page whose table another host sorts
-    "image_scrapers": ("matplotlib",),
+    "image_scrapers": (picture,),
     "image_srcset": ["2x"],
-    "reset_modules": ("matplotlib", same_resolution),
+    "reset_modules": ("matplotlib",),
 }
 
 html_theme = "pydata_sphinx_theme"
@@ -152,6 +152,15 @@ def without_other_hosts(app: Any, page: str, source: list[str]) -> None:
     del app
     if page.startswith("gallery/"):
         source[0] = re.sub(r'<link rel="stylesheet"\s+href="https://[^"]*">', "", source[0])
+    if page == "gallery/index":
+        source[0] = grouped(source[0])
+
+
+def without_half_lists(app: Any, page: str, template: str, context: Any, tree: Any) -> None:
+    """Call the parameters of a long signature no list: they are one without its terms."""
+    del app, page, template, tree
+    body = context.get("body", "")
+    context["body"] = body.replace("<dl>\n<dd><em", '<dl role="presentation">\n<dd><em')
 
 
 def spread(app: Any, env: Any, pages: list[str]) -> None:
@@ -199,5 +208,6 @@ def setup(app: Any) -> None:
     app.connect("build-finished", put_mathjax)
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
+    app.connect("html-page-context", without_half_lists)
     app.connect("env-before-read-docs", spread)
     app.connect("builder-inited", write_interactive, priority=100)

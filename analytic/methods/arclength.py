@@ -35,41 +35,28 @@ class Curve(Protocol):
 
     def residual(self, z: FloatArray) -> FloatArray:
         """Return the N residuals at the N + 1 unknowns, the parameter last."""
-        ...
 
     def jacobian(self, z: FloatArray) -> FloatArray:
         """Return their derivatives, (N, N + 1)."""
-        ...
 
     def products(self, z: FloatArray) -> Vector:
         """Return the function that multiplies them with a vector (N + 1,)."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
 class Point:
     """A point of a curve.
 
-    Attributes
-    ----------
-    z : ndarray (N + 1,)
-    tangent : ndarray (N + 1,)
-        Of unit length, along the way the curve is followed.
-    steps : int
-        Newton steps that it took.
-    factors : tuple
-        LU factors of the equations' Jacobian with a vector along the tangent as its last row, here
-        or, of many unknowns, at a point before.
-    matrix : callable
-        Returns that matrix here.
+    Its matrix is the equations' Jacobian with a vector along the tangent as its last row. The
+    factors are those of the matrix here or, of many unknowns, at a point before.
     """
 
-    z: FloatArray
-    tangent: FloatArray
-    steps: int
+    z: FloatArray  # (N + 1,)
+    tangent: FloatArray  # (N + 1,) of unit length, along the way the curve is followed
+    steps: int  # of Newton's method
     factors: Any
     matrix: Callable[[], FloatArray]
-    _own: Any
+    _own: Any  # factors of the matrix here, if they were made
 
     @cached_property
     def determinant(self) -> float:
@@ -87,13 +74,7 @@ class Point:
 def corrected(
     curve: Curve, guess: FloatArray, across: FloatArray, factors: tuple[Any, Any] | None = None
 ) -> Point:
-    """Return the point in the plane through `guess` across the direction `across`.
-
-    Raises
-    ------
-    NoOrbitError
-        If Newton's method does not converge.
-    """
+    """Return the point in the plane through `guess` across `across`; raises NoOrbitError."""
 
     def residual(z: FloatArray) -> FloatArray:
         return np.append(curve.residual(z), across @ (z - guess))
@@ -141,13 +122,7 @@ def _by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArra
 
 
 def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[Point, float]:
-    """Return the next point at about the distance `step`, and the step to try after it.
-
-    Raises
-    ------
-    NoOrbitError
-        If no step, however short, finds one.
-    """
+    """Return the next point at about `step`, and the step after it; raises NoOrbitError."""
     for _ in range(_HALVINGS):
         try:
             found = corrected(curve, point.z + step * point.tangent, point.tangent, point.factors)

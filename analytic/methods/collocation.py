@@ -30,13 +30,7 @@ TANGENT_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, br
 
 
 class Collocation:
-    """The polynomial of degree s - 1 for the acceleration over one step of unit length.
-
-    Parameters
-    ----------
-    nodes : ndarray (s,)
-        Where the equations are met, in 0 to 1.
-    """
+    """Acceleration over one step of unit length, a polynomial by values at nodes (s,) in 0 to 1."""
 
     def __init__(self, nodes: FloatArray) -> None:
         self.nodes, stages = nodes, nodes.size

@@ -35,27 +35,13 @@ _FARTHEST = 6.0  # from an orbit to one guessed from it, as a ratio of the ampli
 
 
 class Care(NamedTuple):
-    """Effort: how well orbits are resolved, and how hard the next one is sought.
+    """Effort: how well orbits are resolved, and how hard the next one is sought."""
 
-    Attributes
-    ----------
-    drift : float
-        Of the invariant, at which the harmonics suffice.
-    harmonics : int
-        The most that are taken.
-    halvings : int
-        Of a step that finds nothing.
-    functions : int
-        The most that are taken.
-    tail : float
-        Times `RESIDUAL_BOUND`, the residual that is left where kinks of the section cause one.
-    """
-
-    drift: float = 2e-11
-    harmonics: int = 64
-    halvings: int = 5
-    functions: int = 128
-    tail: float = 1.0
+    drift: float = 2e-11  # of the invariant, at which the harmonics suffice
+    harmonics: int = 64  # at most
+    halvings: int = 5  # of a step that finds nothing
+    functions: int = 128  # at most
+    tail: float = 1.0  # times `RESIDUAL_BOUND`, what kinks of the section may leave
 
 
 THOROUGH = Care()
@@ -88,27 +74,14 @@ class Path(Generic[S]):
 
     It grows from its two smallest orbits upwards in steps that do not depend on the amplitudes
     asked for; nor do the answers.
-
-    Attributes
-    ----------
-    seed, double : Orbit
-        The smallest orbits.
-    longest : float
-        Longest step of the amplitude.
-    care : Care
-        With which they are.
-    tangent : LastTangent
-        At first the tangent of the smallest orbits.
-    nodes : list of Orbit
-        Those found so far, ascending.
     """
 
     seed: Orbit[S]
     double: Orbit[S]
-    longest: float
+    longest: float  # step of the amplitude
     care: Care = THOROUGH
     tangent: LastTangent = field(default_factory=LastTangent, repr=False)
-    nodes: list[Orbit[S]] = field(init=False)
+    nodes: list[Orbit[S]] = field(init=False)  # found so far, ascending
     _end: str = field(init=False, default="")
     _step: float = field(init=False, default=math.inf)
 
@@ -116,13 +89,7 @@ class Path(Generic[S]):
         self.nodes = [self.seed, self.double]
 
     def at(self, amplitude: float) -> Orbit[S]:
-        """Return the orbit of the peak `amplitude`, with the error of its frequency.
-
-        Raises
-        ------
-        NoOrbitError
-            If there is none, or none is found: where and why.
-        """
+        """Return the orbit of the peak `amplitude`, with its frequency's error; or NoOrbitError."""
         while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend()
         place = bisect_right(self.nodes, amplitude, key=lambda orbit: orbit.amplitude)
@@ -143,13 +110,7 @@ class Path(Generic[S]):
         raise NoOrbitError(reasons[0], below)
 
     def laid(self, amplitude: float) -> Orbit[S]:
-        """Return the orbit of the peak `amplitude`, at or beyond the last node: it becomes a node.
-
-        Raises
-        ------
-        NoOrbitError
-            As `at` does.
-        """
+        """Return the same, at or beyond the last node: it becomes a node."""
         while self.nodes[-1].amplitude < amplitude - _SAME_AMPLITUDE:
             self._extend(amplitude)
         last = self.nodes[-1]
@@ -243,12 +204,8 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
     Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
-    functions until the residual on half as many again is small.
-
-    Raises
-    ------
-    NoOrbitError
-        If it needs more than are taken.
+    functions until the residual on half as many again is small. Raises NoOrbitError where that
+    takes more than are taken.
     """
     if orbit.system.driven:
         lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"

@@ -19,18 +19,8 @@ class Crest:
     """The peak of the gauge near a phase, or half the swing to it from the lowest point.
 
     By Newton's method. `follow` takes one more step, with the same curvature, as the orbit changes
-    a little.
-
-    Parameters
-    ----------
-    orbit : Orbit
-    phases : ndarray (1,) or (2,)
-        Near the peak, and near the lowest point.
-
-    Attributes
-    ----------
-    height : float
-        Of the peak, or half the distance.
+    a little. The phases are near the peak (1,) or near that and the lowest point (2,); `height` is
+    the peak's, or half the distance.
     """
 
     def __init__(self, orbit: Orbit[Any], phases: FloatArray) -> None:

@@ -28,13 +28,7 @@ _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1
 
 
 class Multipliers(NamedTuple):
-    """Floquet multipliers, the lowest modes first.
-
-    Attributes
-    ----------
-    values : ndarray (2 modes,)
-        Of a free orbit the first two are 1: along the orbit, and along the branch.
-    """
+    """Multipliers (2 modes,), the lowest modes first; the first two of a free orbit are 1."""
 
     values: ComplexArray
 

@@ -69,7 +69,7 @@ def period(harmonics: int, half: bool, fine: bool = False) -> Period:
 def parts_of(
     odd: NDArray[np.bool_] | None, size: int, harmonics: int, pinned: int | None = None
 ) -> Parts:
-    """Return the coefficients that are no zeros, by the symmetry of `System.odd`.
+    """Return the coefficients that are no zeros, by the symmetry `odd` of a system.
 
     Without a drive or symmetry the first cosine of the coordinate `pinned` is zero too, which
     fixes the phase. Its equation follows from all others, for the energy is conserved.

@@ -131,13 +131,7 @@ def _by_frequency(
 
 
 class LastTangent:
-    """The last tangent that was factored; orbits near it make do with it.
-
-    Attributes
-    ----------
-    factors : tuple or None
-        As `scipy.linalg.lu_factor` returns them.
-    """
+    """The last tangent that was factored; orbits near it make do with it."""
 
     def __init__(self) -> None:
         self.factors: Any = None
@@ -156,20 +150,8 @@ class LastTangent:
 def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None) -> Orbit[S]:
     """Return the orbit near `guess` whose gauge has the peak `amplitude`.
 
-    The tangent is factored anew only where the iteration contracts slowly; until then Broyden's
-    method improves its steps.
-
-    Parameters
-    ----------
-    guess : Orbit
-    amplitude : float
-    tangent : LastTangent, optional
-        That of an orbit near by, tried first.
-
-    Raises
-    ------
-    NoOrbitError
-        If Newton's method does not converge.
+    The `tangent`, of an orbit near by, is factored anew only where the iteration contracts slowly;
+    until then Broyden's method improves its steps. Raises NoOrbitError.
     """
     tangent, crest = tangent or LastTangent(), crest_of(guess)
     parts, shape = guess.parts, guess.coefficients.shape
@@ -218,14 +200,8 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
 def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> float:
     """Return the relative change of an orbit's frequency on the refined system.
 
-    The refined equations are solved at the same amplitude and as many harmonics, by a tangent of
-    the orbit and, for what refinement adds, by its stiffness, which is 1.
-
-    Parameters
-    ----------
-    orbit : Orbit
-    tangent : LastTangent, optional
-        A tangent that fits the orbit; by default its own is factored.
+    The refined equations are solved at the same amplitude and as many harmonics, by a tangent that
+    fits the orbit or its own and, for what refinement adds, by its stiffness, which is 1.
     """
     unknowns = packed(orbit.coefficients, orbit.parts).size + 1
     if tangent is None or not tangent.fits(unknowns):

@@ -48,31 +48,15 @@ class Root(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Newton:
-    """Newton's method, with its tolerances.
+    """Newton's method, with its tolerances."""
 
-    Attributes
-    ----------
-    converged : float
-        Size of a change that is left out.
-    slow : float
-        A contraction worse than this pays for a new tangent.
-    steps, tangents : int
-        The most that are taken.
-    stagnates : float
-        Size of changes that round-off no longer lets contract.
-    largest : float
-        Size of a change that leads nowhere.
-    broyden : bool
-        Improve the steps of an old tangent by what those before tell of it.
-    """
-
-    converged: float
-    slow: float
-    steps: int
-    tangents: int = 100
-    stagnates: float = 0.0
-    largest: float = np.inf
-    broyden: bool = False
+    converged: float  # size of a change that is left out
+    slow: float  # a contraction worse than this pays for a new tangent
+    steps: int  # at most
+    tangents: int = 100  # at most
+    stagnates: float = 0.0  # size of changes that round-off no longer lets contract
+    largest: float = np.inf  # size of a change that leads nowhere
+    broyden: bool = False  # improve the steps of an old tangent by what those before tell of it
 
     def root(
         self,

@@ -114,13 +114,7 @@ class At(Generic[S]):
         return at
 
     def followed(self, step: float, longest: float) -> Iterator[tuple[At[S], At[S]]]:
-        """Yield one point after the other with the next, on a curve that resolves both.
-
-        Raises
-        ------
-        NoOrbitError
-            If no step, however short, finds one, or it needs more than is taken.
-        """
+        """Yield points with the next, on a curve that resolves both; raises NoOrbitError."""
         here = self
         while True:
             point, step = advanced(here.curve, here.point, step, longest)

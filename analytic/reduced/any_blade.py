@@ -37,13 +37,7 @@ class BladeOscillator(NamedTuple):
 
 @lru_cache(maxsize=64)
 def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOscillator:
-    """Return Eq. 41 of the blade's first mode at w̄, with or without the other modes.
-
-    Raises
-    ------
-    ValueError
-        If as many functions as are taken do not settle it to 1e-5.
-    """
+    """Return Eq. 41 of the blade's first mode at w̄, with or without the other modes."""
     return settled_functions(
         lambda count: _with_functions(blade, w_bar, coriolis, count),
         blade,

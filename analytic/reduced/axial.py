@@ -23,21 +23,11 @@ Elongation = Callable[[Any, Any], tuple[Any, Any, Any]]
 
 @dataclass(frozen=True, kw_only=True)
 class AxialModel:
-    """The order of the foreshortening, and the shape of the elongation.
+    """The order of the foreshortening, and the shape of the elongation."""
 
-    Attributes
-    ----------
-    name : str
-        Its name in a `Variant`.
-    order : int
-        Highest power of v' kept in u' = -½v'² - ⅛v'⁴: 0, 2 or 4.
-    elongation : Elongation or None
-        Shape φ_ω of Δl ~ μ w̄² φ_ω, Eq. 67; None for an inextensible line.
-    """
-
-    name: Axial
-    order: int = 2
-    elongation: Elongation | None = None
+    name: Axial  # in a `Variant`
+    order: int = 2  # highest power of v' kept in u' = -½v'² - ⅛v'⁴: 0, 2 or 4
+    elongation: Elongation | None = None  # φ_ω of Δl ~ μ w̄² φ_ω, Eq. 67; None if inextensible
 
 
 def _sine(x: Any, library: Any) -> tuple[Any, Any, Any]:

@@ -29,26 +29,13 @@ class EnergyCoefficients:
     """Eq. 41 of one shape and axial model, as a function of w̄ and μ; all nondimensional.
 
     ω_n² = bending + spin w̄² + μ (thinning w̄² + stretching w̄⁴),  g1 = cubic_bending + cubic_spin w̄².
-
-    Parameters
-    ----------
-    modal_mass : float
-        M = ∫φ_v² dx, in units of the beam's mass.
-    bending, spin : float
-        Linear stiffness from bending, and from rotation (centrifugal stiffening less softening).
-    thinning, stretching : float
-        Share of the elongation Δl ~ μw̄², Table 4: in bending ~ w̄², in V_l and T ~ w̄⁴.
-    cubic_bending, cubic_spin : float
-        Cubic stiffness.
-    g2 : float
-        Coefficient of the inertial nonlinearity.
     """
 
-    modal_mass: float
+    modal_mass: float  # M = ∫φ_v² dx, in units of the beam's mass
     bending: float
-    spin: float
-    thinning: float
-    stretching: float
+    spin: float  # centrifugal stiffening less softening
+    thinning: float  # share of the elongation Δl ~ μw̄² in bending, Table 4
+    stretching: float  # and in V_l and T
     cubic_bending: float
     cubic_spin: float
     g2: float
@@ -64,17 +51,8 @@ class EnergyCoefficients:
 
 
 def energy_coefficients(shape: Shape, axial: Axial) -> EnergyCoefficients:
-    """Return the coefficients of Eq. 41 by Gauss quadrature of the energies.
+    """Return the coefficients of Eq. 41 by Gauss quadrature of the energies, for a shape φ_v.
 
-    Parameters
-    ----------
-    shape : Shape
-        The transverse shape φ_v.
-    axial : str
-        The axial model, one of `axial.AXIAL_MODELS`.
-
-    Notes
-    -----
     Corrected against the print: Eq. 31 has no outer square, and in Eq. 76 it is φ_u' q² that
     multiplies 2Δl'.
     """

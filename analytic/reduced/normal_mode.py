@@ -37,37 +37,20 @@ _SETTLED = 1e-8
 class NormalMode(NamedTuple):
     """Frequency and tip of the nonlinear normal mode; no dimensions.
 
-    The tip is at q/L = a sin φ + h2 a² sin 2φ + h3 a³ sin 3φ to leading order.
-
-    Attributes
-    ----------
-    w_n : float
-        w̄_n.
-    lambda_omega : float
-        λ of Ω = w̄_n (1 - λa² - κa⁴).
-    kappa, kappa_of_peak : float
-        κ where a is the first harmonic of q/L, and where it is its peak.
-    h2, h3 : float
-        Second and third harmonic of the tip, over a² and a³.
+    Ω = w̄_n (1 - λa² - κa⁴), and to leading order q/L = a sin φ + h2 a² sin 2φ + h3 a³ sin 3φ.
     """
 
     w_n: float
     lambda_omega: float
-    kappa: float
-    kappa_of_peak: float
+    kappa: float  # a being the first harmonic of q/L
+    kappa_of_peak: float  # a being its peak
     h2: float
     h3: float
 
 
 @lru_cache(maxsize=64)
 def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
-    """Return the first nonlinear normal mode of the blade at w̄.
-
-    Raises
-    ------
-    ValueError
-        If as many functions as are taken do not settle λ and κ, as where a section has steps.
-    """
+    """Return the first nonlinear normal mode of the blade at w̄."""
     return settled_functions(
         lambda count: _with_functions(blade, w_bar, count),
         blade,
@@ -104,10 +87,7 @@ def _with_functions(blade: UnitBlade, w_bar: float, count: int) -> NormalMode:
 
 
 class _VirtualWork:
-    """The virtual work of a blade's motion as a series in its amplitude.
-
-    The motion θ is given by coefficients (orders, harmonics, n) of sin mφ.
-    """
+    """Virtual work of a motion θ, a series in its amplitude (orders, harmonics, n) of sin mφ."""
 
     def __init__(self, of: BladeFunctions, w_bar: float) -> None:
         self._of, self._w_bar = of, w_bar

@@ -24,15 +24,7 @@ _MARGIN = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
-    """Eq. 41 with numbers for its coefficients, all nondimensional.
-
-    Parameters
-    ----------
-    w_n : float
-        ω_n in units of √(EI/mL³).
-    g1, g2 : float
-        Coefficients of the cubic stiffness and of the inertial nonlinearity.
-    """
+    """Eq. 41 with numbers for its coefficients: ω_n over √(EI/mL³), g1 and g2."""
 
     w_n: float
     g1: float
@@ -128,13 +120,6 @@ class Perturbation:
         ω_NL = ω_n (1 - λ a² - κ a⁴),      q/L = a cos ψ - h2 a² sin 2ψ - h3 a³ cos 3ψ.
 
     Eqs. 63 and 65 hold for one mode: without κ and h2, and h3 = λ_x.
-
-    Parameters
-    ----------
-    lambda_omega, kappa : float
-        λ and κ.
-    h2, h3 : float
-        Second and third harmonic of the tip, over a² and a³.
     """
 
     lambda_omega: float

@@ -82,11 +82,6 @@ def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.
-
-    Raises
-    ------
-    ValueError
-        If `w_bar` is so large that the series does not resolve the mode in double precision.
     """
     degree = degree or converged_degree(w_bar)
     w_n = rotating_frequency(w_bar, degree)

@@ -83,11 +83,6 @@ def static_deflection(degree: int) -> PolynomialShape:
     Degree 3 deflects under a transverse tip force, 4 under a uniform load, 5 under a load that
     grows linearly from zero at the clamp. φ'''' = load is solved with φ(0) = φ'(0) = 0 and
     φ''(1) = 0, and with φ'''(1) = 0 unless the load is the tip force.
-
-    Raises
-    ------
-    ValueError
-        If `degree` is not 3, 4 or 5.
     """
     if degree not in {3, 4, 5}:
         raise ValueError(f"static deflections have degree 3, 4 or 5, got {degree}")

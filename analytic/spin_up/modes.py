@@ -55,13 +55,7 @@ class ModesOverSpeed:
 
 @lru_cache(maxsize=64)
 def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed:
-    """Return the first `count` modes for speeds w̄ from 0 to `top`.
-
-    Raises
-    ------
-    ValueError
-        If `top` is beyond 1000, or 257 speeds do not resolve how they change.
-    """
+    """Return the first `count` modes for speeds w̄ from 0 to `top`, at most 1000."""
     if top > _FASTEST:
         raise ValueError(
             f"the modes over the speed are known up to w̄ = ω/√(EI/ρAL⁴) = {_FASTEST:g}, got "

@@ -39,13 +39,6 @@ class QuietRamps:
         Amplitude of the first mode at the tip over L after the exact transient [-].
     linear : ndarray (count,)
         The same by the closed form.
-
-    Examples
-    --------
-    >>> from analytic import Beam, quiet_ramp_times
-    >>> found = quiet_ramp_times(Beam.reference(), omega=2.0, longest=5.0, tolerance=1e-4)
-    >>> print(found.left.round(4), "L, by the closed form", found.linear.round(4))
-    [0.0069] L, by the closed form [0.0067]
     """
 
     beam: AnyBlade

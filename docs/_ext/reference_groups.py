@@ -92,7 +92,6 @@ GROUPS = (
         "The beam by finite elements: in the plane, in space, in a model of yours.",
         rotbeam_exu="simulate steady_oscillation natural_frequencies kicked SimulationError",
         rotbeam_exu__runs__oscillation="SteadyOscillation",
-        rotbeam_exu__runs__growth="growth_rate_of GrowthRate",
         rotbeam_exu__fem__linearization="Linearization",
         rotbeam_exu__fem="add_rotating_beam RotatingBeam",
         rotbeam_exu__fem__elements=(

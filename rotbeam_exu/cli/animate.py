@@ -63,9 +63,11 @@ def animate(
         natural frequency at rest.
     run
         Show a run in place of the exact beam: the file of `rotbeam run --stations`.
-    height, width
-        Of a rectangular section in the plane of bending and across it [m]: PVD then has a body with
-        the strain in its corners, else a line.
+    height
+        Height of a rectangular section, in the plane of bending [m]. With `--width` a .pvd has a
+        body with the strain in its corners, else a line.
+    width
+        Its width [m].
     out
         File to write, .gif, .mp4 where ffmpeg is installed, or .pvd with a folder of .vtu.
     force
@@ -76,7 +78,7 @@ def animate(
     $ rotbeam animate
     $ rotbeam animate --omega 6 --ramp-time 3 --duration 4 --rate 10 -o film.gif
     $ rotbeam animate --omega 4 --ramp-time 3 --duration 6 --beside linear
-    $ rotbeam animate --omega 4 --duration 4 --rate 10 -o film.pvd --height 0.04 --width 0.002
+    $ rotbeam animate --omega 4 --duration 4 -o film.pvd --height .04 --width .002
     """
     whole_number("rate", rate)
     kept = None if run is None else load(run)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 
 from analytic import AnyBlade, linear_modes
 from analytic.arrays import FloatArray
 from analytic.beam import require_planar
-from analytic.exact.beam.state import BeamState
+from analytic.exact.beam.state import BeamState, straight_state
 from analytic.exact.space.steady import require_bent
 from analytic.lazily import integrate, interpolate
 
@@ -69,13 +69,7 @@ def kicked(
 
     def state(x: FloatArray) -> BeamState:
         fine = np.linspace(0.0, blade.length, _BETWEEN * (x.size - 1) + 1)
-        zero = np.zeros(fine.size)
-        start = (
-            planar(fine)
-            if planar is not None
-            else BeamState(**dict.fromkeys((one.name for one in fields(BeamState)), zero))
-        )
-        tilt = kick * slope(fine)
+        start, tilt = (planar or straight_state)(fine), kick * slope(fine)
         # The change of the slopes (u', v', w') turns the tangent, and keeps its length.
         tangent = np.stack((1.0 + start.u_slope, start.v_slope))
         slopes = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))
@@ -84,6 +78,7 @@ def kicked(
             start, u=start.u + u, v=start.v + v, w=w, u_slope=start.u_slope + slopes[0],
             v_slope=start.v_slope + slopes[1], w_slope=slopes[2],
         )  # fmt: skip
-        return BeamState(**{name: (a + zero)[::_BETWEEN] for name, a in vars(bent).items()})
+        whole = {name: np.broadcast_to(a, fine.shape) for name, a in vars(bent).items()}
+        return BeamState(**{name: a[::_BETWEEN] for name, a in whole.items()})
 
     return state

@@ -84,10 +84,7 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         )  # fmt: skip
         axes.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
-        axes.set_title(
-            f"ω = {quantity(data.attrs['omega'], 'rad/s')}, T = {quantity(ramp_time, 's')}",
-            loc="left",
-        )
+        axes.set_title(_motion(data), loc="left")
     return axes
 
 

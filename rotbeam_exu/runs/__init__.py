@@ -1,1 +1,1 @@
-"""A run, whoever computed it: its checks, its steady oscillation, its growth. Knows no Exudyn."""
+"""A run, whoever computed it: its checks, its steady oscillation. Knows no Exudyn."""

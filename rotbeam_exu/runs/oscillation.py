@@ -126,7 +126,7 @@ def oscillation_of(
     if omega_n is not None:
         # The nonlinear frequency may be lower, by a few percent.
         _check_samples(time, 0.9 * omega_n, "of the beam's slowest oscillation")
-    guess = frequency_guess(time, x, ramp_time, omega_n)
+    guess = _frequency_guess(time, x, ramp_time, omega_n)
     _check_samples(time, guess, "found")
     # More than some fifty samples a period of so smooth a signal cost time and add nothing.
     every = max(1, int(_samples(time, guess) // 50))
@@ -229,8 +229,8 @@ def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
             return None  # so fast that theory has no answer to compare with
 
 
-def frequency_guess(
-    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None = None
+def _frequency_guess(
+    time: FloatArray, x: FloatArray, ramp_time: float, omega_n: float | None
 ) -> float:
     """Return the frequency from the crossings between samples well above and below the middle.
 

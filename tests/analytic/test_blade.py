@@ -19,6 +19,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.exact.beam.continuum import Continuum
+from analytic.exact.beam.state import Driven
 from analytic.quadrature import gauss_points
 from tests.beams import UNIT
 
@@ -104,8 +105,8 @@ def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
     model = Continuum(1e-3, 6, 4, blade=unit, shear=shear_share)
     rng = np.random.default_rng(0)
     state = [0.3 * rng.standard_normal((2, model.size)) for _ in range(3)]
-    rate, rate_dot = np.array([1.3, 0.7]), np.array([0.4, -0.2])
-    tangent = model.tangent(*state, rate, rate_dot)
+    by = Driven(np.array([1.3, 0.7]), np.array([0.4, -0.2]))
+    tangent = model.tangent(*state, by)
     h = 1e-6
     for k, matrix in enumerate((tangent.stiffness, tangent.damping, tangent.mass)):
         for j in range(model.size):
@@ -113,9 +114,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(psi, shear_share):
                 [s + sign * h * (i == k) * np.eye(model.size)[j] for i, s in enumerate(state)]
                 for sign in (1.0, -1.0)
             )
-            column = (
-                model.residual(*there, rate, rate_dot) - model.residual(*back, rate, rate_dot)
-            ) / (2.0 * h)
+            column = (model.residual(*there, by) - model.residual(*back, by)) / (2.0 * h)
             # Central differences: h² times third derivatives, and round-off over h.
             assert column == pytest.approx(matrix[:, :, j], abs=1e-8)
 
@@ -129,7 +128,7 @@ def test_a_free_motion_conserves_the_jacobi_integral(psi, shear_share):
     rng = np.random.default_rng(1)
     q, q_dot, q_ddot = (0.2 * rng.standard_normal((1, model.size)) for _ in range(3))
     w, h = 1.7, 1e-5
-    power = np.sum(q_dot * model.residual(q, q_dot, q_ddot, w))
+    power = np.sum(q_dot * model.residual(q, q_dot, q_ddot, Driven(w)))
     after, before = (
         model.kinetic_energy(q + s * h * q_dot + 0.5 * h**2 * q_ddot, q_dot + s * h * q_ddot)
         + model.amended_potential(q + s * h * q_dot + 0.5 * h**2 * q_ddot, w)

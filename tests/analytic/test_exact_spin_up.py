@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, spin_up_response
 from analytic.exact.beam.discretization import continuum
+from analytic.exact.beam.state import Driven
 from analytic.methods.collocation import radau
 
 
@@ -42,7 +43,7 @@ def test_agrees_with_a_library_integrator(beam):
             spin_up.rate(tau / per_second) / per_second,
             spin_up.acceleration(tau / per_second) / per_second**2,
         )
-        at = model.tangent(q, q_dot, np.zeros_like(q), *rates)
+        at = model.tangent(q, q_dot, np.zeros_like(q), Driven(*rates))
         return np.append(q_dot, -np.linalg.solve(at.mass[0], at.residual[0]))
 
     end = 0.5 * per_second
@@ -60,8 +61,8 @@ def test_agrees_with_a_library_integrator(beam):
             q,
             q_dot,
             acceleration,
-            residual=lambda *state, rates=rates: model.residual(*state, *rates),
-            tangent=lambda *state, rates=rates: model.tangent(*state, *rates),
+            residual=lambda *state, rates=rates: model.residual(*state, Driven(*rates)),
+            tangent=lambda *state, rates=rates: model.tangent(*state, Driven(*rates)),
         ).z
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]

@@ -1,7 +1,6 @@
 """Forced response: published-to-be numbers, an independent integrator, and the limits."""
 
 import warnings
-from functools import partial
 
 import numpy as np
 import pytest
@@ -105,8 +104,8 @@ def by_collocation(orbit):
         phase = 2.0 * np.pi * (step + method.nodes) / steps
         acceleration = method.step(
             h, q, q_dot, acceleration,
-            residual=partial(system.residual, phase=phase, frequency=w),
-            tangent=partial(system.tangent, phase=phase, frequency=w),
+            residual=lambda *state, phase=phase: system.residual(*state, phase, w),
+            tangent=lambda *state, phase=phase: system.tangent(*state, phase, w),
         ).z  # fmt: skip
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]

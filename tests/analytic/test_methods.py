@@ -1,4 +1,4 @@
-"""The methods on systems that are no beam: what they know of one is the System protocol."""
+"""The methods on systems that are no beam: what they know of one is what `methods.system` tells."""
 
 from dataclasses import dataclass, replace
 

@@ -125,9 +125,6 @@ def test_fastest_sees_what_is_above_both_ends():
         (lambda: SpeedTable([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
         (lambda: SpeedTable([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
         (lambda: SpeedTable([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
-        (lambda: SpeedTable([0.0, 1e-300, 2.0], [0.0, 0.0, 1.0]), "0 to 1e-300 s .* leave one"),
-        (lambda: SpeedTable([0.0, 1.0, 2.0], [0.0, 1.7e308, 1.7e308]), "0 to 1 s .* leave one"),
-        (lambda: FourierRamp(omega=1.0, ramp_time=1.0, cosines=(1e300, -1e300, -1.0)), "at most"),
     ],
 )
 def test_bad_input(make, sentence):

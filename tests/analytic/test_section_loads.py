@@ -19,6 +19,7 @@ from analytic import (
     steady_state,
 )
 from analytic.exact.beam.discretization import blade_continuum
+from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import SteadyBeam
 from analytic.exact.driven.loading import pushes, unit_load
 from analytic.profiles import evaluated
@@ -51,7 +52,7 @@ def test_at_rest_under_gravity_the_moment_is_the_weight_times_its_lever(beam, ta
     push = pushes(model, [(load, at_angle)], at_angle)
     still = np.zeros((1, model.size))
     x = np.array([0.0, 0.3, 0.7, 1.0])
-    force, moment = model.section_loads(x, still, still, still, 0.0, push=push)
+    force, moment = model.section_loads(x, still, still, still, Driven(0.0, push=push))
     mass = m0 * length * ((1.0 - x) - 0.5 * taper * (1.0 - x**2)) + tip
     first = 0.5 * (1.0 - x**2) - taper * (1.0 - x**3) / 3.0  # ∫ m x beyond
     lever = m0 * length**2 * (first - x * ((1.0 - x) - 0.5 * taper * (1.0 - x**2)))

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from analytic import SpinUp, Theory, periodic_orbits, spin_up_response
 from analytic.exact.beam.discretization import continuum, finer_model
+from analytic.exact.beam.state import Driven
 from analytic.methods.collocation import radau
 from analytic.quadrature import axial_basis, gauss_points
 from tests.beams import SHARE, unit_beam
@@ -25,7 +26,7 @@ def bent_at_rest(force):
     q, zero = np.zeros((1, model.size)), np.zeros((1, model.size))
     for part in np.minimum(np.arange(1, 20) / 10, 1.0):
         push = 1j * part * force * model.outboard["tip"][None]
-        at = model.tangent(q, zero, zero, 0.0, push=push)
+        at = model.tangent(q, zero, zero, Driven(0.0, push=push))
         q = q - np.linalg.solve(at.stiffness[0], at.residual[0])
     assert np.abs(at.residual).max() < 1e-12
     return model.tip(q)[0]

@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from analytic.exact.beam.continuum import Continuum
+from analytic.exact.beam.state import Driven
 from analytic.exact.space.basis import StrainFunctions
 from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
@@ -63,19 +64,19 @@ def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
             [np.arange(8)] + [np.arange(6)] * (planar.size // 6 - 1 + (shear is None) * 0)
         )[: planar.size]
     )
-    w, w_dot = np.random.default_rng(2).normal(size=(2, 4))
+    by = Driven(*np.random.default_rng(2).normal(size=(2, 4)))
     X = np.zeros((3, 4, model.size))
     X[:, :, own] = x
-    one, other = planar.tangent(*x, w, w_dot), model.tangent(*X, w, w_dot)
+    one, other = planar.tangent(*x, by), model.tangent(*X, by)
     assert other.residual[:, own] == pytest.approx(one.residual, abs=1e-12)
     assert np.abs(other.residual[:, others]).max() < 1e-14
     for name in ("stiffness", "damping", "mass"):
         own_part = getattr(other, name)[:, own[:, None], own]
         assert own_part == pytest.approx(getattr(one, name), abs=1e-11)
-    assert model.residual(*X, w, w_dot)[:, own] == pytest.approx(one.residual, abs=1e-12)
+    assert model.residual(*X, by)[:, own] == pytest.approx(one.residual, abs=1e-12)
     places = np.array([0.0, 0.4, 1.0])
-    force, moment = model.section_loads(places, *X, w, w_dot)
-    planar_force, planar_moment = planar.section_loads(places, *x, w, w_dot)
+    force, moment = model.section_loads(places, *X, by)
+    planar_force, planar_moment = planar.section_loads(places, *x, by)
     scale = np.abs(planar_force).max()
     assert force[..., :2] == pytest.approx(planar_force, abs=1e-10 * scale)
     assert moment[..., 2] == pytest.approx(planar_moment, abs=1e-10 * scale)
@@ -107,15 +108,15 @@ def test_the_tangent_is_the_derivative_of_the_residual(theory):
     w, w_dot = rng.normal(size=(2, 2))
     push = rng.normal(size=(3, 3, 2, model.points.size)) * model.weights
     push[1] = push[1][..., :1]
-    at, h = model.tangent(*x, w, w_dot, push), 1e-6
+    at, h = model.tangent(*x, Driven(w, w_dot, push)), 1e-6
     for k, name in enumerate(("stiffness", "damping", "mass")):
         step = np.zeros_like(x)
         found = np.empty_like(getattr(at, name))
         for j in range(model.size):
             step[k, :, j] = h
             found[:, :, j] = (
-                model.residual(*(x + step), w, w_dot, push)
-                - model.residual(*(x - step), w, w_dot, push)
+                model.residual(*(x + step), Driven(w, w_dot, push))
+                - model.residual(*(x - step), Driven(w, w_dot, push))
             ) / (2.0 * h)
             step[k, :, j] = 0.0
         # Round-off of the differences is 1e-10; frames are resolved to 1e-9 on these points.
@@ -140,7 +141,9 @@ def test_a_small_load_bends_the_blade_as_in_a_handbook(acts_on, tip):
     blade = SpaceUnit(flap=flap, torsion=0.1, line=Line(precone=cone))
     model = space(blade, Theory(extension=False, trapeze=False), bending=8)
     still = np.zeros((2, model.size))
-    at = model.tangent(still, still, still, 0.0, 0.0, model.push(size * np.array([1, 1j]), acts_on))
+    at = model.tangent(
+        still, still, still, Driven(0.0, push=model.push(size * np.array([1, 1j]), acts_on))
+    )
     moved = model.tip(-np.linalg.solve(at.stiffness, at.residual[..., None])[..., 0]) / size
     assert moved[0, 1:] == pytest.approx([0.0, -math.sin(cone) * tip / flap], abs=1e-5)
     assert moved[1, 1:] == pytest.approx([tip, 0.0], abs=1e-5)
@@ -155,7 +158,7 @@ def test_the_power_of_all_forces_is_the_rate_of_the_jacobi_integral(theory):
     for at in (h, -h):
         here, there = q + at * q_dot + 0.5 * at**2 * q_ddot, q_dot + at * q_ddot
         energy.append(model.kinetic_energy(here, there) + model.amended_potential(here, rate))
-    power = np.sum(q_dot * model.residual(q, q_dot, q_ddot, rate), axis=1)
+    power = np.sum(q_dot * model.residual(q, q_dot, q_ddot, Driven(rate)), axis=1)
     assert (energy[0] - energy[1]) / (2.0 * h) == pytest.approx(power, rel=1e-6)
 
 
@@ -183,7 +186,7 @@ def test_forces_are_the_slope_of_the_potential(theory):
     for j, step in enumerate(h * np.eye(model.size)):
         ahead, behind = (model.amended_potential((q + s)[None], rate)[0] for s in (step, -step))
         found[j] = (ahead - behind) / (2.0 * h)
-    assert model.residual(q[None], still, still, rate)[0] == pytest.approx(found, abs=1e-8)
+    assert model.residual(q[None], still, still, Driven(rate))[0] == pytest.approx(found, abs=1e-8)
 
 
 @pytest.mark.parametrize(
@@ -201,7 +204,7 @@ def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd
     blade = SpaceUnit(hub=0.3, flap=0.2, torsion=0.1, **change)
     model = space(blade, Theory(rotary_inertia=True))
     said, (q, q_dot, q_ddot) = model.functions.odd, states(model, 0.1)
-    here = model.residual(q, q_dot, q_ddot, 2.0)
+    here = model.residual(q, q_dot, q_ddot, Driven(2.0))
     bending = model.functions.counts[0]
     if odd is None:
         assert said is None
@@ -211,7 +214,7 @@ def test_time_reversal_maps_motions_onto_motions_where_it_is_said_to(change, odd
         tried = [said]
     for turned in tried:
         sign = np.where(turned, -1.0, 1.0)
-        there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
+        there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, Driven(2.0))
         off = np.abs(there - sign * here).max()
         assert (off < 1e-12) == (odd is not None)
 

@@ -17,6 +17,7 @@ from analytic import (
     steady_state,
 )
 from analytic.description import describe, from_description
+from analytic.exact.beam.state import Driven
 from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
 from tests.beams import finite_elements
@@ -146,9 +147,9 @@ def test_time_reversal_of_blades_from_stations():
         assert (said is not None) == reversible, entries
         if said is not None:
             q, q_dot, q_ddot = 0.1 * np.random.default_rng(0).normal(size=(3, 2, model.size))
-            here = model.residual(q, q_dot, q_ddot, 2.0)
+            here = model.residual(q, q_dot, q_ddot, Driven(2.0))
             sign = np.where(said, -1.0, 1.0)
-            there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, 2.0)
+            there = model.residual(sign * q, -sign * q_dot, sign * q_ddot, Driven(2.0))
             assert there == pytest.approx(sign * here, abs=1e-12)
 
 

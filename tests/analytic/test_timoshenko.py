@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from analytic import Beam, Theory, linear_modes
 from analytic.exact.beam.discretization import blade_continuum
+from analytic.exact.beam.state import Driven
 from tests.beams import SHARE, unit_beam
 
 STUBBY = unit_beam(1e-3)
@@ -129,8 +130,8 @@ def test_engessers_forces_are_the_slope_of_its_energy():
     ends = [q + sign * 1e-5 * np.eye(model.size) for sign in (1.0, -1.0)]
     at_rest = np.zeros_like(ends[0])
     energies = [model.amended_potential(end, 2.0) for end in ends]
-    forces = [model.residual(end, at_rest, at_rest, 2.0) for end in ends]
-    tangent = model.tangent(q, still, still, 2.0)
+    forces = [model.residual(end, at_rest, at_rest, Driven(2.0)) for end in ends]
+    tangent = model.tangent(q, still, still, Driven(2.0))
     # Central differences of round-off 1e-11 over the step.
     assert (energies[0] - energies[1]) / 2e-5 == pytest.approx(tangent.residual[0], abs=1e-8)
     slopes = (forces[0] - forces[1]) / 2e-5

@@ -14,9 +14,10 @@ import rotbeam_exu
 ROOT = Path(__file__).parents[2]
 PLAIN = {
     "records that the example of what makes them shows": (
+        "analytic.exact.free.curve.BackboneCurve analytic.spin_up.quiet.QuietRamps "
         "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
-        "analytic.exact.plane.stability_limit.StabilityLimit rotbeam_exu.runs.growth.GrowthRate "
+        "analytic.exact.plane.stability_limit.StabilityLimit "
         "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam"
     ),
     "errors, which their message explains": (
@@ -44,7 +45,7 @@ BEYOND = {
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
     "rotbeam_exu.files.beam_file", "rotbeam_exu.files.vtk", "rotbeam_exu.runs.shape",
-    "rotbeam_exu.runs.growth", "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
+    "rotbeam_exu.runs.oscillation", "rotbeam_exu.sweeps.grid",
     "rotbeam_exu.verification.entries", "rotbeam_exu.verification.judgement",
     "rotbeam_exu.verification.submission_files", "rotbeam_exu.verification.verify",
 }  # fmt: skip

@@ -109,7 +109,7 @@ def test_gravity_would_bend_and_buckle_the_strip(beam):
     """Both of its directions as cantilevers under their weight; 12.85 by another test."""
     page = "theory/planar.md"
     assert says(page, "without gravity")
-    assert says(page, "it sags by 0.22 $L$ in its stiff direction")
+    assert says(page, "the strip sags by 0.22 $L$ in its stiff direction")
     assert says(page, "length of 2.36 m it buckles under its own weight")
     assert says(page, r"$I_y=I_z=8.2189\cdot10^{-9}$ m⁴: most likely a thin tube")
     section = beam.with_shape(Rectangle()).section.out_of_plane
@@ -151,7 +151,7 @@ def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
 
 
 def test_where_twice_the_flap_frequency_is_that_of_lag():
-    assert says("theory/planar.md", r"at $\bar\omega=1.441$, with lag's $EI$, if it is a sixteenth")
+    assert says("theory/blade.md", r"at $\bar\omega=1.441$, with lag's $EI$, if it is a sixteenth")
     section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
     blade = Blade(length=1.0, section=section).with_section_out_of_plane(1.0 / 16.0, math.inf)
 

@@ -21,7 +21,6 @@ from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
 from rotbeam_exu.fem.elements.node_kinds import FrameNodes, directors
 from rotbeam_exu.runs.check import energy_drift
-from rotbeam_exu.runs.growth import growth_rate_of
 
 ALIKE = Beam.reference().with_section_out_of_plane(bending_ratio=1.0)
 RECTANGLE = Beam.reference().with_shape(Rectangle())
@@ -115,24 +114,42 @@ def test_drift_of_the_geometrically_exact_beam_is_that_of_the_step():
     assert drifts[0] / drifts[1] == pytest.approx(4.0, rel=0.1)
 
 
-def growing(rate, frequency=10.0, kick=1e-6):
-    time = np.linspace(0.0, 12.0, 4001)
-    w = 8.0 * kick * np.exp(rate * time) * np.cos(3.1 * time)
-    w_dot = np.gradient(w, time)
-    q = np.sin(frequency * time)
-    attrs = {"beam_length": 8.0, "ramp_time": 0.0}
-    columns = {"q": q, "w": w, "w_dot": w_dot}
-    return xr.Dataset({k: ("time", v) for k, v in columns.items()}, {"time": time}, attrs)
+def growth_rate_of(run, period):
+    """Return the rate [1/s] of the envelope out of the plane, and over how many powers of ten.
+
+    The envelope is the root mean square of w and w_dot/Ω over a period of the planar orbit; what
+    its logarithm gains in whole periods is averaged over the last three powers of ten up to L/100.
+    """
+    time, length = run["time"].to_numpy(), run.attrs["beam_length"]
+    w, w_dot = (run[name].to_numpy() / length for name in ("w", "w_dot"))
+    squares = w**2 + (w_dot * period / (2.0 * np.pi)) ** 2
+    steps = 0.5 * np.diff(time) * (squares[1:] + squares[:-1])
+    # Sums of positive numbers over many decades: each window anew, not as a difference of two.
+    ends = np.searchsorted(time, time + period)
+    starts = np.flatnonzero(ends < time.size)
+    envelope = np.sqrt([steps[i : ends[i]].sum() / period for i in starts])
+    above = np.flatnonzero(envelope > 1e-2)
+    end = above[0] if above.size else envelope.size
+    logarithm, time = np.log(envelope[:end]), time[:end]
+    start = np.flatnonzero(logarithm >= logarithm[-1] - 3.0 * np.log(10.0))[0]
+    # Within a period the envelope of a growing motion is no straight line.
+    lag = max(1, int(0.5 * (time[-1] - time[start]) / period)) * period
+    later = np.interp(time[start:] + lag, time, logarithm, right=np.nan)
+    rate = np.nanmean(later - logarithm[start:]) / lag
+    return rate, (logarithm[-1] - logarithm[start]) / np.log(10.0)
 
 
 @pytest.mark.parametrize("rate", [0.9, 0.3, -0.2])
 def test_rate_of_a_known_growth(rate):
-    found = growth_rate_of(growing(rate))
+    time = np.linspace(0.0, 12.0, 4001)
+    w = 8e-6 * np.exp(rate * time) * np.cos(3.1 * time)
+    columns = {"w": ("time", w), "w_dot": ("time", np.gradient(w, time))}
+    run = xr.Dataset(columns, {"time": time}, {"beam_length": 8.0})
+    found, decades = growth_rate_of(run, 2.0 * np.pi / 10.0)
     # A window of a period that is not w's own leaves ripples, over the three decades 2 %.
-    assert found.rate == pytest.approx(rate, rel=0.02)
-    assert found.period == pytest.approx(2.0 * np.pi / 10.0, rel=1e-4)
+    assert found == pytest.approx(rate, rel=0.02)
     if rate == 0.9:
-        assert found.decades == pytest.approx(3.0, abs=0.01)
+        assert decades == pytest.approx(3.0, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -159,13 +176,6 @@ def test_what_is_refused(change, sentence):
 def test_a_kick_is_small(kick):
     with pytest.raises(ValueError, match="kick"):
         kicked(RECTANGLE, kick)
-
-
-def test_a_growth_needs_two_periods():
-    with pytest.raises(ValueError, match="take a duration above"):
-        growth_rate_of(growing(0.1).sel(time=slice(0.0, 1.0)))
-    with pytest.raises(ValueError, match="no w"):
-        growth_rate_of(growing(0.1).drop_vars("w"))
 
 
 def run_on_an_orbit(blade, omega, amplitude, periods, element="space_exact", **settings):
@@ -205,9 +215,9 @@ def test_an_unstable_rectangle_grows_as_theory_says():
     rates = []
     for elements in (32, 64):
         run = run_on_an_orbit(RECTANGLE, 2.0, 0.045, 4.0, elements=elements, step=5e-3)
-        growth = growth_rate_of(run)
-        assert growth.decades > 2.95
-        rates.append(growth.rate)
+        rate, decades = growth_rate_of(run, 2.0 * np.pi / stability.frequency[0])
+        assert decades > 2.95
+        rates.append(rate)
     assert rates == pytest.approx([stability.growth_rate[0]] * 2, rel=0.1)
     # Linear elements: of second order, so that both meshes together tell the limit.
     assert (4.0 * rates[1] - rates[0]) / 3.0 == pytest.approx(stability.growth_rate[0], rel=0.03)
@@ -225,6 +235,7 @@ def test_the_cable_grows_inside_its_tongue(amplitude, w_bar, periods):
     omega = w_bar * ALIKE.frequency_scale
     stability = planar_stability(ALIKE, omega, [amplitude])
     settings = {"element": "space_cable", "elements": 8, "step": 5e-3}
-    growth = growth_rate_of(run_on_an_orbit(ALIKE, omega, amplitude, periods, **settings))
-    assert growth.decades > 2.95
-    assert growth.rate == pytest.approx(stability.growth_rate[0], rel=0.03)
+    run = run_on_an_orbit(ALIKE, omega, amplitude, periods, **settings)
+    rate, decades = growth_rate_of(run, 2.0 * np.pi / stability.frequency[0])
+    assert decades > 2.95
+    assert rate == pytest.approx(stability.growth_rate[0], rel=0.03)

@@ -37,15 +37,18 @@ def test_the_table_is_what_spin_up_response_says(end, tolerance):
     np.testing.assert_allclose(found.twist, table["twist"], rtol=0.0, atol=within + 3.2e-8)
 
 
-def test_the_script_writes_the_table_anew(monkeypatch):
+@pytest.mark.parametrize("case", ["", "small", "mildest"])
+def test_the_script_writes_the_table_anew(monkeypatch, case):
     """Of 1160 unknowns a step, whose tangents lead nowhere from 0.2 s on in single precision."""
     made = {}
-    monkeypatch.setattr(run, "TIMES", run.TIMES[:26])
+    ramp, kick, times = run.CASES[case]
+    monkeypatch.setitem(run.CASES, case, (ramp, kick, times[:26]))
     monkeypatch.setattr(run, "write", lambda code, time, tip, twist: made.update({code: tip}))
-    run.exact("40")
-    table = three_codes.history("exact_40")[:26]
+    run.exact("40", "tight" if case == "mildest" else "loose", case)
+    ((code, tip),) = made.items()
+    table = three_codes.history(code)[:26]
     places = np.column_stack([table[name] for name in ("along", "lag", "flap")])
-    np.testing.assert_allclose(made["exact_40"], places, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(tip, places, rtol=0.0, atol=1e-9)
 
 
 def farthest(code, until=1.5):
@@ -74,6 +77,14 @@ def test_three_codes_agree():
     assert farthest("mujoco_64") < 3e-3
 
 
+def crossing(table):
+    """Time at which the twist passes 0.1 [s] and lag of the tip over L, between the rows."""
+    after = (np.abs(table["twist"]) > 0.1).argmax()
+    rows = slice(after - 1, after + 1)
+    twist = np.abs(table["twist"][rows])
+    return [np.interp(0.1, twist, table[name][rows]) for name in ("time", "lag")]
+
+
 def test_the_strip_buckles_at_once():
     table = three_codes.history(EXACT)
     first = (np.abs(table["twist"]) > 0.1).argmax()
@@ -82,6 +93,18 @@ def test_the_strip_buckles_at_once():
     assert table["lag"][first] == pytest.approx(-0.0838, abs=5e-4)
     # It starts at rest in the first flap mode, 8 mm out of the plane.
     assert table["flap"][0] == pytest.approx(1e-3, rel=1e-6)
+
+
+def test_the_mildest_ramp_as_exactly_as_its_noise_allows():
+    """The kick of 1e-6 L grows a hundred thousand times, and round-off with it."""
+    one, other = "exact_mildest_32", "exact_mildest_40"
+    difference = three_codes.apart(one, other)
+    assert difference[:101].max() < 1e-8
+    assert difference.max() == pytest.approx(4.55e-5, rel=0.01)
+    for table in map(three_codes.history, (one, other)):
+        assert crossing(table) == pytest.approx([1.164, -0.0988], abs=1e-4)
+        assert table["time"][-1] == 1.4
+        assert table["lag"][-1] == pytest.approx(-0.17229, abs=1e-5)
 
 
 def test_the_figure_has_three_codes():

@@ -9,6 +9,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.exact.beam.discretization import continuum
+from analytic.exact.beam.state import Driven
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.convergence import converged
@@ -114,7 +115,9 @@ def test_forces_that_are_left_out_are_those_of_a_turning_frame():
     w, w_dot = 2.0, 0.7
     models = {name: kind(1e-3, 6, 3) for name, (_, kind) in FORCES.items()}
     q = 0.1 * rng.standard_normal((3, 1, next(iter(models.values())).size))
-    at = {rate: continuum(1e-3, 6, 3)._fields(*q, w * rate, w_dot * rate, None) for rate in (0, 1)}
+    at = {
+        rate: continuum(1e-3, 6, 3)._fields(*q, Driven(w * rate, w_dot * rate)) for rate in (0, 1)
+    }
     added = (at[1].acceleration - at[0].acceleration) * at[1].turn
     lacking = sum(model.lacking(at[1], np.array([[w]])) for model in models.values())
     euler = 1j * w_dot * at[1].stretch * at[1].turn

@@ -34,6 +34,7 @@ from ...methods.system import Tangent
 from ...profiles import evaluated
 from ...unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
+from .state import Driven
 
 
 class _Fields(NamedTuple):
@@ -53,20 +54,8 @@ class Continuum(Kinematics):
 
     The generalized coordinates are q = (c, d): θ = Σ c_k φ_k with φ_k' orthonormal in EI and
     φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
-    first in every array.
-
-    Parameters
-    ----------
-    slenderness : float
-        μ = I/(AL²); zero for the inextensible beam.
-    bending, axial : int
-        Number of functions for θ and for e; with shear, as many for γ as for e.
-    blade : UnitBlade
-        Section, point masses, hub radius and setting angle, relative to the uniform beam.
-    shear : float or None
-        σ = k_s GA/(EA); None to leave shear out.
-    engesser : bool
-        Whether the tension acts along the slope of the axis; else along the section's normal.
+    first in every array. Parameters as attributes of `Kinematics`; of the inextensible beam the
+    slenderness is zero.
 
     Attributes
     ----------
@@ -75,6 +64,8 @@ class Continuum(Kinematics):
         "mass", "length" and "tip": a load acts on one of them.
     has_dear_tangent : bool
         Whether one costs many residuals, so that it serves in the steps of time after it.
+    engesser : bool
+        Whether the tension acts along the slope of the axis; else along the section's normal.
     """
 
     has_dear_tangent: ClassVar[bool] = False
@@ -84,7 +75,6 @@ class Continuum(Kinematics):
         slenderness: float,
         bending: int,
         axial: int,
-        *,
         blade: UnitBlade = UNIFORM,
         shear: float | None = None,
         engesser: bool = False,
@@ -109,15 +99,8 @@ class Continuum(Kinematics):
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
-    def _fields(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray,
-        push: ComplexArray | None,
-    ) -> _Fields:
+    def _fields(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> _Fields:
+        rate, rate_dot, push = by
         turn = np.exp(1j * self._angle(q))
         stretch = 1.0 + self._strain(q)
         stretch_rate = self._strain(q_dot)
@@ -147,17 +130,12 @@ class Continuum(Kinematics):
         return _Fields(turn, stretch, stretch_rate, spin, spin_rate, np.asarray(p), force)
 
     def _residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate_dot: float | FloatArray,
-        at: _Fields,
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven, at: _Fields
     ) -> FloatArray:
         theta = (at.stretch.conj() * at.force).imag @ self._phi
         if self._turns:
             theta = theta + q_ddot[..., : self.bending] @ self._rotary_mass
-            euler = self.blade.setting * np.asarray(rate_dot)
+            euler = self.blade.setting * np.asarray(by.rate_dot)
             theta = theta + euler[..., None] * self._rotary_force
         force = at.force
         if self._axial is not None:
@@ -168,34 +146,20 @@ class Continuum(Kinematics):
         return q + self._viscosity * q_dot + np.concatenate((theta, strains), axis=-1)
 
     def residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: ComplexArray | None = None,
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
         """Return the virtual work (samples, n) of all forces on the basis functions.
 
-        The elastic part is q itself, so that a residual is measured in units of q. A `push`
+        The elastic part is q itself, so that a residual is measured in units of q. A push
         (samples, points) is the load beyond each Gauss point, times its weight: the sum of complex
         forces times what is `outboard`.
         """
-        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
-        return self._residual(q, q_dot, q_ddot, rate_dot, at)
+        at = self._fields(q, q_dot, q_ddot, by)
+        return self._residual(q, q_dot, q_ddot, by, at)
 
-    def tangent(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: ComplexArray | None = None,
-    ) -> Tangent:
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
-        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        at = self._fields(q, q_dot, q_ddot, by)
         nb, n = self.bending, self.size
         # Re(-i f) = Im f: all equations are real parts of one complex product.
         psi = self._psi.conj()
@@ -218,7 +182,7 @@ class Continuum(Kinematics):
         )
         beyond = 1.0 - self.blade.setting**2
         if beyond:
-            along = np.asarray(beyond * np.asarray(rate) ** 2)[..., None]
+            along = np.asarray(beyond * np.asarray(by.rate) ** 2)[..., None]
             right[..., :nb] += (along * (at.stretch * at.turn).imag)[..., None] * self._phi
             right[..., nb:n] -= along[..., None] * (at.turn[..., None] * self._psi).real
         onto, parts = _onto(rows, self._green), [right.real, right.imag]
@@ -246,7 +210,7 @@ class Continuum(Kinematics):
             change = self._psi.imag - s / np.abs(s) * (self._psi / s).imag
             change = self._axial[:, None] / self.slenderness * change
             stiffness[..., nb:, nb:] += (psi.T @ (1j * change)).real
-        return Tangent(self._residual(q, q_dot, q_ddot, rate_dot, at), stiffness, damping, mass)
+        return Tangent(self._residual(q, q_dot, q_ddot, by, at), stiffness, damping, mass)
 
     @property
     def setting(self) -> float:
@@ -261,30 +225,23 @@ class Continuum(Kinematics):
         return np.asarray(np.multiply.outer(force, self.outboard[acts_on]))
 
     def tension(
-        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *forcing: Any
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
         """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
-        return -self._fields(q, q_dot, q_ddot, *forcing).force.real / self.weights
+        return -self._fields(q, q_dot, q_ddot, by).force.real / self.weights
 
     def section_loads(
-        self,
-        x: FloatArray,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: ComplexArray | None = None,
+        self, x: FloatArray, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> tuple[FloatArray, FloatArray]:
         """Return N and Q (samples, places, 2) and M (samples, places) at `x`, by d'Alembert.
 
         Of all inertia and all loads beyond, in the section's axes.
         """
-        at = self._fields(q, q_dot, q_ddot, rate, rate_dot, push)
+        at = self._fields(q, q_dot, q_ddot, by)
         moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
         if self._turns:
             along, dj = self.blade.turning(2 * self._across.a_panel + 1)
-            euler = np.asarray(self.blade.setting * np.asarray(rate_dot))[..., None]
+            euler = np.asarray(self.blade.setting * np.asarray(by.rate_dot))[..., None]
             spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
             moment = moment + (spin_rate * dj) @ self.grid.integral(along)
         onto = -self.grid.interpolation(x).T / self.weights[:, None]
@@ -338,7 +295,7 @@ class Continuum(Kinematics):
         Exactly, 1 + e = cos(kx)/cos(k) with k = w√μ, as long as k < π/2.
         """
         at_rest = np.zeros((1, self.size))
-        tangent = self.tangent(at_rest, at_rest, at_rest, rate)
+        tangent = self.tangent(at_rest, at_rest, at_rest, Driven(rate))
         q = np.zeros(self.size)
         # Without bending the equations are linear in e, and nothing shears.
         q[self.bending :] = -np.linalg.solve(

@@ -16,24 +16,15 @@ from ...profiles import evaluated, in_units
 from ...section import OutOfPlane
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory, require_theory
-from ...unit_blade import UNIFORM, UnitBlade
+from ...unit_blade import UnitBlade
 from .continuum import Continuum
 
 MOST_FUNCTIONS = 256
 """For θ; beyond, the eigenproblem takes seconds."""
 
 
-@lru_cache(maxsize=32)
-def continuum(
-    slenderness: float,
-    bending: int,
-    axial: int,
-    blade: UnitBlade = UNIFORM,
-    shear: float | None = None,
-    engesser: bool = False,
-) -> Continuum:
-    """Return the discretization, built once for each set of arguments."""
-    return Continuum(slenderness, bending, axial, blade=blade, shear=shear, engesser=engesser)
+continuum = lru_cache(maxsize=32)(Continuum)
+"""The discretization, built once for each set of arguments."""
 
 
 def finer_model(model: Continuum) -> Continuum:

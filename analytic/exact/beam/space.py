@@ -46,16 +46,9 @@ def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatA
 
 
 class Space:
-    """Galerkin discretization of L2 by the blade's shape functions, for w and for φ.
+    """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
-    Parameters
-    ----------
-    blade : Beam or Blade
-        With a known section out of the plane.
-    functions : int
-        Least number of functions for each.
-    theory : Theory
-        Whether there are the second line of L2, and inertia of the twist, as in space.
+    The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
 
     Attributes
     ----------
@@ -116,18 +109,12 @@ class Space:
     def stiffness(
         self, planar: Any, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
     ) -> FloatArray:
-        """Return the stiffness (samples, n, n) about a planar motion of a system under its drive.
-
-        Raises
-        ------
-        LinAlgError
-            If the twist has no inertia and buckles.
-        """
+        """Return the stiffness (samples, n, n) about a motion of `planar` under its drive."""
         model, r = planar.model, self.section.bending_ratio
         x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         kappa, e, change = model.bent(q)
-        forcing = planar.forcing(*drive)
-        tension = model.tension(q, q_dot, q_ddot, *forcing)
+        by = planar.by(*drive)
+        tension = model.tension(q, q_dot, q_ddot, by)
         bending, kappa_dot = model.weights * evaluated(self.unit.bending, x), model.bent(q_dot)[0]
         moment = bending * (kappa + model.blade.damping[0] * kappa_dot)
         excess = moment - r * bending * kappa
@@ -141,7 +128,7 @@ class Space:
             mixed = _form(bent, excess, twist)
             twisted = -_form(twist, excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        spin = np.asarray(forcing[0])[..., None] + kappa_dot @ upto.T
+        spin = np.asarray(by.rate)[..., None] + kappa_dot @ upto.T
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
         straight += _form(angle, torsion * kappa**2, angle)
@@ -164,13 +151,7 @@ class Space:
     def resistance(
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each.
-
-        Raises
-        ------
-        ValueError
-            If a twist without inertia were viscous.
-        """
+        """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
         model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
         if viscosity and self.twist == "quasi-static" and r != 1.0:
             raise ValueError(
@@ -228,12 +209,7 @@ def _times(factor: FloatArray, functions: FloatArray) -> FloatArray:
 class OutOfPlaneMotion:
     """Small motion out of the plane about a periodic orbit, as `methods.floquet` sees an orbit.
 
-    Attributes
-    ----------
-    orbit : Orbit
-    space : Space
-    modal : ndarray (n, n), optional
-        Damping beside the blade's own.
+    It may have `modal` damping (n, n) on top of the blade's own.
     """
 
     orbit: Orbit[Any]

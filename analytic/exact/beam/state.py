@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -52,6 +53,28 @@ class BeamState:
     w_slope_dot: FloatArray | float = 0.0
 
 
+def straight_state(x: FloatArray, **moving: FloatArray) -> BeamState:
+    """Return the state at `x` of a straight blade at rest, but for the parts that are given."""
+    flat = dict.fromkeys((one.name for one in fields(BeamState)), np.zeros_like(x))
+    return BeamState(**flat | moving)
+
+
+class Driven(NamedTuple):
+    """Rotation of the clamp and loads, without units, as the equations of motion take them.
+
+    Attributes
+    ----------
+    rate, rate_dot : float or ndarray (samples,)
+        w and its rate.
+    push : ndarray or None
+        Load beyond each Gauss point, as the discretization's `push` returns it.
+    """
+
+    rate: Any
+    rate_dot: Any = 0.0
+    push: Any = None
+
+
 def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:
     """Return x²(6 - 4x + x²)/3 of x/L, the flap of a kick over that of the tip, or a derivative.
 
@@ -65,10 +88,5 @@ def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:
 
 def kicked_state(length: float, speed: float, x: FloatArray) -> BeamState:
     """Return the state at `x` [m] of a straight blade whose tip is kicked out of the plane."""
-    zero = np.zeros_like(x)
-    flat = dict.fromkeys((one.name for one in fields(BeamState)), zero)
-    rates = {
-        "w_dot": speed * flap_of_kick(x / length),
-        "w_slope_dot": speed / length * flap_of_kick(x / length, 1),
-    }
-    return BeamState(**flat | rates)
+    slope = speed / length * flap_of_kick(x / length, 1)
+    return straight_state(x, w_dot=speed * flap_of_kick(x / length), w_slope_dot=slope)

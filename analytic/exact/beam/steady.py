@@ -18,7 +18,7 @@ from ...methods.system import Tangent
 from ...theory import BERNOULLI_EULER
 from .continuum import Continuum
 from .discretization import blade_continuum, finer_model
-from .state import BeamState
+from .state import BeamState, Driven
 
 
 class Discretized:
@@ -57,24 +57,22 @@ class AtConstantRate(Discretized):
         del frequency
         return self
 
-    def forcing(self) -> tuple[Any, Any, Any]:
-        """Return w, ẇ and the push, as `model.residual` takes them."""
-        return self.rate, 0.0, self.push
+    def by(self) -> Driven:
+        """Return what drives it."""
+        return Driven(self.rate, push=self.push)
 
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.rate, push=self.push))
+        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.by()))
 
     def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.rate, push=self.push)
+        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.by())
         return tangent
 
     def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
-        found: tuple[FloatArray, FloatArray] = self.model.section_loads(
-            x, *state, self.rate, push=self.push
-        )
+        found: tuple[FloatArray, FloatArray] = self.model.section_loads(x, *state, self.by())
         return found
 
     def potential(self, q: FloatArray) -> FloatArray:
@@ -88,7 +86,7 @@ class AtConstantRate(Discretized):
 
 @dataclass(frozen=True, eq=False)
 class SteadyBeam(AtConstantRate):
-    """The beam in a frame that turns at a constant rate; a `methods.System`.
+    """The beam in a frame that turns at a constant rate; a system of `methods`.
 
     The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
     maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.

@@ -17,19 +17,14 @@ from ...beam import AnyBlade, require_blade
 from ...loads import Load, require_load
 from ...methods.system import Tangent
 from ..beam.continuum import Continuum
+from ..beam.state import Driven
 from ..beam.steady import Discretized, SteadyBeam
 from ..space.continuum import SpaceContinuum
 from ..space.steady import SpaceBlade
 
 
 def unit_load(beam: AnyBlade, load: Load) -> Load:
-    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0).
-
-    Raises
-    ------
-    TypeError
-        If it is none.
-    """
+    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0)."""
     require_blade(beam)
     require_load(load)
     return load.in_units(
@@ -40,16 +35,7 @@ def unit_load(beam: AnyBlade, load: Load) -> Load:
 def pushes(
     model: Continuum | SpaceContinuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
 ) -> Any:
-    """Return the force of all loads as `model.residual` takes it, None if none.
-
-    Parameters
-    ----------
-    model : Continuum or SpaceContinuum
-    loads : sequence
-        Without dimensions, and their phases (samples,).
-    angle : ndarray (samples,)
-        θ [rad].
-    """
+    """Return the force of all loads, with their phases (samples,), as a model takes it, or None."""
     total: Any = None
     for load, phase in loads:
         if load.acts_on is not None:
@@ -61,16 +47,10 @@ def pushes(
 
 @dataclass(frozen=True, eq=False)
 class DrivenBlade(Discretized):
-    """The blade under one load in steady rotation, in its plane or in space; a `methods.System`.
+    """The blade under one load in steady rotation, in its plane or in space; a system of `methods`.
 
-    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well.
-
-    Attributes
-    ----------
-    steady : SteadyBeam or SpaceBlade
-        Without the load; its gauge is that of the response.
-    load : Load
-        Without dimensions.
+    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well. The
+    gauge is that of the blade without the load, which has no dimensions.
     """
 
     steady: SteadyBeam | SpaceBlade
@@ -122,37 +102,22 @@ class DrivenBlade(Discretized):
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def forcing(self, phase: FloatArray, frequency: float) -> tuple[Any, Any, Any]:
-        """Return w, ẇ and the push at the phases."""
-        load = self.load
-        rate = self.speed(frequency) + load.rate(phase)
+    def by(self, phase: FloatArray, nu: float) -> Driven:
+        """Return what drives it at the phases."""
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
-        return rate, load.acceleration(phase, frequency), pushes(self.model, [(load, phase)], angle)
+        push = pushes(self.model, [(self.load, phase)], angle)
+        rate = self.speed(nu) + self.load.rate(phase)
+        return Driven(rate, self.load.acceleration(phase, nu), push)
 
-    def residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        frequency: float,
-    ) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return self.model.residual(q, q_dot, q_ddot, *self.forcing(phase, frequency))
+    def residual(self, *state: Any) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ at phases and ν."""
+        return self.model.residual(*state[:3], self.by(*state[3:]))
 
-    def tangent(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        phase: FloatArray,
-        frequency: float,
-    ) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(q, q_dot, q_ddot, *self.forcing(phase, frequency))
+    def tangent(self, *state: Any) -> Tangent:
+        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
+        return self.model.tangent(*state[:3], self.by(*state[3:]))
 
     def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x` in states q, q̇, q̈ at phases and ν, as the model does."""
-        q, q_dot, q_ddot, phase, frequency = state
-        return self.model.section_loads(x, q, q_dot, q_ddot, *self.forcing(phase, frequency))
+        """Return force and moment at `x` in the same states, as the model does."""
+        return self.model.section_loads(x, *state[:3], self.by(*state[3:]))

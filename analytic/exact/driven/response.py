@@ -97,7 +97,7 @@ class SpinUpResponse:
         model, setting = self._model, self.beam.setting_angle
         parts = [
             model.standing(self._state[0, few], at, setting)
-            + model.section_loads(at, *self._state[:, few], **driven_at(self.time[few]))
+            + model.section_loads(at, *self._state[:, few], driven_at(self.time[few]))
             for few in few_at_once(self.time.size)
         ]
         place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))

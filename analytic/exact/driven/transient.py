@@ -17,6 +17,7 @@ from ...loads import Load
 from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
 from ...motion import Rotation
 from ..beam.continuum import Continuum
+from ..beam.state import Driven
 from ..space.continuum import SpaceContinuum
 from .loading import pushes, unit_load
 
@@ -54,18 +55,18 @@ class BladeMotion(NamedTuple):
 
 def drive(
     beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
-) -> Callable[[FloatArray], dict[str, Any]]:
-    """Return what gives w, ẇ and the push of the loads at times (stages,) [s], by name."""
+) -> Callable[[FloatArray], Driven]:
+    """Return what gives w, ẇ and the push of the loads at times (stages,) [s]."""
     per_second = beam.frequency_scale
     acting = [(unit_load(beam, load), load.frequency or 0.0) for load in loads]
 
-    def at(times: FloatArray) -> dict[str, Any]:
+    def at(times: FloatArray) -> Driven:
         phases = [(load, frequency * times) for load, frequency in acting]
-        return {
-            "rate": rotation.rate(times) / per_second,
-            "rate_dot": rotation.acceleration(times) / per_second**2,
-            "push": pushes(model, phases, rotation.angle(times)),
-        }
+        return Driven(
+            rotation.rate(times) / per_second,
+            rotation.acceleration(times) / per_second**2,
+            pushes(model, phases, rotation.angle(times)),
+        )
 
     return at
 
@@ -105,8 +106,8 @@ def integrated(
         found, driven = None, driven_at(stages)
         if not math.isclose(h, previous):
             factors = None
-        residual = partial(model.residual, **driven)
-        tangent = partial(model.tangent, **driven)
+        residual = partial(model.residual, by=driven)
+        tangent = partial(model.tangent, by=driven)
         for guess in guesses:
             found = method.step(
                 h, q, q_dot, guess, residual=residual, tangent=tangent, newton=newton,

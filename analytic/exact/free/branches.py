@@ -174,10 +174,7 @@ def _followed(
     up_to: float = 1.0,
     points: int = _TONGUE_POINTS,
 ) -> list[Marked] | None:
-    """Return the orbits that follow two by arclength; None if the path just goes on.
-
-    So many points at most, and not beyond the amplitude `up_to`.
-    """
+    """Return the orbits that follow two, to `up_to` at most; None if the path just goes on."""
     scale = _FREQUENCY_SCALE * last.frequency
     curve = OrbitCurve(last, last.frequency, scale, _better_resolved)
     start = curve.unknowns(last)

@@ -57,15 +57,6 @@ class BackboneCurve:
         the error at other orbits, whichever is larger.
     series, first : Chebyshev
         Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
-
-    Examples
-    --------
-    >>> from analytic import Beam, backbone_curve
-    >>> curve = backbone_curve(Beam.reference(), omega=6.0, up_to=0.4)
-    >>> print(f"ω_NL/ω_n = 1 - {curve.lambda_omega:.5f} a² + …, within {curve.holds_up_to:.2f}")
-    ω_NL/ω_n = 1 - 0.01967 a² + …, within 0.40
-    >>> print((curve.frequency([0.1, 0.2, 0.4])).round(6))
-    [3.729665 3.727422 3.717892]
     """
 
     beam: AnyBlade
@@ -112,7 +103,7 @@ class BackboneCurve:
 
     def _within(self, a: ArrayLike) -> FloatArray:
         amplitude = float_array("amplitude", a)
-        low, high = _extent(amplitude)
+        low, high = np.min(amplitude, initial=0.0), np.max(amplitude, initial=0.0)
         if not (low >= 0.0 and high <= self.holds_up_to * (1.0 + 1e-12)):
             finite_array("amplitude", amplitude)
             raise ValueError(
@@ -128,16 +119,6 @@ class BackboneCurve:
             f"{self.holds_up_to:.4g}: ω_n = {self.omega_n:.8f} rad/s, λ_ω = "
             f"{self.lambda_omega:.6f}, κ = {self.kappa:.5f}, error {self.error:.0e}"
         )
-
-
-def _extent(a: FloatArray) -> tuple[float, float]:
-    """Return the least and the greatest of the numbers and 0, not a number where one is not."""
-    flat = np.ravel(a)
-    blocks = [flat[start : start + _BLOCK] for start in range(0, flat.size, _BLOCK)]
-    return (
-        float(np.min([block.min() for block in blocks], initial=0.0)),
-        float(np.max([block.max() for block in blocks], initial=0.0)),
-    )
 
 
 def _shortened(series: Chebyshev, error: float) -> Chebyshev:

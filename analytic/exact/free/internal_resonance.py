@@ -52,23 +52,10 @@ class Resonance(NamedTuple):
 def frequency_ratios(
     orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int
 ) -> tuple[list[int], FloatArray]:
-    """Return the lowest other modes, from 1, and their ν_j/Ω about successive orbits.
+    """Return the lowest other modes, from 1, and their ν_j/Ω (orbits, modes) about orbits.
 
-    Multipliers leave open how many turns a mode makes in a period; it is followed from the linear
-    mode on, in the square of the amplitude.
-
-    Parameters
-    ----------
-    orbits : sequence
-        Of one branch, ascending from the smallest.
-    modes : ndarray
-        Nondimensional linear frequencies.
-    mode : int
-        From which the orbits grow.
-
-    Returns
-    -------
-    list, ndarray (orbits, modes)
+    They ascend along the branch of a `mode`, `modes` are linear frequencies. Multipliers leave open
+    how many turns a mode makes in a period; it is followed in the square of the amplitude.
     """
     others = _others(modes, mode)
     squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
@@ -105,11 +92,7 @@ def _turns(orbit: BeamOrbit, count: int) -> FloatArray:
 def resonances_along(
     orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
 ) -> list[Resonance]:
-    """Return the internal resonances between successive orbits, in order.
-
-    Parameters as of `frequency_ratios`, and what nondimensional frequencies are multiples of
-    [rad/s].
-    """
+    """Return the internal resonances between successive orbits; the unit of Ω is `per_second`."""
     others, ratios = frequency_ratios(orbits, modes, mode)
     met: list[Resonance] = []
     for i, pair in enumerate(pairwise(ratios)):
@@ -152,14 +135,6 @@ def pinned(
     """Return more orbits next to a resonance, as near as they are found, and its amplitude.
 
     The harmonic's share without the resonance shifts the pole that two far orbits give.
-
-    Parameters
-    ----------
-    at : callable
-        The orbit of an amplitude; raises NoOrbitError if there is none.
-    orbits : sequence
-        Ascending.
-    resonance : Resonance
     """
     k, place = resonance.harmonic, resonance.amplitude
     i = sum(orbit.amplitude < place for orbit in orbits)

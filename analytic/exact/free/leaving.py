@@ -130,16 +130,7 @@ class LeavingBranch(SpaceOrbitSet, Branch):
 
 @dataclass(frozen=True, kw_only=True)
 class _Leaving:
-    """Planar orbits as such of one reversal in space, and what may leave their plane.
-
-    Attributes
-    ----------
-    of : ModePath
-    system : SpaceBlade
-    periods : int
-    harmonics : int
-        Of the planar orbits.
-    """
+    """Planar orbits, of so many harmonics, as such of one reversal in space, and what leaves."""
 
     of: ModePath
     system: SpaceBlade

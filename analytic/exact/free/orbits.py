@@ -105,11 +105,6 @@ class Orbits(OrbitSet):
             Drawn on these; otherwise on a new figure.
         **line
             As for matplotlib's `Axes.plot`, such as color and label; a marker is the orbits'.
-
-        Examples
-        --------
-        >>> from analytic import Beam, periodic_orbits
-        >>> ax = periodic_orbits(Beam.reference(), 6.0, [0.1, 0.2, 0.3]).plot()
         """
         ax = axes_or_new(ax)
         mode = "" if self.mode == 1 else f", mode {self.mode}"

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -24,7 +25,7 @@ from .tracking import Crossing, family_of
 if TYPE_CHECKING:
     from ...plotting import Axes
 
-_DRAWN = 41  # speeds that a picture's curves go through, besides their own: chords below a pixel
+_SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
 _TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
 _MOST_ORDERS = 1000
 
@@ -91,15 +92,21 @@ class Campbell:
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
         """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""
-        even = np.linspace(self.omegas[0], self.omegas[-1], _DRAWN)
-        apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.1 * (even[1] - even[0])
-        speeds = np.sort(np.concatenate((self.omegas, even[apart_])))
-        counts = {plane: self.planes.count(plane) for plane in self.planes}
-        families = [
-            family_of(self.beam, speeds, count, 0, plane, self.theory)
-            for plane, count in counts.items()
-        ]
-        return speeds, np.hstack([family.frequencies for family in families])
+        even = np.linspace(self.omegas[0], self.omegas[-1], _SOLVED)
+        apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.5 * (even[1] - even[0])
+        speeds, frequencies = self.omegas, self.frequencies
+        if apart_.any():
+            speeds = np.sort(np.concatenate((speeds, even[apart_])))
+            counts = {plane: self.planes.count(plane) for plane in self.planes}
+            families = [
+                family_of(self.beam, speeds, count, 0, plane, self.theory)
+                for plane, count in counts.items()
+            ]
+            frequencies = np.hstack([family.frequencies for family in families])
+        drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
+        # Squares of frequencies are nearly straight over those of the speed.
+        squares = PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
+        return drawn, np.sqrt(squares)
 
     def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
         """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
@@ -112,11 +119,6 @@ class Campbell:
             Drawn on these; otherwise on a new figure.
         highest : float, optional
             Frequency [rad/s] up to which is drawn; otherwise all are.
-
-        Examples
-        --------
-        >>> from analytic import Beam, campbell
-        >>> ax = campbell(Beam.reference(), [0.0, 4.0, 8.0, 12.0]).plot()
         """
         ax = axes_or_new(ax)
         low, high = float(self.omegas[0]), float(self.omegas[-1])

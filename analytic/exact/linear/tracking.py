@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from itertools import count as count_from
 from itertools import pairwise
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
+from scipy.interpolate import barycentric_interpolate
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -20,6 +22,9 @@ from ..space.steady import lives_in_space
 from .modes import LinearModes, Plane, flap_blade, linear_modes, modes_on
 
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
+_THROUGH = 4  # solved speeds that a crossing is interpolated through
+_HALVED = 4  # th step halves the interval, for frequencies that jump
+_NEAR = 1e-9  # of the speed: so near to a solved one an interpolated crossing is exact to rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,15 +65,27 @@ def family_of(
 ) -> Family:
     """Return the first modes of a family over the speeds, and where they meet the lines kω."""
     wanted = count + _SPARE_MODES * (plane != "torsion")  # whose modes keep their order
+    ends = [
+        linear_modes(
+            beam, omega, wanted, plane=plane, theory=theory, functions=max(20, 2 * wanted)
+        ).model
+        for omega in {float(speeds[0]), float(speeds[-1])}
+    ]
+    # A model that resolves the modes at both ends does so between them.
+    model: Any = max(ends, key=lambda one: one.bending)
+    bent = flap_blade(beam) if plane == "flap" else beam
+    in_space = plane == "torsion" or lives_in_space(beam)
 
-    def modes_at(omega: float) -> LinearModes:
-        functions = max(20, 2 * wanted)
-        return linear_modes(beam, omega, wanted, plane=plane, theory=theory, functions=functions)
+    def modes_at(omega: float, near: Any = None) -> LinearModes:
+        if not in_space:
+            return modes_on(model, bent, omega, wanted)
+        torsion = plane == "torsion"
+        modes = space_modes_on(model, beam, omega, wanted, torsion=torsion, near=near)
+        return cast(LinearModes, modes)
 
-    bent, solved = flap_blade(beam) if plane == "flap" else beam, cast(Any, modes_on)
-    if plane == "torsion" or lives_in_space(beam):
-        solved = partial(space_modes_on, torsion=plane == "torsion")
-    found = [modes_at(omega) for omega in speeds.tolist()]
+    found: list[LinearModes] = []
+    for omega in speeds.tolist():
+        found.append(modes_at(omega, *found[-1:]))
     columns = [np.arange(count)]
     assurances = []
     for here, there in pairwise(found):
@@ -76,20 +93,13 @@ def family_of(
         columns.append(_followed(assurance))
         assurances.append(assurance[np.arange(count), columns[-1]])
 
-    def detuning_from(row: int) -> Callable[[float, int, int], float]:
-        here, there = found[row : row + 2]
-        # A model that resolves the modes at both ends does so between them.
-        finer = max(here.model, there.model, key=lambda model: model.bending)
-
-        def detuning(omega: float, mode: int, order: int) -> float:
-            modes = solved(finer, bent, omega, wanted)
-            same = _followed(_assurance(here, modes)[columns[row]])[mode]
-            return float(modes.frequencies[same] - order * omega)
-
-        return detuning
+    def tracked(omega: float, row: int) -> FloatArray:
+        near = min(found[row : row + 2], key=lambda modes: abs(modes.omega - omega))
+        modes = modes_at(omega, near)
+        return modes.frequencies[_followed(_assurance(found[row], modes)[columns[row]])]
 
     frequencies = np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)])
-    crossings = _met(speeds, frequencies, orders, detuning_from)
+    crossings = _met(speeds, frequencies, orders, tracked)
     return Family(frequencies, np.array(assurances).reshape(-1, count), crossings)
 
 
@@ -97,24 +107,51 @@ def _met(
     speeds: FloatArray,
     frequencies: FloatArray,
     orders: int,
-    detuning_from: Callable[[int], Callable[[float, int, int], float]],
+    tracked: Callable[[float, int], FloatArray],
 ) -> list[Crossing]:
     """Return where the columns cross kω; what finds it depends on the speed before."""
     crossings = []
-    for row, (low, high) in enumerate(pairwise(speeds.tolist())):
+    known = dict(zip(speeds.tolist(), frequencies, strict=True))
+    for row, ends in enumerate(pairwise(speeds.tolist())):
         for column in range(frequencies.shape[1]):
             for order in range(1, orders + 1):
-                before = frequencies[row, column] - order * low
-                after = frequencies[row + 1, column] - order * high
+                before, after = (known[end][column] - order * end for end in ends)
                 if before > 0.0 >= after or before < 0.0 <= after:
-                    omega = optimize.brentq(
-                        detuning_from(row), low, high, args=(column, order),
-                        xtol=1e-13 * high, rtol=1e-13,
-                    )  # fmt: skip
+                    omega = _crossed(known, row, ends, column, order, tracked)
                     crossings.append(
                         Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
                     )
     return crossings
+
+
+def _crossed(
+    known: dict[float, FloatArray],
+    row: int,
+    ends: tuple[float, float],
+    column: int,
+    order: int,
+    tracked: Callable[[float, int], FloatArray],
+) -> float:
+    """Return where a column crosses kω between the ends; all that is solved becomes known."""
+    low, high = ends
+    falls = known[low][column] > order * low
+    for step in count_from(1):
+        # Squares of frequencies are nearly straight over those of the speed.
+        squares = np.array(list(known)) ** 2
+        detuning = np.array([found[column] for found in known.values()]) ** 2 - order**2 * squares
+        nearest = np.argsort(np.abs(detuning))[:_THROUGH]
+        square = float(barycentric_interpolate(detuning[nearest], squares[nearest], 0.0))
+        omega = math.sqrt(square) if square > 0.0 else math.inf
+        if min(abs(omega - low), abs(omega - high)) <= _NEAR * high:
+            break
+        if step % _HALVED == 0 or not low < omega < high:
+            omega = 0.5 * (low + high)
+        known[omega] = tracked(omega, row)
+        if (known[omega][column] > order * omega) == falls:
+            low = omega
+        else:
+            high = omega
+    return omega
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:
@@ -124,8 +161,7 @@ def _followed(assurance: FloatArray) -> NDArray[np.intp]:
 
 def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
     """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
-    larger = max(one.model, other.model, key=lambda model: model.bending)
-    a, b = (modes.model.padded(modes.coordinates, larger) for modes in (one, other))
+    a, b = one.coordinates, other.coordinates
     a = a / np.linalg.norm(a, axis=1, keepdims=True)
     b = b / np.linalg.norm(b, axis=1, keepdims=True)
     return np.asarray(np.abs(a.conj() @ b.T) ** 2)

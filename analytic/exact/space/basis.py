@@ -27,22 +27,12 @@ _MANY_CELLS = 8
 
 @dataclass(frozen=True, eq=False)
 class Masses:
-    """Masses of the slices at the grid's points, and the point masses.
+    """Masses of the slices at the grid's points, and point masses, in the frame without twist."""
 
-    Attributes
-    ----------
-    places, mass : ndarray (masses,)
-    offset : ndarray (3, masses)
-        From the line to the center of mass, in the frame without twist.
-    inertia : ndarray (3, 3, masses)
-        About the center of mass, in the same.
-    drag : ndarray (masses,) or None
-    """
-
-    places: FloatArray
+    places: FloatArray  # (masses,), as mass and drag
     mass: FloatArray
-    offset: FloatArray
-    inertia: FloatArray
+    offset: FloatArray  # (3, masses), from the line to the center of mass
+    inertia: FloatArray  # (3, 3, masses), about the center of mass
     drag: FloatArray | None
 
     @cached_property
@@ -58,25 +48,13 @@ class Masses:
 
 @dataclass(frozen=True, eq=False)
 class Strains:
-    """Functions at some places, and the unloaded blade there.
+    """Functions at some places, and the unloaded blade there."""
 
-    Attributes
-    ----------
-    gamma, K : ndarray (3, places, n)
-        Γ and K.
-    initial : ndarray (3, places)
-        K of the unloaded blade, without the twist.
-    twist : ndarray (places,)
-        κ01.
-    trapeze : ndarray (places,)
-        k² of the trapeze effect, zero without it.
-    """
-
-    gamma: FloatArray
-    K: FloatArray
-    initial: FloatArray
-    twist: FloatArray
-    trapeze: FloatArray
+    gamma: FloatArray  # Γ, (3, places, n)
+    K: FloatArray  # K, (3, places, n)
+    initial: FloatArray  # K of the unloaded blade, without the twist, (3, places)
+    twist: FloatArray  # κ01, (places,)
+    trapeze: FloatArray  # k² of the trapeze effect, zero without it, (places,)
 
     @cached_property
     def trapezes(self) -> bool:

@@ -29,7 +29,7 @@ import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
-from ..beam.state import flap_of_kick
+from ..beam.state import Driven, flap_of_kick
 from .basis import StrainFunctions
 from .changes import Changes, Rates, State
 from .vectors import Frames, cross, turned, turned_back
@@ -92,22 +92,13 @@ class SpaceContinuum:
             turned(frame_m, self.masses.offset[:, None]),
         )  # fmt: skip
 
-    def _clamp(
-        self, rate: float | FloatArray, rate_dot: float | FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _clamp(self, by: Driven) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return W, Ẇ and the clamp's place h from the axis of rotation, (3, samples, 1)."""
         axis, hub = self.blade.axis[:, None, None], self.blade.clamp[:, None, None]
-        w, w_dot = (np.atleast_1d(np.asarray(x, dtype=float))[:, None] for x in (rate, rate_dot))
+        w, w_dot = (np.atleast_1d(np.asarray(x, dtype=float))[:, None] for x in by[:2])
         return axis * w, axis * w_dot, hub
 
-    def _motion(
-        self,
-        at: State,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray,
-    ) -> Rates:
+    def _motion(self, at: State, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> Rates:
         integral = self.integrals.of
         stretch, bend = self._rates(at.K, q_dot)
         stretch_rate, bend_rate = self._rates(at.K, q_ddot)
@@ -124,7 +115,7 @@ class SpaceContinuum:
             + cross(spin, cross(spin, at.slope) + 2.0 * stretching)
             + speeding
         )
-        W, W_dot, hub = self._clamp(rate, rate_dot)
+        W, W_dot, hub = self._clamp(by)
         place = hub + at.place_m
         total = spin_m + W
         total_rate = spin_rate_m + cross(W, spin_m) + W_dot
@@ -170,45 +161,32 @@ class SpaceContinuum:
         return pulled, force, moment
 
     def residual(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: FloatArray | None = None,
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
         """Return the virtual work (samples, n) of all forces on the basis functions.
 
-        A `push` (3, 3, samples, points) is the load beyond each Gauss point, times its weight, the
+        A push (3, 3, samples, points) is the load beyond each Gauss point, times its weight, the
         acceleration that another one gives to all masses, and the couple beyond each point.
         """
         at = self._state(q)
-        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
-        _, force, moment = self._forces(at, motion, push)
+        motion = self._motion(at, q_dot, q_ddot, by)
+        _, force, moment = self._forces(at, motion, by.push)
         return self._work(at, q, q_dot, force, moment)
 
     def section_loads(
-        self,
-        x: FloatArray,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: FloatArray | None = None,
+        self, x: FloatArray, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in the section's axes, each (samples, places, 3).
 
         By d'Alembert, of all inertia and all loads beyond.
         """
         at = self._state(q)
-        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
+        motion = self._motion(at, q_dot, q_ddot, by)
         onto = self.functions.grid.interpolation(x).T / self.weights[:, None]
         sections = self.blade.section_frames(x)[:, :, None]
         force, moment = (
             np.moveaxis(turned_back(sections, turned_back(at.frame, one) @ onto), 0, -1)
-            for one in self._forces(at, motion, push)[1:]
+            for one in self._forces(at, motion, by.push)[1:]
         )
         return force, moment
 
@@ -222,20 +200,12 @@ class SpaceContinuum:
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
 
-    def tangent(
-        self,
-        q: FloatArray,
-        q_dot: FloatArray,
-        q_ddot: FloatArray,
-        rate: float | FloatArray,
-        rate_dot: float | FloatArray = 0.0,
-        push: FloatArray | None = None,
-    ) -> Tangent:
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
         at = self._state(q)
-        motion = self._motion(at, q_dot, q_ddot, rate, rate_dot)
-        pulled, force, moment = self._forces(at, motion, push)
-        change = Changes(self, at, motion, *self._clamp(rate, rate_dot)[:2])
+        motion = self._motion(at, q_dot, q_ddot, by)
+        pulled, force, moment = self._forces(at, motion, by.push)
+        change = Changes(self, at, motion, *self._clamp(by)[:2])
         mass, damping, stiffness = change.matrices()
         stiffness += change.geometric(pulled, force, moment)
         stiffness += self.functions.stiffness
@@ -344,14 +314,14 @@ class SpaceContinuum:
         """Return the kinetic energy relative to the root frame, (samples,)."""
         at = self._state(q)
         none = np.zeros_like(q)
-        motion = self._motion(at, q_dot, none, 0.0, 0.0)
+        motion = self._motion(at, q_dot, none, Driven(0.0))
         velocity = motion.velocity_m + cross(motion.spin_m, at.offset_m)
         return np.asarray(0.5 * self._energy(at, velocity, motion.spin_m))
 
     def amended_potential(self, q: FloatArray, rate: float) -> FloatArray:
         """Return V - T0, which with the kinetic energy is the Jacobi integral, (samples,)."""
         at = self._state(q)
-        W, _, hub = self._clamp(rate, 0.0)
+        W, _, hub = self._clamp(Driven(rate))
         carried = cross(W, hub + at.place_m + at.offset_m)
         spin = np.broadcast_to(W, carried.shape)
         return np.asarray(
@@ -366,5 +336,5 @@ class SpaceContinuum:
     def changes(self, q: FloatArray) -> Changes:
         """Return the derivatives about states `q` (samples, n) at rest."""
         at, still = self._state(q), np.zeros_like(q)
-        motion = self._motion(at, still, still, 0.0, 0.0)
-        return Changes(self, at, motion, *self._clamp(0.0, 0.0)[:2])
+        motion = self._motion(at, still, still, Driven(0.0))
+        return Changes(self, at, motion, *self._clamp(Driven(0.0))[:2])

@@ -17,7 +17,7 @@ from ...settled import settled
 from ...theory import Theory
 from ..beam.discretization import require_out_of_plane
 from .continuum import SpaceContinuum
-from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
+from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
@@ -106,11 +106,6 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
     The trapeze effect and the propeller moment stiffen it. Of the paper's rectangle at 12 rad/s the
     first is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75
     with both.
-
-    Raises
-    ------
-    ValueError
-        If its torsional stiffness is unknown or infinite, or its polar inertia zero.
     """
     known = require_out_of_plane(blade, torsion=False)
     if known.torsion_ratio is None or math.isinf(known.torsion_ratio):
@@ -131,13 +126,7 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
 def space_modes(
     blade: AnyBlade, omega: float, count: int, theory: Theory, *, torsion: bool = False
 ) -> SpaceModes:
-    """Return the lowest modes, or those of torsion alone, on more functions until they settle.
-
-    Raises
-    ------
-    ValueError
-        If they do not.
-    """
+    """Return the lowest modes, or those of torsion alone, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
     _, (steady, (found, shapes)), error = settled(
         lambda one: (one, _solved(one, torsion)),
@@ -151,10 +140,21 @@ def space_modes(
 
 
 def space_modes_on(
-    model: SpaceContinuum, blade: AnyBlade, omega: float, count: int, *, torsion: bool = False
+    model: SpaceContinuum,
+    blade: AnyBlade,
+    omega: float,
+    count: int,
+    *,
+    torsion: bool = False,
+    near: SpaceModes | None = None,
 ) -> SpaceModes:
-    """Return the modes on a discretization that is known to resolve them, unchecked."""
+    """Return the modes on a discretization that is known to resolve them, unchecked.
+
+    The steady state is sought from that of modes on the same discretization at a speed nearby.
+    """
     steady = space_rotation(blade, omega, model)
+    if near is not None and abs(near.omega - omega) <= LONGEST * blade.frequency_scale:
+        steady = replace(steady, near=near._steady)
     found, shapes = _solved(steady, torsion)
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
 

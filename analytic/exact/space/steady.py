@@ -18,6 +18,7 @@ from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
 from ..beam.discretization import require_shear
+from ..beam.state import Driven
 from ..beam.steady import AtConstantRate
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
@@ -27,20 +28,15 @@ FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
 MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
-_LONGEST = 1.0  # step of w̄ from one state to the next: beyond, Newton's method may leave the branch
+LONGEST = 1.0
+"""Step of w̄ from one state to the next: beyond, Newton's method may leave the branch."""
 _SHORTEST = 1e-3
 _LARGEST_KICK = 0.1
 _STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
 
 
 def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceContinuum:
-    """Return the discretization by at least so many functions for each curvature.
-
-    Raises
-    ------
-    ValueError
-        If the stiffness out of the plane, or in torsion, is not known.
-    """
+    """Return the discretization by at least so many functions for each curvature."""
     require_section(beam)
     require_shear(beam, require_theory(theory))
     if theory.engesser:
@@ -93,7 +89,7 @@ def require_section(beam: AnyBlade) -> None:
 
 @dataclass(frozen=True, eq=False)
 class SpaceBlade(AtConstantRate):
-    """The blade in a frame that turns at a constant rate; a `methods.System`.
+    """The blade in a frame that turns at a constant rate; a system of `methods`.
 
     Attributes
     ----------
@@ -152,20 +148,14 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def equilibrium(self) -> FloatArray:
-        """Coordinates (n,) of the steady state.
-
-        Raises
-        ------
-        ValueError
-            If it ends, or becomes unstable, at a lower speed.
-        """
+        """Coordinates (n,) of the steady state; refused if it ends, or gets unstable, before."""
         found = None if self.near is None else self._newton(self.near, 1.0)
         if found is not None:
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
         straight = unit.half_turn and unit.mirrored and not self._is_loaded
-        whole = max(self.rate / _LONGEST, self._loaded)
+        whole = max(self.rate / LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
         while True:
@@ -201,7 +191,7 @@ class SpaceBlade(AtConstantRate):
         # A moment that keeps its direction has no potential.
         values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
         for _ in range(_STEPS):
-            tangent = self.model.tangent(q[None], still, still, rate, push=push)
+            tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
             if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):

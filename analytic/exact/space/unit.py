@@ -191,13 +191,7 @@ class SpaceUnit(UnitBlade):
 
 @dataclass(frozen=True, kw_only=True)
 class StationUnit(SpaceUnit):
-    """A blade in space without dimensions, of 6x6 matrices.
-
-    Attributes
-    ----------
-    section : StationSection
-        In units of L, m0 and EI3 at the root.
-    """
+    """A blade in space without dimensions, by 6x6 matrices in units of L and the root's m0, EI3."""
 
     section: StationSection
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.exact.beam.continuum import Continuum
+from analytic.exact.beam.state import Driven
 from analytic.exact.driven.transient import grid_of, integrated
 
 from ..cases import Case
@@ -31,9 +32,9 @@ class _Lacking(Continuum):
         """Return what is left out of the clamp's own acceleration."""
         return 0.0
 
-    def _fields(self, q: Any, q_dot: Any, q_ddot: Any, rate: Any, *others: Any) -> Any:
-        at = super()._fields(q, q_dot, q_ddot, rate, *others)
-        w = self.blade.setting * np.asarray(rate)[..., None]
+    def _fields(self, q: Any, q_dot: Any, q_ddot: Any, by: Driven) -> Any:
+        at = super()._fields(q, q_dot, q_ddot, by)
+        w = self.blade.setting * np.asarray(by.rate)[..., None]
         lacking = self.lacking(at, w) @ self._green + self.of_clamp(w) * self.outboard["mass"]
         return at._replace(force=at.force - at.turn.conj() * lacking)
 

@@ -28,11 +28,12 @@ _SHORTENING = 0.581  # of a bent cantilever's first mode: the tip nears the clam
 _ROUGH = 0.3  # of max|q|: what a mistake leaves that may be it, in the first mode alone
 _LINEAR = 0.1  # |q|/L up to which a response is proportional to the speed, early in a ramp
 
-_UNITS = {
-    "degrees": ("degrees", 180.0 / math.pi),
+UNITS = {
+    "degrees": ("degrees/s", 180.0 / math.pi),
     "revolutions per minute": ("rpm", 30.0 / math.pi),
     "hertz": ("Hz", 0.5 / math.pi),
 }
+"""Units of a speed or a frequency, and how many of them are 1 rad/s."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +153,7 @@ SIGNS = {
     "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
     "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
     "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
-    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, _UNITS["degrees"][1])),
+    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, UNITS["degrees"][1])),
 }
 """Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
 
@@ -265,7 +266,7 @@ def _unit_of_speed(seen: _Seen) -> _Suspects:
     left = largest(q - factor * true)
     if left > LEFT * largest(q):
         return
-    for name, (short, unit) in _UNITS.items():
+    for name, (short, unit) in UNITS.items():
         for size, said in (
             (unit, f"the speed was turned into {short} where rad/s are wanted"),
             (1.0 / unit, f"the speed in rad/s was taken for {short}"),

@@ -15,7 +15,7 @@ from ..cases import Asked, Case
 from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
 from ..submission import BackbonePoint, Frequency, SteadyTip
-from .histories import SIGNS, TWISTED
+from .histories import SIGNS, TWISTED, UNITS
 from .mistake import Mistake, explaining, largest
 
 Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
@@ -31,11 +31,6 @@ SMALL_OF_SHIFT = 1e-2
 _MOST_BINS, _IN_BIN, _FEWEST = 300, 1e-3, 3
 """Bins up to a frequency that are tried, how far off one it may be, and how many frequencies."""
 
-_FREQUENCY_UNITS = {
-    "hertz": ("Hz", 0.5 / math.pi),
-    "revolutions per minute": ("rpm", 30.0 / math.pi),
-    "degrees": ("degrees/s", 180.0 / math.pi),
-}
 _SPEED_UNITS = {
     "degrees": ("the speeds in rad/s were taken for degrees/s", math.pi / 180.0),
     "revolutions per minute": ("the speeds in rad/s were taken for rpm", math.pi / 30.0),
@@ -162,7 +157,7 @@ def _bins(found: FloatArray, true: FloatArray) -> _Suspects:
 
 
 def _other_units(true: FloatArray) -> _Suspects:
-    for name, (unit, factor) in _FREQUENCY_UNITS.items():
+    for name, (unit, factor) in UNITS.items():
         yield name, f"the frequencies are in {unit}: hand in rad/s", factor * true
 
 
