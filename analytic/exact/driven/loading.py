@@ -110,14 +110,19 @@ class DrivenBlade(Discretized):
         rate = self.speed(nu) + self.load.rate(phase)
         return Driven(rate, self.load.acceleration(phase, nu), push)
 
+    def _at(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
+    ) -> tuple[FloatArray, FloatArray, FloatArray, Driven]:
+        return q, q_dot, q_ddot, self.by(*drive)
+
     def residual(self, *state: Any) -> FloatArray:
         """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ at phases and ν."""
-        return self.model.residual(*state[:3], self.by(*state[3:]))
+        return self.model.residual(*self._at(*state))
 
     def tangent(self, *state: Any) -> Tangent:
         """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(*state[:3], self.by(*state[3:]))
+        return self.model.tangent(*self._at(*state))
 
     def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in the same states, as the model does."""
-        return self.model.section_loads(x, *state[:3], self.by(*state[3:]))
+        return self.model.section_loads(x, *self._at(*state))
