@@ -110,6 +110,15 @@ class GrowthOutOfPlane:
     converged : ndarray (orbits,)
         Whether on half, or two thirds, as many functions and steps it is stable as well, or grows
         within 1 % as fast.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> blade = Beam.reference().with_section_out_of_plane(0.01, 0.02)
+    >>> blade = blade.with_damping(Damping(bending=0.01))
+    >>> found = forced_response(blade, 2.0, TipForce(amplitude=0.1), [2.4, 2.5], functions=8)
+    >>> print(found.out_of_plane(confirm=False))
+    The response stays in its plane, up to a = 0.01039
     """
 
     amplitude: FloatArray
