@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Theory, campbell, linear_modes
+from analytic.exact.linear.tracking import _crossed
 from tests.beams import unit_beam
 
 
@@ -61,6 +62,13 @@ def test_a_mode_is_followed_through_another(beam):
         np.abs(np.diff(diagram.frequencies, n=2, axis=0)).max()
         <= np.abs(np.diff(sorted_by_frequency, n=2, axis=0)).max()
     )
+
+
+def test_a_frequency_that_jumps_over_a_line_ends_the_search():
+    """As where speeds too far apart follow another mode; to the 1e-9 at which the search stops."""
+    known = {1.0: np.array([2.0]), 2.0: np.array([1.0])}
+    found = _crossed(known, 0, (1.0, 2.0), 0, 1, lambda at, _: np.array([2.0 if at < 1.3 else 1.0]))
+    assert found == pytest.approx(1.3, rel=1e-8)
 
 
 @pytest.mark.parametrize("omegas", [[1.0, 1.0], [2.0, 1.0], [-1.0, 1.0], [0.0, np.nan]])

@@ -141,11 +141,12 @@ def _crossed(
         detuning = np.array([found[column] for found in known.values()]) ** 2 - order**2 * squares
         nearest = np.argsort(np.abs(detuning))[:_THROUGH]
         square = float(barycentric_interpolate(detuning[nearest], squares[nearest], 0.0))
-        omega = math.sqrt(square) if square > 0.0 else math.inf
-        if min(abs(omega - low), abs(omega - high)) <= _NEAR * high:
+        middle = 0.5 * (low + high)
+        omega = math.sqrt(square) if low**2 < square <= high**2 else middle
+        if min(omega - low, high - omega) <= _NEAR * high:
             break
-        if step % _HALVED == 0 or not low < omega < high:
-            omega = 0.5 * (low + high)
+        if step % _HALVED == 0:
+            omega = middle
         known[omega] = tracked(omega, row)
         if (known[omega][column] > order * omega) == falls:
             low = omega
