@@ -14,12 +14,32 @@ from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 
 from .lazily import xr
-from .result_columns import dataset
+from .result_columns import GROWTH, dataset
 from .runs.attributes import beam_attributes, loads_attributes
 from .runs.versions import versions
 
 
 def of_forced(response: ForcedResponse) -> xr.Dataset:
+    """Return `_curve`, and where the section is known what grows out of the plane, and a sentence.
+
+    On as many functions and steps as `planar_stability` begins with.
+    """
+    data = _curve(response)
+    if response.beam.blade.section.out_of_plane is None:
+        return data
+    try:
+        found = response.out_of_plane(confirm=False)
+    except ValueError as unknown:
+        reason = f"Whether the response stays in its plane is not known: {unknown}"
+        return data.assign_attrs(planar=reason)
+    growth = {
+        "growth_rate": ("point", found.growth_rate, GROWTH),
+        "kind": ("point", list(found.kind), "how it grows"),
+    }
+    return data.merge(dataset(growth, {})).assign_attrs(planar=str(found))
+
+
+def _curve(response: ForcedResponse) -> xr.Dataset:
     """Return it over the points of the curve in order; q/L = Σ cosine cos kφ + sine sin kφ.
 
     `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
@@ -60,7 +80,7 @@ def of_forced(response: ForcedResponse) -> xr.Dataset:
 
 def of_forced_in_space(response: SpaceForcedResponse) -> xr.Dataset:
     """Return it as in the plane; q is the gauge, lag, flap and twist are the tip's amplitudes."""
-    data, half = of_forced(response), "half the way of the tip"
+    data, half = _curve(response), "half the way of the tip"
     data["stable"].attrs["long_name"] = "whether disturbances decay"
     return data.merge(
         dataset(

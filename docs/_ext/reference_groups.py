@@ -77,7 +77,7 @@ GROUPS = (
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
         analytic="planar_stability stability_limit",
-        analytic__exact__plane__planarity="PlanarStability",
+        analytic__exact__plane__planarity="GrowthOutOfPlane PlanarStability",
         analytic__exact__plane__stability_limit="StabilityLimit Tongue",
     ),
     _group(

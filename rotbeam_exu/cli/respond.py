@@ -17,7 +17,7 @@ from .driving import DAMPINGS, LOADS, Dampings, Loads, option_of
 from .job import Job, UnfinishedError
 from .motion import Config, configured, omega_of
 from .options import RESULTS, Flag, NoFigure, Results, Whole
-from .output import bar, formatted, print_columns
+from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
@@ -39,8 +39,8 @@ def respond(
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
 
-    The blade is the exact one. Prints both ends and, in order along the curve, all folds and peaks;
-    writes netCDF, CSV and a figure.
+    The blade is the exact one. Prints both ends and, in order along the curve, all folds and peaks,
+    and whether it leaves its plane, where the section is known; writes netCDF, CSV and a figure.
 
     Parameters
     ----------
@@ -138,3 +138,5 @@ def _print(data: xr.Dataset, title: str) -> None:
         },
         title=title,
     )
+    if "planar" in data.attrs:
+        print_text(f"{data.attrs['planar']}.")

@@ -13,7 +13,9 @@ from analytic import (
     Damping,
     Rectangle,
     Section,
+    SpeedRipple,
     Theory,
+    forced_response,
     linear_modes,
     periodic_orbits,
     planar_stability,
@@ -21,10 +23,10 @@ from analytic import (
 from analytic.damping import UNDAMPED
 from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
-from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import SteadyBeam, steady_rotation
+from analytic.exact.driven.loading import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
-from analytic.exact.space.steady import space_continuum
+from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
 from analytic.quadrature import axial_basis, gauss_points
@@ -53,18 +55,18 @@ def growth(section, w_bar, a, *, theory=SLENDER_LIMIT, functions=12, steps=STEPS
 class Across:
     """κ2 and κ1 of the blade in space about a planar orbit, as `methods.floquet` sees an orbit."""
 
-    def __init__(self, orbit, model):
-        self.orbit, self.model, self.frequency = orbit, model, orbit.frequency
-        bending, torsion, axial, _ = model.functions.counts
+    def __init__(self, orbit, system):
+        self.orbit, self.system, self.frequency = orbit, system, orbit.frequency
+        bending, torsion, axial, _ = system.model.functions.counts
         planar = orbit.system.model
         self.out = np.append(np.arange(1, bending, 2), np.arange(bending, bending + torsion))
         lag, along = np.arange(0, 2 * planar.bending, 2), np.arange(min(axial, planar.axial))
         self.inside = np.append(lag, bending + torsion + along)
 
     def tangent(self, phase):
-        state = np.zeros((3, phase.size, self.model.size))
+        state = np.zeros((3, phase.size, self.system.size))
         state[:, :, self.inside] = np.array(self.orbit.coordinates(phase))[..., : self.inside.size]
-        at = self.model.tangent(*state, Driven(self.orbit.system.rate))
+        at = self.system.tangent(*state, *self.orbit.drive(phase))
         for part in at[1:]:
             mixed = np.delete(part, self.out, axis=2)[:, self.out]
             assert np.abs(mixed).max() < 1e-13 * np.abs(part).max(), "the plane is invariant"
@@ -95,7 +97,7 @@ def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, di
     blade = blade.with_damping(damping)
     known = grown(blade, orbit, 16, 48, theory)
     model = space_continuum(blade, theory, max(16, orbit.system.model.bending))
-    across = Across(orbit, model)
+    across = Across(orbit, SpaceBlade(model, orbit.system.rate))
     # Nothing resists the free orbit.
     model.functions.damping[across.inside] = 0.0
     matrix, exponent = flow(across, 48)
@@ -104,6 +106,23 @@ def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, di
     assert np.log(np.abs(found)).max() == pytest.approx(known.exponent, rel=digits)
     apart = np.abs(found[:, None] - known.multipliers).min(axis=0)
     assert (apart / np.maximum(1.0, np.abs(known.multipliers))).max() < 5.0 * digits
+
+
+def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
+    """With the viscous moment of the response, a third of its elastic one; a = 0.066."""
+    blade, load = BEAM.with_section_out_of_plane(**asdict(STRIP)), SpeedRipple(amplitude=0.05)
+    blade = blade.with_damping(Damping(bending=0.1))
+    orbit = forced_response(blade, 2.0, load, [3.0, 3.1]).nondimensional[0]
+    known = grown(blade, orbit, 16, 48, Theory())
+    model = space_continuum(blade, Theory(), max(16, orbit.system.model.bending))
+    across = Across(
+        orbit,
+        DrivenBlade(SpaceBlade(model, orbit.system.speed(orbit.frequency)), orbit.system.load),
+    )
+    matrix, size = flow(across, 48)
+    found = np.log(np.abs(np.linalg.eigvals(matrix)).max()) + size
+    # As above: the inertia of the sections against flap.
+    assert found == pytest.approx(known.exponent, rel=1e-4)
 
 
 def test_damping_by_mass_decays_as_the_undamped_motion_of_less_stiffness():

@@ -120,6 +120,33 @@ def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("polar", "sentence"),
+    [
+        ("", "The response leaves its plane at 3 of 14 points; the least, a = 0.08758 at 2.74"),
+        (", polar_inertia = 0.0", "in its plane is not known: a twist without inertia"),
+    ],
+)
+def test_a_known_section_tells_whether_the_response_leaves_the_plane(
+    call, tmp_path, polar, sentence
+):
+    config = tmp_path / "blade.toml"
+    config.write_text(
+        f"{BLADE_TOML}out_of_plane = {{ bending_ratio = 0.01, torsion_ratio = 0.02{polar} }}\n"
+        "[blade.damping]\nbending = 0.01\n"
+    )
+    code, out, error = call(
+        "respond", "--config", config, "--omega", "2", "--tip-force", "0.5", "--from", "2.4",
+        "--to", "2.8", "--points", "2", "--functions", "8", "--no-figure", "--out", tmp_path,
+    )  # fmt: skip
+    assert (code, error) == (0, "")
+    assert re.search(sentence, " ".join(out.split()))
+    data = load(next(tmp_path.glob("*.nc")))
+    assert ("growth_rate" in data) == (not polar)
+    if not polar:
+        assert (data["growth_rate"] > 0.0).to_numpy().tolist() == [False] * 11 + [True] * 3
+
+
+@pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (("--omega", "6"), "--distributed-force.* or --gravity, got none"),

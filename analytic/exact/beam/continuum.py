@@ -225,11 +225,10 @@ class Continuum(Kinematics):
         return np.asarray(np.multiply.outer(force, self.outboard[acts_on]))
 
     def tension(
-        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, rate: float
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
         """Return the axial force N at the Gauss points, (samples, points), by d'Alembert."""
-        at = self._fields(q, q_dot, q_ddot, Driven(rate))
-        return -at.force.real / self.weights
+        return -self._fields(q, q_dot, q_ddot, by).force.real / self.weights
 
     def section_loads(
         self, x: FloatArray, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven

@@ -11,27 +11,29 @@ the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
 ι = j(1 - r)/(1 + r). w has no Coriolis force: about a periodic orbit it is a Hill equation. Left
 out are the inertia of the sections against flap, and at r = 1 that of the twist. The viscosity
-η_b of the blade resists the rates of β' - κφ and φ' + κβ; the planar motion is undamped.
+η_b of the blade resists the rates of β' - κφ and φ' + κβ. Of a damped planar motion EIη_b κ̇ adds
+to the moment EIκ, which the stiffness out of the plane takes back by its share r of EIκ alone.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...lazily import linalg
+from ...methods.orbit import Orbit
 from ...methods.system import Tangent
 from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from .continuum import Continuum
 from .discretization import require_out_of_plane
-from .steady import BeamOrbit, SteadyBeam
+from .steady import SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
 """Kinds of twist: it moves with its inertia, follows without inertia, or does not exist."""
@@ -105,15 +107,17 @@ class Space:
         return section.polar_inertia / (blade.mass_per_length * blade.length**2) * own
 
     def stiffness(
-        self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
+        self, planar: Any, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
     ) -> FloatArray:
-        """Return the stiffness (samples, n, n) about a planar motion of `planar`."""
+        """Return the stiffness (samples, n, n) about a motion of `planar` under its drive."""
         model, r = planar.model, self.section.bending_ratio
         x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         kappa, e, change = model.bent(q)
-        tension = model.tension(q, q_dot, q_ddot, planar.rate)
-        bending = model.weights * evaluated(self.unit.bending, x)
-        moment = bending * kappa
+        by = planar.by(*drive)
+        tension = model.tension(q, q_dot, q_ddot, by)
+        bending, kappa_dot = model.weights * evaluated(self.unit.bending, x), model.bent(q_dot)[0]
+        moment = bending * (kappa + model.blade.damping[0] * kappa_dot)
+        excess = moment - r * bending * kappa
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * once
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
@@ -121,17 +125,17 @@ class Space:
         straight += _form(bent, r * bending, bent)
         if self.twist == "rigid":
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
-            mixed = (1.0 - r) * _form(bent, moment, twist)
-            twisted = (r - 1.0) * _form(twist, moment * kappa, twist)
+            mixed = _form(bent, excess, twist)
+            twisted = -_form(twist, excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        spin = planar.rate + model.bent(q_dot)[0] @ upto.T
+        spin = np.asarray(by.rate)[..., None] + kappa_dot @ upto.T
         torsion, turning = self._held(x, tension, spin)
         torsion = model.weights * torsion
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, strain)
-        mixed += (1.0 - r) * _form(bent, moment, once)
+        mixed += _form(bent, excess, once)
         twisted = _form(strain, torsion, strain)
-        twisted += _form(once, model.weights * turning - (1.0 - r) * moment * kappa, once)
+        twisted += _form(once, model.weights * turning - excess * kappa, once)
         if self.twist == "quasi-static":
             np.linalg.cholesky(twisted)  # refuses a twist that buckles
             followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
@@ -184,7 +188,7 @@ class Space:
         return damping, stiffness + _form(flap, r * viscous, flap_dot)
 
 
-def with_points_for(planar: SteadyBeam, functions: int) -> SteadyBeam:
+def with_points_for(planar: Any, functions: int) -> Any:
     """Return the planar system on a basis whose points integrate so many functions."""
     while planar.model.points.size < 2 * functions + 8 * planar.model.blade.panel_count:
         planar = planar.refined()
@@ -208,7 +212,7 @@ class OutOfPlaneMotion:
     It may have `modal` damping (n, n) on top of the blade's own.
     """
 
-    orbit: BeamOrbit
+    orbit: Orbit[Any]
     space: Space
     modal: FloatArray | None = None
 
@@ -220,7 +224,7 @@ class OutOfPlaneMotion:
     def tangent(self, phase: FloatArray) -> Tangent:
         """Return the coefficients of the Hill equation at the phases (phases,)."""
         space, planar, state = self.space, self.orbit.system, self.orbit.coordinates(phase)
-        K = space.stiffness(planar, *state)
+        K = space.stiffness(planar, *state, *self.orbit.drive(phase))
         C = np.zeros_like(K) if self.modal is None else np.broadcast_to(self.modal, K.shape)
         if any(space.unit.damping):
             own, more = space.resistance(planar, *state[:2])
@@ -229,8 +233,9 @@ class OutOfPlaneMotion:
 
     @property
     def reversible(self) -> bool:
-        """Whether nothing damps it."""
-        return self.modal is None and not any(self.space.unit.damping)
+        """Whether the orbit is free and nothing damps what leaves its plane."""
+        driven = self.orbit.system.driven
+        return self.modal is None and not driven and not any(self.space.unit.damping)
 
     @property
     def signs(self) -> FloatArray:

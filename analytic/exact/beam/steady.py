@@ -52,22 +52,27 @@ class AtConstantRate(Discretized):
         """The load, as `model.residual` takes it."""
         return None
 
-    @property
-    def _by(self) -> Driven:
+    def unloaded(self, frequency: float) -> Self:
+        """Return it without load, at the speed that belongs to a drive's frequency."""
+        del frequency
+        return self
+
+    def by(self) -> Driven:
+        """Return what drives it."""
         return Driven(self.rate, push=self.push)
 
     def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
         """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self._by))
+        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.by()))
 
     def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
         """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self._by)
+        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.by())
         return tangent
 
     def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
-        found: tuple[FloatArray, FloatArray] = self.model.section_loads(x, *state, self._by)
+        found: tuple[FloatArray, FloatArray] = self.model.section_loads(x, *state, self.by())
         return found
 
     def potential(self, q: FloatArray) -> FloatArray:

@@ -90,24 +90,30 @@ class DrivenBlade(Discretized):
         """Return w̄."""
         return frequency if self._turns else self.steady.rate
 
+    def unloaded(self, frequency: float) -> SteadyBeam | SpaceBlade:
+        """Return the blade in steady rotation without the load."""
+        return replace(self.steady, rate=frequency) if self._turns else self.steady
+
     def rest(self, frequency: float) -> FloatArray:
         """Return the steady state without the load, (n,)."""
-        steady = replace(self.steady, rate=frequency) if self._turns else self.steady
-        return steady.equilibrium
+        return self.unloaded(frequency).equilibrium
 
     def loaded(self, share: float) -> DrivenBlade:
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def _at(
-        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, phase: FloatArray, nu: float
-    ) -> tuple[FloatArray, FloatArray, FloatArray, Driven]:
-        """Return states q, q̇ and q̈ at phases, and what drives them there."""
+    def by(self, phase: FloatArray, nu: float) -> Driven:
+        """Return what drives it at the phases."""
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
         push = pushes(self.model, [(self.load, phase)], angle)
         rate = self.speed(nu) + self.load.rate(phase)
-        return q, q_dot, q_ddot, Driven(rate, self.load.acceleration(phase, nu), push)
+        return Driven(rate, self.load.acceleration(phase, nu), push)
+
+    def _at(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
+    ) -> tuple[FloatArray, FloatArray, FloatArray, Driven]:
+        return q, q_dot, q_ddot, self.by(*drive)
 
     def residual(self, *state: Any) -> FloatArray:
         """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ at phases and ν."""

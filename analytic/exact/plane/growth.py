@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,11 +13,12 @@ from ...beam import AnyBlade, undamped
 from ...input_checks import not_negative
 from ...lazily import linalg
 from ...methods.floquet import flow, normal_modes, reversible_monodromy
+from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.discretization import resolved_model
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
-from ..beam.steady import BeamOrbit, SteadyBeam
+from ..beam.steady import SteadyBeam
 from ..free.path import ModePath
 
 GROWTH = 1e-5
@@ -71,16 +72,23 @@ class Growth(NamedTuple):
 
 
 def grown_and_checked(
-    blade: AnyBlade, orbit: BeamOrbit, theory: Theory, ratio: float = 0.0
+    blade: AnyBlade, orbit: Orbit[Any], theory: Theory, ratio: float = 0.0, confirm: bool = True
 ) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
-    Or two thirds as many, where half as many do not.
+    Or two thirds as many, where half as many do not; unless it need not be confirmed.
     """
-    functions = settled_functions(blade, orbit.system, theory)
-    rough = grown(blade, orbit, functions, STEPS, theory, ratio)
+    steady, steps = orbit.system.unloaded(orbit.frequency), STEPS
+    functions = settled_functions(blade, steady, theory)
+    if orbit.system.driven:
+        # A drive may be slower than the blade, whose modes are resolved as about its own orbits.
+        slowest = _steady_modes(_space(blade, functions, theory), steady)[1][0]
+        steps *= max(1, int(np.ceil(slowest / orbit.frequency)))
+    rough = grown(blade, orbit, functions, steps, theory, ratio)
+    if not confirm:
+        return rough, False
     for finer in (2, 3):
-        fine = grown(blade, orbit, finer * functions, finer * STEPS, theory, ratio)
+        fine = grown(blade, orbit, finer * functions, finer * steps, theory, ratio)
         if not (rough.unstable or fine.unstable):
             return fine, True
         close = abs(rough.exponent - fine.exponent) <= _SAME * fine.exponent
@@ -92,7 +100,7 @@ def grown_and_checked(
 
 def grown(
     blade: AnyBlade,
-    orbit: BeamOrbit,
+    orbit: Orbit[Any],
     functions: int,
     steps: int,
     theory: Theory = BERNOULLI_EULER,
@@ -104,7 +112,8 @@ def grown(
     """
     space = _space(blade, functions, theory)
     orbit = orbit.on(with_points_for(orbit.system, space.functions))
-    motion = OutOfPlaneMotion(orbit, space, _modal(space, orbit.system, ratio) if ratio else None)
+    steady = orbit.system.unloaded(orbit.frequency)
+    motion = OutOfPlaneMotion(orbit, space, _modal(space, steady, ratio) if ratio else None)
     try:
         if motion.reversible:
             matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
@@ -113,7 +122,7 @@ def grown(
     except linalg.LinAlgError:
         return Growth(np.inf, np.full(2 * _REPORTED, np.nan + 0j), "divergence", ("torsion 1",))
     values, vectors = np.linalg.eig(matrix)
-    frequencies, names, shares = _shares(space, orbit.system, vectors)
+    frequencies, names, shares = _shares(space, steady, vectors)
     place = np.arange(len(shares)) @ shares
     sizes = np.log(np.maximum(np.abs(values), 1e-300)) + exponent
     # What oscillates too fast for the steps comes out at a wrong place and may meet others there.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.discretization import require_out_of_plane
 from ..free.backbone import periodic_orbits
-from ..free.branch import AmplitudeNotReachedError
+from ..free.branch import AmplitudeNotReachedError, OrbitSet
 from .growth import LEAST_GROWTH, grown_and_checked, planar_orbits
 
 _SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
@@ -87,16 +88,11 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlanarStability:
-    """Stability of periodic orbits against motion out of their plane; see `planar_stability`.
+class GrowthOutOfPlane:
+    """Growth out of their plane about planar orbits, free or of a response to a load.
 
     Attributes
     ----------
-    blade : Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        Planar mode from which the orbits grow, from 1.
     amplitude : ndarray (orbits,)
         Peak |q|/L of the planar orbits.
     frequency : ndarray (orbits,)
@@ -117,15 +113,14 @@ class PlanarStability:
 
     Examples
     --------
-    >>> from analytic import Beam, Rectangle, planar_stability
-    >>> strip = Beam.reference().with_shape(Rectangle())
-    >>> print(planar_stability(strip, 4.0, amplitudes=[0.01]))
-    The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
+    >>> from analytic import Beam, Damping, TipForce, forced_response
+    >>> blade = Beam.reference().with_section_out_of_plane(0.01, 0.02)
+    >>> blade = blade.with_damping(Damping(bending=0.01))
+    >>> found = forced_response(blade, 2.0, TipForce(amplitude=0.1), [2.4, 2.5], functions=8)
+    >>> print(found.out_of_plane(confirm=False))
+    The response stays in its plane, up to a = 0.01039
     """
 
-    blade: AnyBlade
-    omega: float
-    mode: int
     amplitude: FloatArray
     frequency: FloatArray
     multipliers: ComplexArray = field(repr=False)
@@ -139,6 +134,48 @@ class PlanarStability:
         """Whether nothing grows out of the plane, (orbits,)."""
         return np.asarray(self.growth_rate == 0.0)
 
+    def _how(self, i: int) -> str:
+        """Return how orbit `i` leaves its plane."""
+        return (
+            f"its plane: {self.kind[i]} of {' and '.join(self.modes[i])}, growing at "
+            f"{self.growth_rate[i]:.3g} 1/s"
+        )
+
+    def __str__(self) -> str:
+        if self.stable.all():
+            return f"The response stays in its plane, up to a = {self.amplitude.max():.4g}"
+        first = int(np.argmin(np.where(self.stable, np.inf, self.amplitude)))
+        return (
+            f"The response leaves its plane at {np.sum(~self.stable)} of {self.stable.size} "
+            f"points; the least, a = {self.amplitude[first]:.4g} at {self.frequency[first]:.6g} "
+            f"rad/s, leaves {self._how(first)}"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanarStability(GrowthOutOfPlane):
+    """Stability of periodic orbits against motion out of their plane; see `planar_stability`.
+
+    Attributes
+    ----------
+    blade : Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : int
+        Planar mode from which the orbits grow, from 1.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle, planar_stability
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> print(planar_stability(strip, 4.0, amplitudes=[0.01]))
+    The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
+    """
+
+    blade: AnyBlade
+    omega: float
+    mode: int
+
     def __str__(self) -> str:
         unstable = ~self.stable
         if not unstable.any():
@@ -149,8 +186,7 @@ class PlanarStability:
         first = int(np.flatnonzero(unstable)[np.argmin(self.amplitude[unstable])])
         return (
             f"The planar orbit at {self.omega:g} rad/s with a = {self.amplitude[first]:g} leaves "
-            f"its plane: {self.kind[first]} of {' and '.join(self.modes[first])}, growing at "
-            f"{self.growth_rate[first]:.3g} 1/s"
+            f"{self._how(first)}"
         )
 
 
@@ -211,17 +247,23 @@ def planar_stability(
         undamped(blade), omega, amplitudes, mode, theory=theory,
         functions=max(16, 2 * whole_number("mode", mode)),
     )  # fmt: skip
-    found = [grown_and_checked(blade, orbit, theory, ratio) for orbit in orbits.nondimensional]
+    found = grown_about(blade, orbits, theory, ratio)
+    return PlanarStability(blade=blade, omega=orbits.omega, mode=orbits.mode, **found)
+
+
+def grown_about(
+    blade: AnyBlade, orbits: OrbitSet, theory: Theory, ratio: float, confirm: bool = True
+) -> dict[str, Any]:
+    """Return the attributes of `GrowthOutOfPlane` about planar orbits."""
+    how = (theory, ratio, confirm)
+    found = [grown_and_checked(blade, orbit, *how) for orbit in orbits.nondimensional]
     rates = [growth.rate(f) for (growth, _), f in zip(found, orbits.frequency, strict=True)]
-    return PlanarStability(
-        blade=blade,
-        omega=orbits.omega,
-        mode=orbits.mode,
-        amplitude=orbits.amplitude,
-        frequency=orbits.frequency,
-        multipliers=np.array([growth.multipliers for growth, _ in found]),
-        growth_rate=np.array(rates),
-        kind=tuple(growth.kind for growth, _ in found),
-        modes=tuple(growth.modes for growth, _ in found),
-        converged=np.array([converged for _, converged in found]),
-    )
+    return {
+        "amplitude": orbits.amplitude,
+        "frequency": orbits.frequency,
+        "multipliers": np.array([growth.multipliers for growth, _ in found]),
+        "growth_rate": np.array(rates),
+        "kind": tuple(growth.kind for growth, _ in found),
+        "modes": tuple(growth.modes for growth, _ in found),
+        "converged": np.array([converged for _, converged in found]),
+    }

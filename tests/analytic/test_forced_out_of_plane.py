@@ -1,0 +1,86 @@
+"""What leaves the plane of a forced response: the blade in space, the free orbit, and refusals."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic import (
+    Beam,
+    Damping,
+    Gravity,
+    SpeedRipple,
+    Theory,
+    TipForce,
+    forced_response,
+    periodic_orbits,
+    planar_stability,
+)
+
+BEAM = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+)
+DAMPING = Damping(bending=0.02, axial=0.02, external=0.2)
+RIGID = BEAM.with_section_out_of_plane(1.0 / 16.0, math.inf).with_damping(DAMPING)
+THIN = Theory(trapeze=False)  # without inertia of the sections, which L2 leaves out against flap
+
+
+@pytest.mark.parametrize(
+    ("blade", "omega", "load", "frequencies"),
+    [
+        (RIGID, 2.0, TipForce(amplitude=0.5), [3.4, 3.5]),
+        (RIGID, 2.0, TipForce(amplitude=1.0), [0.75, 0.8]),  # slower than the blade
+        pytest.param(RIGID, 2.0, SpeedRipple(amplitude=0.2), [3.4, 3.5], marks=pytest.mark.slow),
+        pytest.param(RIGID, [1.7, 1.8], Gravity(1.0), None, marks=pytest.mark.slow),
+    ],
+    ids=["rigid", "slow drive", "ripple", "gravity"],
+)
+def test_its_multipliers_and_those_in_the_plane_are_all_of_the_blade_in_space(
+    blade, omega, load, frequencies
+):
+    """Harmonic balance and Floquet of the blade in space do not know the plane."""
+    planar = forced_response(blade, omega, load, frequencies, theory=THIN, functions=12)
+    hardly = blade.with_twist(1e-13)
+    space = forced_response(hardly, omega, load, frequencies, theory=THIN, functions=24)
+    assert space.amplitude[0] == pytest.approx(planar.amplitude[0], rel=1e-9)
+    ours = np.append(planar.out_of_plane(confirm=False).multipliers[0], planar.multipliers[0])
+    known = space.multipliers[0]
+    apart = np.abs(known[:, None] - ours).min(axis=1)
+    assert (apart / np.maximum(1.0, np.abs(known))).max() < 1e-8
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:internal resonance")
+def test_as_load_and_damping_vanish_it_is_the_growth_about_the_free_orbit():
+    """At the peak the load stands against damping alone; half of both leaves less than half."""
+    blade = RIGID.with_damping(Damping())
+    apart = []
+    for share in (1.0, 0.5):
+        damped = blade.with_damping(Damping(bending=4e-3 * share))
+        free = periodic_orbits(blade, 2.0, [0.6], theory=THIN)
+        near = free.frequency[0] * np.array([0.97, 1.03])
+        load = TipForce(amplitude=0.048 * share)
+        found = forced_response(damped, 2.0, load, near, theory=THIN)
+        i = found.marks.index("peak")
+        known = planar_stability(blade, 2.0, found.amplitude[i], theory=THIN)
+        grows = found.out_of_plane(confirm=False).growth_rate[i]
+        apart.append(1.0 - grows / known.growth_rate[0])
+    assert 0.0 < apart[1] < 0.5 * apart[0] < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("ask", "sentence"),
+    [
+        (lambda found: found.out_of_plane(damping=-0.1), "not be negative"),
+        (
+            lambda found: replace(found, theory=Theory(shear=0.3)).out_of_plane(),
+            "take a theory without shear",
+        ),
+        (lambda found: replace(found, beam=BEAM).out_of_plane(), "is unknown: give its section by"),
+    ],
+)
+def test_bad_input_is_one_sentence(ask, sentence):
+    found = forced_response(RIGID, 2.0, TipForce(amplitude=1e-3), [3.4, 3.5], functions=8)
+    with pytest.raises(ValueError, match=sentence):
+        ask(found)
