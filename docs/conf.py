@@ -112,7 +112,7 @@ html_static_path = ["_static"]
 templates_path = ["_templates"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
-html_show_sourcelink = False
+html_copy_source = False
 html_sidebars = dict.fromkeys(
     (
         *("index", "start", "findings", "explorer", "validation", "codes"),
