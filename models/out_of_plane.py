@@ -7,11 +7,13 @@ start 8 mm out of the plane. Seen in the plane and edgewise, magnified, from the
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.animation import FFMpegWriter
 
 from analytic import Beam, Rectangle, SpinUp, Tube
 from rotbeam_exu import figures, kicked, simulate
 
-plt.style.use([figures.STYLE, {"animation.html": "jshtml"}])
+FILM = "html5" if FFMpegWriter.isAvailable() else "jshtml"
+plt.style.use([figures.STYLE, {"animation.html": FILM}])
 beam, spin_up = Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0)
 settings = {"element": "space_exact", "duration": 3.4, "initial_state": kicked(beam, 1e-3)}
 rectangle = simulate(
