@@ -68,6 +68,8 @@ def test_interrupt_stops_the_solver_and_leaves_nothing(tmp_path, frame):
          "--out", tmp_path],
         cwd=REPOSITORY, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        # A shell's background jobs, and what they start, ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
     )  # fmt: skip
     try:
         # Well into the solver, however busy the machine: to import takes a second at most.
