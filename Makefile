@@ -64,7 +64,8 @@ docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
 docs-draft: $(VENV)/.docs  ## text, links and formulas of the site, in docs/_build/draft: half a minute
 	$(BIN)/python -m sphinx -j auto -q -D computed_runs=0 -D plot_gallery=0 -d docs/_build/draft-doctrees docs docs/_build/draft
 
-check-site: docs $(VENV)/.dev  ## the built site in a browser without a network
+check-site: docs $(VENV)/.dev  ## the built site in a browser without a network, and by axe where npm is
+	command -v npm >/dev/null && npm install --no-save --silent axe-core || echo "no axe: its tests will be skipped"
 	$(BIN)/python -m pytest -m site tests/docs/test_site.py
 
 check: lint test
