@@ -40,8 +40,8 @@ plt.show()
 print({name: f"{size:.1e}, {way[name]:.2f}" for name, size in left.items()})
 
 # %%
-# What is left if the blade's frequency is not the one designed for, by the exact transient: the
-# error's first power for the designed ramp, its second for the robust one.
+# Residual vibration of a blade whose frequency is not the one designed for, by the exact
+# transient: the error's first power for the designed ramp, its second for the robust one.
 errors = np.linspace(-0.04, 0.04, 13)
 _, axes = plt.subplots(figsize=(5, 3))
 for name, ramp in ramps.items():

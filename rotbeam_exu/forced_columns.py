@@ -14,7 +14,7 @@ from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load
 
 from .lazily import xr
-from .result_columns import GROWTH, dataset
+from .result_columns import GROWTH, SWINGS, dataset
 from .runs.attributes import beam_attributes, loads_attributes
 from .runs.versions import versions
 
@@ -80,18 +80,10 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
 
 def of_forced_in_space(response: SpaceForcedResponse) -> xr.Dataset:
     """Return it as in the plane; q is the gauge, lag, flap and twist are the tip's amplitudes."""
-    data, half = _curve(response), "half the way of the tip"
+    data = _curve(response)
     data["stable"].attrs["long_name"] = "whether disturbances decay"
-    return data.merge(
-        dataset(
-            {
-                "lag": ("point", response.lag, f"{half} in lag over L"),
-                "flap": ("point", response.flap, f"{half} in flap over L"),
-                "twist": ("point", response.twist, "half the swing of the tip's section [rad]"),
-            },
-            {},
-        )
-    )
+    swings = {name: ("point", getattr(response, name), label) for name, label in SWINGS.items()}
+    return data.merge(dataset(swings, {}))
 
 
 def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:

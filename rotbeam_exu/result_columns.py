@@ -120,11 +120,12 @@ _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
 _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
     "mark": ("point", "what is special about the point", lambda found: [*found.marks])
 }
-_SWINGS = {
+SWINGS = {
     "lag": "half the way of the tip in lag over L",
     "flap": "half the way of the tip in flap over L",
     "twist": "half the swing of the tip's section [rad]",
 }
+"""Amplitudes of the tip in space, with their labels."""
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
 OSCILLATION = {
@@ -140,13 +141,13 @@ OSCILLATION = {
 
 COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     Orbits: (_ORBITS, "beam", _OF_ORBITS),
-    SpaceOrbits: (_ORBITS | _columns("orbit", **_SWINGS), "beam", _OF_ORBITS),
+    SpaceOrbits: (_ORBITS | _columns("orbit", **SWINGS), "beam", _OF_ORBITS),
     BackboneBranch: (
         _POINTS | _columns("point", piece="0 on the main path, then the tongue's number"),
         "beam", ("omega", "mode"),
     ),
     LeavingBranch: (
-        _POINTS | _columns("point", **_SWINGS), "beam", ("omega", "mode", "periods", "ended")
+        _POINTS | _columns("point", **SWINGS), "beam", ("omega", "mode", "periods", "ended")
     ),
     BackboneCurve: (
         {

@@ -96,8 +96,8 @@ class Collocation:
 
         def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
             at = tangent(*state(z))
-            # Of thin strips, which are a thousand times stiffer one way than the other, single
-            # precision leaves nothing.
+            # Single precision leaves nothing of thin strips, which are a thousand times stiffer
+            # one way than the other.
             return factored(self.matrix(h, at), single=False), at.residual.ravel()
 
         found = newton.root(

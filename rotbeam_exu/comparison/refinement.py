@@ -64,10 +64,11 @@ def refinement(
     -------
     Dataset
         Over `mesh` and `mode`: frequency [rad/s] and its error, from the limit of the fit. Over
-        `mode`: the bar of that limit, the order observed, and the limit's distance from the exact
-        frequency. Over `run`: elements, step [s], error of q(t) by the fit, with its parts of mesh
-        and step, and distance from the exact q(t). For all: the bar of q(t), its orders, and
-        elements and step [s] for the tolerance. All errors are relative; NaN is what is not known.
+        `mode`: the uncertainty of that limit, the order observed, and the limit's distance from
+        the exact frequency. Over `run`: elements, step [s], error of q(t) by the fit, with its
+        parts of mesh and step, and distance from the exact q(t). For all: the uncertainty of q(t),
+        its orders, and elements and step [s] for the tolerance. All errors are relative; NaN is
+        what is not known.
 
     Raises
     ------
@@ -114,7 +115,9 @@ def refinement(
                 ("mesh", "mode"), np.transpose([one.errors for one in modes]),
                 "relative error by the fit",
             ),
-            "frequency_bar": ("mode", [one.bar for one in modes], "relative bar of the limit"),
+            "frequency_bar": (
+                "mode", [one.bar for one in modes], "relative uncertainty of the limit"
+            ),
             "frequency_order": (
                 "mode", [one.orders["mesh"].value for one in modes], "observed order in the mesh"
             ),
@@ -125,7 +128,7 @@ def refinement(
             "in_mesh": ("run", runs.in_mesh, "part of the mesh in it"),
             "in_step": ("run", runs.in_step, "part of the step in it"),
             "exact_error": ("run", off, "distance of q(t) from the exact one, the same way"),
-            "bar": ((), runs.bar, "bar of the limit of q(t)"),
+            "bar": ((), runs.bar, "uncertainty of the limit of q(t)"),
             "order": ((), runs.orders["mesh"].value, "observed order of q(t) in the mesh"),
             "order_in_step": ((), runs.orders["step"].value, "observed order in the step"),
             "recommended_elements": ((), math.ceil(max(needed)), "elements for the tolerance"),

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from analytic.arrays import FloatArray
+from analytic.arrays import FloatArray, few_at_once
 from analytic.exact.beam.section_loads import SectionLoads, set_at
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import sparse
@@ -25,7 +25,6 @@ from .rotating_beam import RotatingBeam
 from .units import Units
 
 _POINTS = 4  # between two ends, by which a cable's mass matrix is exact
-_AT_ONCE = 200  # samples, of some megabytes each
 _INSTANT = 1e-4  # of √(mL³/EI), for the differences that tell how sections turn
 
 
@@ -39,8 +38,9 @@ def section_loads(
     the axes of the clamp; and accelerations of the case's frame by its axes.
     """
     masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
-    few = np.array_split(np.arange(time.size), 1 + time.size // _AT_ONCE)
-    parts = [masses.loads(time[one], *(state[one] for state in states)) for one in few]
+    parts = [
+        masses.loads(time[one], *(state[one] for state in states)) for one in few_at_once(time.size)
+    ]
     place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
     # A blade in its plane is set as a whole, one in space along its sections.
     to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
@@ -79,7 +79,7 @@ class _Masses:
             "length": np.concatenate((dx, 0.0 * masses, none)),
             "tip": np.concatenate((0.0 * dx, 0.0 * masses, none + 1.0)),
         }
-        # What turns in its plane is as if its mass lay along the second axis.
+        # Inertia of what turns in its plane is that of a mass along the second axis.
         self._second = np.zeros((self._x.size, 3, 3))
         self._second[x.size : -1, 1, 1] = inertias
         if model.twists:

@@ -1,4 +1,4 @@
-"""What leaves the plane of a forced response: the blade in space, the free orbit, and refusals."""
+"""Growth out of the plane of responses: the blade in space, the free orbit, and refusals."""
 
 import math
 from dataclasses import replace

@@ -31,7 +31,7 @@ def test_a_uniform_strip_is_that_of_its_area_and_second_moment():
     ],
 )
 def test_round_shapes_have_the_closed_forms(shape, area, along, across, torsion):
-    """Of handbooks, all over π."""
+    """Numbers of handbooks, all over π."""
     stiffness, mass = shape.of_material(E, RHO)
     told = np.array([area, torsion / 2.6, across, along]) * math.pi * E
     assert np.array(stiffness)[[0, 3, 4, 5]] == pytest.approx(told, rel=1e-12)
@@ -53,7 +53,7 @@ def test_a_box():
 
 
 def test_the_shear_coefficients_are_cowpers():
-    """Of the table in his paper, at ν = 0.3: 0.850, 0.886 and, of a thin tube, 0.531."""
+    """Numbers of the table in his paper, at ν = 0.3: 0.850, 0.886 and, of a thin tube, 0.531."""
     shapes = Rectangle(height=2.0, width=1.0), Circle(radius=1.0), Tube(radius=1.0, wall=1e-4)
     rows = [shape.of_material(2.6, 1.0)[0] for shape in shapes]  # G = 1
     assert [row[1] / row[0] * 2.6 for row in rows] == pytest.approx([0.850, 0.886, 0.531], abs=5e-4)

@@ -78,7 +78,7 @@ def test_a_nearly_round_section_leaves_the_plane_by_a_whirl():
     assert found.born.amplitude == pytest.approx(start, rel=1e-3)
     lag, flap, _ = found.largest.T
     grown = flap**2 / (lag**2 - found.born.amplitude**2)
-    # Of points that are far enough from the birth to tell the difference.
+    # Points that are far enough from the birth to tell the difference.
     assert grown[4:] == pytest.approx(1.0, abs=6e-3)
     assert np.ptp(grown[4:]) < 1e-4
     expected = 1.0 + HARDENING * (lag**2 + flap**2) + beyond * flap**2

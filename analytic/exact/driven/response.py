@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import ComplexArray, FloatArray, few_at_once
 from ...beam import AnyBlade, require_planar, warn_if_rpm
 from ...input_checks import finite_number, finite_values, points_of_beam, positive
 from ...loads import Load, loads_in_time, rippled
@@ -23,7 +23,7 @@ from ..beam.section_loads import SectionLoads, in_newtons
 from ..beam.steady import steady_rotation
 from ..space.modes import flap_shape
 from ..space.steady import lives_in_space, require_bent, space_continuum, space_rotation
-from .transient import BladeMotion, drive, few_at_once, grid_of, integrated
+from .transient import BladeMotion, drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next

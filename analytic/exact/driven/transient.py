@@ -9,9 +9,8 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...arrays import FloatArray
+from ...arrays import FloatArray, few_at_once
 from ...beam import AnyBlade
 from ...loads import Load
 from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
@@ -24,7 +23,6 @@ from .loading import pushes, unit_load
 _STAGES = 8
 _CREDIT = 3  # failures, before a tangent of the steps before is no longer tried
 
-_AT_ONCE = 100  # times, in space of some megabytes each
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 
@@ -32,11 +30,6 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
     """Return the ends of the steps [s]."""
     parts = zip(pairwise(corners), counts, strict=True)
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
-
-
-def few_at_once(count: int) -> list[NDArray[np.int_]]:
-    """Return the places of so many times in parts, whose fields fit into memory."""
-    return np.array_split(np.arange(count), 1 + count // _AT_ONCE)
 
 
 class BladeMotion(NamedTuple):

@@ -66,7 +66,7 @@ class StabilityLimit:
     mode : int
         Planar mode from which the orbits grow, from 1.
     damping : float
-        Damping ratio of the modes out of the plane, beside the blade's own damping.
+        Damping ratio of the modes out of the plane, besides the blade's own damping.
     growth : float
         Growth exponent over the orbit's frequency [1/rad] that counts.
     amplitude : float
