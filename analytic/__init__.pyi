@@ -25,7 +25,7 @@ from .point_mass import PointMass as PointMass
 from .ramps import FourierRamp as FourierRamp
 from .ramps import SpeedTable as SpeedTable
 from .reduced.linear_frame import linear_response as linear_response
-from .reduced.model import reduced_model as reduced_model
+from .reduced.model_range import reduced_model as reduced_model
 from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant

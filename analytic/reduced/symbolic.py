@@ -15,7 +15,7 @@ from functools import cache
 
 import sympy as sp  # type: ignore[import-untyped]
 
-from .axial import Axial, AxialModel, axial_model
+from .lagrangian import Axial, AxialModel, axial_model
 from .shapes import PolynomialShape
 
 OMEGA = sp.Symbol("Omega", nonnegative=True)

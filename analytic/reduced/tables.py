@@ -11,7 +11,7 @@ from typing import Any
 from ..beam import BETA_1, Beam
 from ..input_checks import whole_number
 from .lagrangian import EnergyCoefficients, energy_coefficients
-from .model import reduced_model
+from .model_range import reduced_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, static_deflection
 

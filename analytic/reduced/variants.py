@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..input_checks import flag
-from .axial import Axial, axial_model
+from .lagrangian import Axial, axial_model
 from .rotating_mode import rotating_mode
 from .shapes import CantileverMode, Shape, static_deflection
 
@@ -44,7 +44,7 @@ class Variant:
         One of the two modes, or a shape that does not depend on the speed, as
         `static_deflection(3)`.
     axial : str
-        One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
+        One of `lagrangian.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
         Whether the other bending modes are eliminated to cubic order; rotating mode and consistent
         foreshortening only.

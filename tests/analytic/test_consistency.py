@@ -10,9 +10,9 @@ from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points, transverse_basis
 from analytic.reduced.any_blade import blade_oscillator, coupling_vector
 from analytic.reduced.lagrangian import energy_coefficients
+from analytic.reduced.model_range import softening_speed
 from analytic.reduced.rotating_mode import rotating_mode
 from analytic.reduced.shapes import CantileverMode
-from analytic.reduced.speeds import softening_speed
 from analytic.unit_blade import UNIFORM
 from tests.beams import deflection_matrices, unit_beam
 

@@ -6,7 +6,7 @@ import pytest
 
 from analytic import VARIANTS, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
-from analytic.reduced.speeds import softening_speed
+from analytic.reduced.model_range import softening_speed
 from tests.beams import unit_beam
 
 

@@ -41,7 +41,7 @@ BEYOND = {
     "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
     "analytic.exact.linear.unstretched", "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
-    "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.speeds",
+    "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
     "rotbeam_exu.files.beam_file", "rotbeam_exu.files.vtk", "rotbeam_exu.runs.shape",

@@ -148,7 +148,7 @@ def test_the_reference_lists_what_is_built_on_first():
         ("analytic.beam", "analytic.reduced.shapes"),
         ("analytic.reduced.shapes", "analytic.reduced.lagrangian"),
         ("analytic.reduced.lagrangian", "analytic.reduced.model"),
-        ("analytic.reduced.model", "analytic.reduced.tables"),
+        ("analytic.reduced.model_range", "analytic.reduced.tables"),
         ("analytic.methods.system", "analytic.exact.beam.continuum"),
         ("analytic.exact.beam.continuum", "analytic.exact.free.backbone"),
     ):
