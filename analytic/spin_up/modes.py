@@ -13,7 +13,6 @@ from numpy.polynomial import chebyshev
 
 from ..arrays import FloatArray
 from ..blade_functions import blade_functions
-from ..lazily import linalg
 from ..unit_blade import UnitBlade
 
 _SETTLED = 1e-8
@@ -89,13 +88,8 @@ def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float],
     damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
 
     def solve(w: float) -> FloatArray:
-        # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-        inverse, vectors = linalg.eigh(of.mass, of.stiffness(w))
-        inverse, vectors = inverse[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
-        # They have unit stiffness; unit mass is what their action is measured by.
-        vectors = vectors * np.sign(of.tip @ vectors) / np.sqrt(inverse)
-        decay = 0.5 * np.sum(vectors * (damping @ vectors), axis=0)
-        euler = blade.setting * of.euler @ vectors
-        return np.stack([1.0 / np.sqrt(inverse), euler, of.tip @ vectors, decay])
+        frequencies, modes = of.modes(w, count)
+        decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
+        return np.stack([frequencies, blade.setting * of.euler @ modes, of.tip @ modes, decay])
 
     return solve
