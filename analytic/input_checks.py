@@ -83,8 +83,7 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
     value = bare(name, value, unit)
-    # NumPy registers durations as numbers, and Python's float() takes none of them.
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
+    if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
     number = float(value)
     if not math.isfinite(number):
@@ -94,7 +93,7 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
 
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
     """Return `value` as an int; refuse all but whole numbers from `least` to `most`."""
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral):
+    if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
@@ -175,9 +174,6 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged
         array = np.array(None)
-    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
-        remedy = "leave out what is masked, by .compressed()"
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
     fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
     if array.size and array.dtype.kind not in "fiu" and not fractions:
         raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")

@@ -18,7 +18,6 @@ from .input_checks import not_negative, positive
 from .section import OutOfPlane
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
-_THINNEST = 1000.0  # of one side over the other
 _SAME = 0.01  # what rounded lengths may differ from A and I
 _NO_LENGTHS = ("poisson_ratio", "ratio")
 
@@ -168,11 +167,6 @@ class _TwoSided(SectionShape, ABC, abstract=True):
 
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
         ratio = self.ratio or lengths["height"] / lengths["width"]
-        if not 1.0 / _THINNEST <= ratio <= _THINNEST:
-            raise ValueError(
-                f"the ratio of height to width must be between {1.0 / _THINNEST:g} and "
-                f"{_THINNEST:g}, got {ratio:g}: beyond, it is a foil and no beam"
-            )
         return 1.0 / ratio**2, self._torsion(ratio)
 
     @abstractmethod

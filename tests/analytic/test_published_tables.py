@@ -8,8 +8,8 @@ from scipy.linalg import eigh
 
 from analytic import Blade, Section, Theory, linear_modes
 from analytic.exact.linear.unstretched import unstretched_frequencies
-from analytic.quadrature import gauss_points, transverse_basis
-from tests.beams import UNIT
+from analytic.quadrature import gauss_points
+from tests.beams import UNIT, clamped_basis
 
 FLAP = UNIT.with_setting_angle(0.5 * math.pi)
 PRINTED = 5e-5 * (1.0 + 1e-3)
@@ -84,7 +84,7 @@ def test_what_the_unstretched_beam_lacks(w):
     x, weights = gauss_points(72)
     k = w / math.sqrt(SLENDERNESS)
     stretch, slope_of_it = np.cos(k * x) / math.cos(k), -k * np.sin(k * x) / math.cos(k)
-    basis = transverse_basis(24, x)
+    basis = clamped_basis(24, x)
 
     def stiffness(stretched):
         tension, curvature = 0.5 * w**2 * (1.0 - x**2), basis.curvature

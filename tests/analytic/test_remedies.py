@@ -4,7 +4,6 @@ import math
 import re
 import warnings
 
-import numpy as np
 import pytest
 
 from analytic import (
@@ -18,7 +17,7 @@ from analytic import (
     reduced_model,
     spin_up_response,
 )
-from analytic.input_checks import RotbeamWarning, finite_array
+from analytic.input_checks import RotbeamWarning
 from analytic.methods.continuation import Care
 from tests.beams import unit_beam
 
@@ -182,18 +181,6 @@ def test_spin_up_ramp_too_short(beam):
     assert said.endswith("take a longer ramp")
     ramp = SpinUp(omega=6.0, ramp_time=0.5)
     assert complaint(spin_up_response, beam, ramp, [0.1], tolerance=1e-4) == ""
-
-
-def test_masked_values():
-    masked = np.ma.array([1.0, 2.0], mask=[False, True])
-    assert "by .compressed()" in complaint(finite_array, "x", masked)
-    assert finite_array("x", masked.compressed()).tolist() == [1.0]
-
-
-def test_units_of_a_beam():
-    tiny = {"length": 1e-120, "area": 1.0, "second_moment": 1.0}
-    assert "choose units" in complaint(Beam, **tiny, youngs_modulus=1.0, density=1.0)
-    assert complaint(Beam, **{**tiny, "length": 1.0}, youngs_modulus=1.0, density=1.0) == ""
 
 
 def test_coriolis_coupling_about_the_rotating_mode():

@@ -230,8 +230,6 @@ def test_bad_input(beam):
         residual_amplitude(beam, eq_1(6.0, 3.0), [1.0, 0.0])
     with pytest.raises(ValueError, match="take a speed above zero"):
         quiet_ramp_times(beam, 0.0)
-    with pytest.raises(ValueError, match="take at most"):
-        quiet_ramp_times(beam, 6.0, longest=1e9)
 
 
 @pytest.mark.slow  # spin-ups in any units are in test_random_units

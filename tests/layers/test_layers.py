@@ -19,11 +19,9 @@ FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
-        {"profiles", "motion", "damping", "theory"},
-        {"line", "section"},
-        {"point_mass", "station_section"},
-        {"unit_blade", "loads", "ramps"},
-        {"shape_functions", "section_shapes"},
+        {"profiles", "motion", "theory"},
+        {"parts", "section", "unit_blade", "loads", "ramps"},
+        {"shape_functions", "section_shapes", "station_section"},
         {"blade", "blade_functions"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
-from ...line import STRAIGHT, Line, Offset, scaled
+from ...parts import STRAIGHT, Line, Offset, scaled
 from ...profiles import Profile, evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
