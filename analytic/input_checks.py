@@ -7,7 +7,6 @@ the same everywhere: what, where, by how much, what to try.
 from __future__ import annotations
 
 import math
-import re
 import reprlib
 from numbers import Integral, Real
 
@@ -20,7 +19,6 @@ from .warning import warn
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
-_SPEEDS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rad/s": 1.0}
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
@@ -137,14 +135,6 @@ def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None
 
 def rotation_speed(omega: object, name: str = "omega") -> float:
     """Return the rotation speed [rad/s] as a float; by mirror symmetry it is never negative."""
-    told = (
-        re.fullmatch(r"([\d.]+)\s*(rpm|hz|rad/s)", omega.lower())
-        if isinstance(omega, str)
-        else None
-    )
-    if told:
-        meant = float(told[1]) * _SPEEDS[told[2]]
-        raise ValueError(f"{name} must be a number in rad/s, got {omega!r}: write {meant:.6g}")
     return not_negative(
         name,
         omega,

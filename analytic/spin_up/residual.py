@@ -11,7 +11,7 @@ and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,26 +35,6 @@ _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
 
 
-@overload
-def residual_amplitude(
-    beam: AnyBlade,
-    spin_up: SpeedChange,
-    ramp_times: None = None,
-    *,
-    mode: int = 1,
-    corrected: bool = False,
-    exact: bool = False,
-    tolerance: float = 1e-6,
-) -> float: ...
-@overload
-def residual_amplitude(
-    beam: AnyBlade,
-    spin_up: SpeedChange,
-    ramp_times: ArrayLike,
-    *,
-    mode: int = 1,
-    corrected: bool = False,
-) -> FloatArray: ...
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
@@ -65,7 +45,7 @@ def residual_amplitude(
     corrected: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
-) -> FloatArray | float:
+) -> Any:
     """Return the amplitude over L with which the tip swings after a change of the speed.
 
     Linear theory of the inextensible blade, adiabatic in the speed. Against the exact transient
