@@ -220,13 +220,6 @@ class Ellipse(_TwoSided):
     ----------
     height, width, ratio, poisson_ratio : float, optional
         As of a `Rectangle`.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Ellipse
-    >>> blade = Beam.reference().blade.with_shape(Ellipse(ratio=2.0))
-    >>> print(blade.section.out_of_plane.bending_ratio)
-    0.25
     """
 
     _deep = 16.0
@@ -256,13 +249,6 @@ class Circle(SectionShape):
         [m].
     poisson_ratio : float
         ν, which tells the shear modulus.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Circle
-    >>> blade = Beam.reference().blade.with_shape(Circle())
-    >>> print(f"GJ = {blade.section.out_of_plane.torsion_ratio:.4f} EI")
-    GJ = 0.7692 EI
     """
 
     radius: float | None = None
@@ -285,13 +271,6 @@ class Tube(SectionShape):
         Mean radius and thickness of the wall [m]; by default they give the beam's A and I.
     poisson_ratio : float
         ν, which tells the shear modulus.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Tube
-    >>> tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
-    >>> print(tube.section.out_of_plane.bending_ratio)
-    1.0
     """
 
     radius: float | None = None

@@ -65,11 +65,8 @@ def jacobian(orbit: Orbit[Any]) -> FloatArray:
 def _waves_onto_waves(
     at: Period, powers: FloatArray, rows: slice, columns: slice, transposed: FloatArray
 ) -> None:
-    """Write the Jacobian between rows of the coefficients, from powers (3, phases, by, of).
-
-    Waves of orders j and k multiply to waves of the orders j - k and j + k, so that all products
-    are two of the tangent's own Fourier coefficients.
-    """
+    """Write the Jacobian between rows of the coefficients, from powers (3, phases, by, of)."""
+    # Waves of orders j and k multiply to j - k and j + k: two of the tangent's own coefficients.
     _, _, by, of = powers.shape
     H, count = len(at.onto) // 2, rows.stop - rows.start
     from_sines, to_sines = columns.start > H, rows.start > H

@@ -135,11 +135,8 @@ class Orbit(Generic[S]):
         return np.asarray(system.residual(*state, *self.drive(self.period(fine=True).phase)))
 
     def _relative(self, defect: FloatArray) -> float:
-        """Return the largest defect, over the motion of the coordinates that are measured.
-
-        The mean and the motion are each measured by their own size, or the residual of a steady
-        stretch would be told as that of a small motion about it.
-        """
+        """Return the largest defect, over the motion of the coordinates that are measured."""
+        # Mean and motion by their own sizes: a steady stretch's residual is no small motion's.
         q, odd = self._finely[0], self.system.odd
         mean, motion = defect.mean(axis=0), q - q.mean(axis=0)
         moving = motion if odd is None else motion[:, odd]

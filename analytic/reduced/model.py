@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -34,13 +33,6 @@ class ReducedModel:
     variant : Variant
     oscillator : Oscillator
         Eq. 41 with its coefficients, nondimensional.
-
-    Examples
-    --------
-    >>> from analytic import Beam, reduced_model
-    >>> model = reduced_model(Beam.reference(), 6.0, "FrM")
-    >>> print(f"{model.omega_n:.5f} rad/s, {model.frequency(0.2):.5f} rad/s at x = 0.2")
-    3.73075 rad/s, 3.72781 rad/s at x = 0.2
     """
 
     beam: AnyBlade
@@ -120,11 +112,7 @@ class ReducedModel:
             return self.perturbation.largest_amplitude
         return self.oscillator.largest_perturbed_amplitude
 
-    @overload
-    def frequency(self, a: float) -> float: ...
-    @overload
-    def frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
-    def frequency(self, a: ArrayLike) -> float | FloatArray:
+    def frequency(self, a: ArrayLike) -> Any:
         """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63, and of FrM5 with its -κ a⁴.
 
         Parameters
@@ -159,11 +147,7 @@ class ReducedModel:
         """Return the first harmonic of q/L that has the `peak`, of its shape: `peak` inverted."""
         return self.perturbation.first_harmonic(finite_array("peak", peak))
 
-    @overload
-    def exact_frequency(self, a: float) -> float: ...
-    @overload
-    def exact_frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
-    def exact_frequency(self, a: ArrayLike) -> float | FloatArray:
+    def exact_frequency(self, a: ArrayLike) -> Any:
         """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
 
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and

@@ -283,10 +283,7 @@ def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray |
 def _closest(
     rows: FloatArray, sides: FloatArray, slopes: FloatArray, least: FloatArray
 ) -> FloatArray | None:
-    """Return y that makes |rows y - sides| least within slopes y ≥ least, None if there is none.
-
-    The least-distance problem of Lawson and Hanson (1974), chapter 23.
-    """
+    """Return the y of least |rows y - sides| with slopes y ≥ least (Lawson and Hanson, ch. 23)."""
     Q, R = np.linalg.qr(rows)
     free = Q.T @ sides
     slopes = linalg.solve_triangular(R, slopes.T, trans="T").T

@@ -18,7 +18,12 @@ PLAIN = {
         "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "
-        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam"
+        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
+        "analytic.reduced.model.ReducedModel"
+    ),
+    "loads and shapes that are used as TipForce and Rectangle are": (
+        "analytic.Circle analytic.DistributedForce analytic.Ellipse analytic.SpeedRipple "
+        "analytic.Tube"
     ),
     "errors, which their message explains": (
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
