@@ -20,8 +20,8 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
+from ..labels import dataset
 from ..lazily import xr
-from ..result_columns import dataset
 from ..runs.check import SimulationError
 from ..runs.versions import versions
 from ..sweeps.grid import cache_of, solved

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from functools import lru_cache
 from itertools import product
 from typing import Literal
 
@@ -20,10 +22,13 @@ from analytic.warning import warn
 from ..fem.case import RunCase
 from ..fem.elements import Formulation, formulation
 from ..fem.frame import Frame
+from ..fem.linearization import Linearization
+from ..fem.simulation import run_case
 from ..lazily import xr
 from ..runs.check import SimulationError
+from ..runs.oscillation import NoOscillationError, steady_oscillation
 from .cache import Cache, maker
-from .measured import collect, solve
+from .measured import MEASURED, collect
 from .workers import worker_pool
 
 OnError = Literal["raise", "record"]
@@ -233,3 +238,45 @@ def _kept(store: Cache | None, case: RunCase, result: xr.Dataset) -> xr.Dataset:
     if store:
         store.put(case.describe(), result)
     return result
+
+
+def solve(case: RunCase) -> xr.Dataset:
+    """Run one case and measure it: the unit of work, a pure function of the case.
+
+    Returns
+    -------
+    Dataset
+        q and q_dot over `time`; the measured numbers and the verdict as attributes. Of a case that
+        fails, the attribute `failure` says why, nothing is measured, and q and q_dot are there as
+        far as they were computed.
+    """
+    run = None
+    try:
+        run = run_case(case)
+        omega_n = _omega_n(case.beam, case.omega, case.model, case.elements)
+        measured = {**_steady(run), "omega_n": omega_n}
+        attrs = {**measured, "verdict": run.attrs["verdict"], "failure": ""}
+    except SimulationError as error:
+        run = error.run if run is None else run
+        attrs = {"verdict": "failed", "failure": str(error)}
+    result = xr.Dataset() if run is None else run[["q", "q_dot"]]
+    result.attrs = attrs
+    return result
+
+
+def _steady(run: xr.Dataset) -> dict[str, float]:
+    """Measure the steady oscillation; what cannot be measured fails the case, not the sweep."""
+    try:
+        steady = steady_oscillation(run)
+    except NoOscillationError as error:
+        raise SimulationError(str(error)) from error
+    measured = {name: float(getattr(steady, name)) for name in MEASURED if name != "omega_n"}
+    for name, value in measured.items():
+        if not math.isfinite(value):
+            raise SimulationError(f"the {MEASURED[name]} was measured as {value}")
+    return measured
+
+
+@lru_cache(maxsize=64)
+def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
+    return float(Linearization.of(beam, omega, element, elements).frequencies(1)[0])
