@@ -24,7 +24,8 @@ from ..labels import dataset
 from ..lazily import xr
 from ..runs.check import SimulationError
 from ..runs.versions import versions
-from ..sweeps.grid import cache_of, solved
+from ..sweeps.cache import cache_of
+from ..sweeps.grid import solved
 from ..verification.convergence import converged
 from ..verification.judgement import FLOOR
 
