@@ -120,8 +120,6 @@ class Run:
         NaN.
     time, q : ndarray (samples,)
         [s], and q [m] of Eq. 16, in space `cases.TIP` (samples, 3); empty of a run that failed.
-    q_dot : ndarray (samples,), optional
-        Its rate in the turning frame [m/s].
     failure : str
         The code's own sentence, if it failed.
     file : str
@@ -141,7 +139,6 @@ class Run:
     tolerance: float = math.nan
     time: FloatArray = field(repr=False)
     q: FloatArray = field(repr=False)
-    q_dot: FloatArray | None = field(default=None, repr=False)
     failure: str = ""
     file: str = ""
     dof: int | None = None

@@ -10,7 +10,6 @@ from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.peers import installed, peer
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Frequency
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
@@ -41,18 +40,6 @@ def test_the_cable(tmp_path):
     entry = replace(formulation_entry(Cable(), elements=8, step=4e-3), meshes=(4, 8, 16))
     found = the_same(handed_in(entry, [CASES["L"], CASES["S1"], CASES["O"]]), tmp_path)
     assert found.passed
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not installed("kratos"), reason="no Kratos: the extra peers")
-@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-def test_kratos(tmp_path, monkeypatch):
-    """Half of S1 on coarse meshes: the point is that nothing is lost, not how good they are."""
-    case = replace(CASES["S1"], duration=8.0)
-    submission = handed_in(replace(peer("kratos"), elements=8, step=1e-3), [case])
-    monkeypatch.setitem(CASES, "S1", case)
-    found = the_same(submission, tmp_path)
-    assert found.histories["S1"].finest.elements == 16
 
 
 def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...files.results import whole_folder
-from ..cases import CASES, TIP, Asked, Case
+from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
 from ..submission import BackbonePoint, Frequency, Run, SteadyTip, Submission
 from . import entry, runs
@@ -173,9 +173,8 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
 
 def _write_history(run: Run, folder: Path) -> None:
     """Write the history of a run into the folder of its case."""
-    held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
-    parts = (run.time, run.q, run.q_dot)
-    numbers = np.column_stack([part for part in parts if part is not None])
+    held = "time", *CASES[run.case].columns
+    numbers = np.column_stack([run.time, run.q])
     (folder / run.case).mkdir(exist_ok=True)
     with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
         # NumPy's words of a number are its shortest ones that read back the same.
