@@ -12,12 +12,11 @@ in an `Entry`, and read the judgement::
 
 from __future__ import annotations
 
-import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -27,9 +26,9 @@ from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, TIP, Asked, Case, frequency_case, spin_up_case
+from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
-from .submission import Declaration, Frequency, Run, SteadyTip, Submission
+from .submission import Declaration, Row, Run, Submission
 
 DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
@@ -164,49 +163,42 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
     cases = [case for case in cases if case.in_space is entry.in_space]
-    frequencies = [
-        Frequency(**place, number=number, frequency=float(value))
-        for case in cases
-        if case.asked is Asked.FREQUENCIES
-        for place, found in _table(entry, case, entry.frequencies, case.count)
-        for number, value in zip(range(1, case.count + 1), found, strict=True)
-    ]
-    steady = [
-        SteadyTip(**place, **dict(zip(TIP, map(float, found), strict=True)))
-        for case in cases
-        if case.asked is Asked.STEADY
-        for place, found in _table(entry, case, entry.steady_tip, len(TIP))
-    ]
-    runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,
             order_in_step=entry.order_in_step,
         ),
-        frequencies=tuple(frequencies), steady=tuple(steady), runs=tuple(runs),
+        rows=tuple(row for case in cases for row in _rows(entry, case)),
+        runs=tuple(run for case in cases for run in _runs(entry, case)),
     )  # fmt: skip
 
 
-def _table(
-    entry: Entry, case: Case, compute: Numbers | None, count: int
-) -> Iterator[tuple[dict[str, Any], Sequence[float] | FloatArray]]:
-    """Yield place and numbers of each mesh and speed that the code does, NaN of a failure."""
+def _rows(entry: Entry, case: Case) -> Iterator[Row]:
+    """Yield the rows of a table that the code has, with its sentence where it fails."""
+    known = {Asked.FREQUENCIES: entry.frequencies, Asked.STEADY: entry.steady_tip}
+    compute = known.get(case.asked)
     if compute is None:
         return
     for speed, elements in product(case.speeds, entry.own_meshes):
-        place = {"case": case.name, "elements": elements, "speed": speed}
+        found: list[list[float]] = [[]] * case.count
+        failure = ""
         try:
-            found = compute(case, speed, elements)
+            found = np.reshape(compute(case, speed, elements), (case.count, -1)).tolist()
         except NotImplementedError:
             continue
         except RuntimeError as error:
-            yield place | {"failure": str(error)}, [math.nan] * count
-        else:
-            yield place, found
+            failure = str(error)
+        for number, values in enumerate(found, 1):
+            yield Row(
+                case=case.name, elements=elements, speed=speed, number=number,
+                values=tuple(values), failure=failure,
+            )  # fmt: skip
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:
-    """Return the runs of a case, none if the code does not do it."""
+    """Return the runs of a history, none if the code does not do it."""
+    if case.asked is not Asked.HISTORY:
+        return []
     resolutions = {(elements, 2.0 * entry.step) for elements in entry.own_meshes}
     resolutions |= {(entry.elements, factor * entry.step) for factor in (1.0, 2.0, 4.0)}
     try:

@@ -14,9 +14,8 @@ from rotbeam_exu.verification.judgement import THRESHOLDS, judged
 from rotbeam_exu.verification.outcomes import Finding, Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import (
-    BackbonePoint,
     Declaration,
-    Frequency,
+    Row,
     Run,
     Submission,
 )
@@ -186,13 +185,13 @@ def test_points_of_a_backbone_are_judged_by_their_shift():
             linear = truth.first_frequency(speed)
             shift = truth.frequency_at(0.3, speed) / linear - 1.0
             points += [
-                BackbonePoint(
-                    elements=n, speed=speed, amplitude=0.3,
-                    frequency=linear * (1.0 + shift * (1.0 + off + 0.3 / n**2)),
+                Row(
+                    case="B", elements=n, speed=speed, amplitude=0.3,
+                    values=(linear * (1.0 + shift * (1.0 + off + 0.3 / n**2)),),
                 )
                 for n in (8, 16, 32)
             ]  # fmt: skip
-        submission = Submission(declaration=Declaration(code="mine"), backbone=tuple(points))
+        submission = Submission(declaration=Declaration(code="mine"), rows=tuple(points))
         found = judged(submission).findings["B"]["backbone"]
         assert found.outcome is outcome
         assert found.model_difference == pytest.approx(off, abs=2e-3)
@@ -203,19 +202,17 @@ def test_nonlinear_frequencies_are_over_the_linear_one_of_the_same_code():
     truth, off = reference(CASES["B"]), 1e-4
     linear = truth.first_frequency(2.0)
     points = tuple(
-        BackbonePoint(
-            elements=n, speed=2.0, amplitude=0.3,
-            frequency=truth.frequency_at(0.3, 2.0) * (1.0 + off + 1e-3 / n**2),
+        Row(
+            case="B", elements=n, speed=2.0, amplitude=0.3,
+            values=(truth.frequency_at(0.3, 2.0) * (1.0 + off + 1e-3 / n**2),),
         )
         for n in (16, 32, 64)
     )  # fmt: skip
     rows = tuple(
-        Frequency(elements=n, speed=2.0, frequency=linear * (1.0 + off + 1e-3 / n**2))
+        Row(elements=n, speed=2.0, values=(linear * (1.0 + off + 1e-3 / n**2),))
         for n in (16, 32, 64)
     )
-    submission = Submission(
-        declaration=Declaration(code="mine", order=2.0), backbone=points, frequencies=rows
-    )
+    submission = Submission(declaration=Declaration(code="mine", order=2.0), rows=(*points, *rows))
     shift = truth.frequency_at(0.3, 2.0) / linear - 1.0
     other = replace(CASES["L"], blade=CASES["L"].blade.with_tip_mass(0.1))
     for known, expected in ((CASES["L"], 0.0), (other, off / shift)):

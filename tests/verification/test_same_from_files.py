@@ -11,7 +11,7 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission import Frequency
+from rotbeam_exu.verification.submission import Row
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
 from rotbeam_exu.verification.verify import handed_in
 
@@ -61,15 +61,13 @@ def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):
 def test_digits_that_are_missing_are_in_the_floor(made_of_the_exact_answer):
     """Of q(t) in m over max|q|, of frequencies in rad/s over the reference's."""
     true = reference(CASES["L"]).first_frequency(6.0)
-    meshes = [
-        Frequency(elements=n, speed=6.0, frequency=true * (1.0 + n**-4.0)) for n in (8, 16, 32)
-    ]
+    meshes = [Row(elements=n, speed=6.0, values=(true * (1.0 + n**-4.0),)) for n in (8, 16, 32)]
     fine = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
-    fine = replace(fine, frequencies=tuple(meshes))
+    fine = replace(fine, rows=tuple(meshes))
     off = replace(
         fine,
         runs=tuple(replace(run, rounding=1e-3) for run in fine.runs),
-        frequencies=tuple(replace(one, rounding=1e-4) for one in meshes),
+        rows=tuple(replace(one, rounding=(1e-4,)) for one in meshes),
     )
     before, after = judged(fine), judged(off)
     for key, lost in {

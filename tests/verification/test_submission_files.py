@@ -11,14 +11,7 @@ from hypothesis import strategies as st
 
 from analytic.theory import Theory
 from rotbeam_exu.verification.cases import VERSION
-from rotbeam_exu.verification.submission import (
-    BackbonePoint,
-    Declaration,
-    Frequency,
-    Run,
-    SteadyTip,
-    Submission,
-)
+from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import digests, read_submission, write_submission
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
 
@@ -48,12 +41,12 @@ def whole():
         history("S1+h", 16, 5e-4),
         history("S2", 16, 2e-3, 20.0),
     )  # fmt: skip
-    frequencies = (
-        Frequency(elements=8, speed=0.0, frequency=2.90928123456),
-        Frequency(elements=8, speed=8.0, failure="buckles"),
+    rows = (
+        Row(elements=8, speed=0.0, values=(2.90928123456,)),
+        Row(elements=8, speed=8.0, failure="buckles"),
+        Row(case="B", elements=8, speed=2.0, amplitude=0.1, values=(3.14159265358,)),
     )
-    points = (BackbonePoint(elements=8, speed=2.0, amplitude=0.1, frequency=3.14159265358),)
-    return Submission(declaration=DECLARATION, frequencies=frequencies, backbone=points, runs=runs)
+    return Submission(declaration=DECLARATION, rows=rows, runs=runs)
 
 
 @pytest.fixture
@@ -77,11 +70,8 @@ def same(one, two):
 def test_what_is_written_reads_back_to_the_last_bit(good):
     wrote, read = whole(), read_submission(good)
     assert read.declaration == wrote.declaration
-    assert read.backbone == wrote.backbone
     assert len(read.runs) == len(wrote.runs)
-    for ours, theirs in zip(
-        wrote.runs + wrote.frequencies, read.runs + read.frequencies, strict=True
-    ):
+    for ours, theirs in zip(wrote.runs + wrote.rows, read.runs + read.rows, strict=True):
         for name in vars(ours):
             assert same(getattr(ours, name), getattr(theirs, name)), (ours, name)
 
@@ -106,7 +96,7 @@ def test_line_ends_comments_a_mark_at_the_beginning_and_rates_change_nothing(goo
             text = text.replace("q_dot,0.5", "q_dot")
         path.write_bytes(b"\xef\xbb\xbf" + text.encode())
     after = read_submission(good)
-    assert after.frequencies[0] == before.frequencies[0]
+    assert after.rows == before.rows
     assert np.array_equal(after.runs[1].q, before.runs[1].q)
 
 
@@ -118,8 +108,7 @@ def test_a_number_in_quotes_is_the_same_number_in_every_table(good):
         quoted = [",".join(f'"{cell}"' for cell in row.split(",")) for row in rows]
         (good / file).write_text("\n".join([head, *quoted]), "utf-8")
     after = read_submission(good)
-    assert after.backbone == before.backbone
-    assert after.frequencies[0] == before.frequencies[0]
+    assert after.rows == before.rows
     for one, two in zip(before.runs, after.runs, strict=True):
         assert same(one.q, two.q)
 
@@ -303,9 +292,9 @@ def test_few_digits_widen_the_floor_by_what_they_lose(good):
     after = read_submission(good)
     lost = np.abs(after.runs[0].q - before.runs[0].q).max()
     assert 0.9 * after.runs[0].rounding < lost <= after.runs[0].rounding < 1e-6
-    off = abs(after.frequencies[0].frequency - before.frequencies[0].frequency)
-    assert off < after.frequencies[0].rounding == pytest.approx(5e-5)
-    assert before.runs[0].rounding == before.frequencies[0].rounding == 0.0
+    off = abs(after.rows[0].values[0] - before.rows[0].values[0])
+    assert off < after.rows[0].rounding[0] == pytest.approx(5e-5)
+    assert (before.runs[0].rounding, before.rows[0].rounding) == (0.0, ())
 
 
 def test_nothing_to_judge(tmp_path):
@@ -324,12 +313,13 @@ def of_every_kind(tmp_path):
     """A folder with all kinds of files: tables and a history in space, a free vibration."""
     plane, time = whole(), np.arange(0.0, 20.01, 0.02)
     tip = np.outer(np.sin(3.1 * time[:751]), (0.1, 0.02, 0.3))
-    turning = Frequency(case="F", elements=8, speed=1.0, number=7, frequency=61.803398875)
+    turning = Row(case="F", elements=8, speed=1.0, number=7, values=(61.803398875,))
     mine = replace(
         plane,
-        frequencies=(*plane.frequencies, turning),
-        steady=(
-            SteadyTip(case="P", elements=8, speed=1.0, lag=1e-3 / 3, flap=0.1 / 3, twist=0.7 / 3),
+        rows=(
+            *plane.rows,
+            turning,
+            Row(case="P", elements=8, speed=1.0, values=(1e-3 / 3, 0.1 / 3, 0.7 / 3)),
         ),
         runs=(*plane.runs, Run(case="W", elements=16, step=1e-3, time=time[:751], q=tip)),
     )
