@@ -180,7 +180,7 @@ def test_what_was_not_measured_is_shown_all_the_same(submitted):
     whole = submitted()
     run = replace(whole.runs[0], wall=math.nan, cpu=math.nan, dof=None)
     alone = replace(
-        whole, frequencies=(), runs=(run,),
+        whole, rows=(), runs=(run,),
         declaration=replace(whole.declaration, order=None, order_in_step=None),
     )  # fmt: skip
     record = recorded(alone)
