@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from .crest import crest_of, peak_gradient
 from .fourier import Period, packed, unpacked
 from .newton import Newton, NoOrbitError, Vector, factored, length, solved
 from .orbit import Orbit, S
@@ -140,7 +139,7 @@ class LastTangent:
     def factor(self, orbit: Orbit[Any]) -> None:
         """Factor the tangent at the orbit, the derivatives of its peak the last row."""
         matrix = jacobian(orbit)
-        matrix[-1] = peak_gradient(orbit)
+        matrix[-1] = orbit.peak_gradient()
         self.factors = factored(matrix)
 
 
@@ -150,7 +149,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     The `tangent`, of an orbit near by, is factored anew only where the iteration contracts slowly;
     until then Broyden's method improves its steps. Raises NoOrbitError.
     """
-    tangent, crest = tangent or LastTangent(), crest_of(guess)
+    tangent, crest = tangent or LastTangent(), guess.crest()
     parts, shape = guess.parts, guess.coefficients.shape
     moving = guess.moving
 
@@ -185,7 +184,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         if found is None:
             break
         z, factors = found.z, found.factors
-        crest = crest_of(orbit(z))
+        crest = orbit(z).crest()
         if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
             return replace(orbit(z), amplitude=amplitude)
     if others is not None and tangent.factors is others:  # they led astray
@@ -206,7 +205,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
         tangent.factor(orbit)
     finer = orbit.system.refined()
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
-    moved, (peaks, weights) = orbit.on(finer), np.array(orbit.crests).T
+    moved, (peaks, weights) = orbit.on(finer), orbit.crests
     at, defect = orbit.period(fine=True), orbit.finer_defect
     for step in range(_FINER_STEPS):
         if step > 0:

@@ -23,8 +23,7 @@ from typing import Literal
 
 from ..input_checks import flag
 from .lagrangian import Axial, axial_model
-from .rotating_mode import rotating_mode
-from .shapes import CantileverMode, Shape, static_deflection
+from .shapes import CantileverMode, Shape, rotating_mode, static_deflection
 
 _MODES: dict[str, Callable[[float], Shape]] = {
     "cantilever": lambda _: CantileverMode(),

@@ -15,8 +15,7 @@ from ..input_checks import peak_deflection, positive, rotation_speed, whole_numb
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
 from ..threads import one_thread
-from .modes import ModesOverSpeed
-from .residual import exact_residuals, modes_for, residuals, swing
+from .residual import ModesOverSpeed, exact_residuals, modes_for, residuals, swing
 
 _MORE_WAVES = 4
 _MOST_MODES = 20

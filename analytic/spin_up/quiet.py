@@ -13,8 +13,7 @@ from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
 from ..threads import one_thread
-from .modes import ModesOverSpeed
-from .residual import exact_residuals, modes_for, residuals
+from .residual import ModesOverSpeed, exact_residuals, modes_for, residuals
 
 _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0

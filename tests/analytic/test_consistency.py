@@ -11,8 +11,7 @@ from analytic.quadrature import gauss_points
 from analytic.reduced.any_blade import blade_oscillator, coupling_vector
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.model_range import softening_speed
-from analytic.reduced.rotating_mode import rotating_mode
-from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.shapes import CantileverMode, rotating_mode
 from analytic.unit_blade import UNIFORM
 from tests.beams import clamped_basis, deflection_matrices, unit_beam
 

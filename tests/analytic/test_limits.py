@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from analytic import VARIANTS, Beam, Variant, reduced_model
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.model_range import model_at
-from analytic.reduced.rotating_mode import rotating_mode
-from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.shapes import CantileverMode, rotating_mode
 
 BEAM = Beam.reference()
 

@@ -20,7 +20,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.reduced.any_blade import blade_oscillator
-from analytic.spin_up.modes import modes_over_speed
+from analytic.spin_up.residual import modes_over_speed
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 # By code that shares nothing with this one: speed, ramp time, what the exact transient leaves.

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from analytic import paper_table
 from analytic.blade_functions import blade_functions
-from analytic.reduced.rotating_mode import (
+from analytic.reduced.shapes import (
     converged_degree,
     frequency_equation,
     rotating_frequency,
@@ -77,7 +77,7 @@ def test_equation_81_as_printed_is_wrong(beam, monkeypatch):
                 a[k] -= 0.5 * numerator * a[k - 4] / (k * (k - 1) * (k - 2) * (k - 3))
         return a
 
-    monkeypatch.setattr("analytic.reduced.rotating_mode.frobenius_series", as_printed)
+    monkeypatch.setattr("analytic.reduced.shapes.frobenius_series", as_printed)
     w_bar = 2.0 / beam.frequency_scale
     w_n = brentq(lambda w: frequency_equation(w_bar, w, 40), 5.0, 8.0)
     assert w_n * beam.frequency_scale == pytest.approx(5.140, abs=5e-4)
