@@ -11,7 +11,6 @@ and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -78,7 +77,20 @@ class ModesOverSpeed:
 @lru_cache(maxsize=64)
 def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed:
     """Return the first `count` modes for speeds w̄ from 0 to `top`."""
-    solve, points = _eigenproblem(blade, top, count), _FEWEST
+    functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
+    of = blade_functions(blade, functions)
+    x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
+    along = of.across.twice(x)
+    viscosity, _, air = blade.damping
+    damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
+
+    def solve(w: float) -> FloatArray:
+        """Return the modes at w̄, (quantities, modes) in the order of `ModesAt`."""
+        frequencies, modes = of.modes(w, count)
+        decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
+        return np.stack([frequencies, blade.setting * of.euler @ modes, of.tip @ modes, decay])
+
+    points = _FEWEST
     while True:
         nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
         values = np.array([solve(0.5 * top * (1.0 + x)) for x in nodes])
@@ -94,23 +106,6 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
                 f"speeds ({rest:.1e}): take fewer modes, or a lower speed"
             )
         points = 2 * points - 1
-
-
-def _eigenproblem(blade: UnitBlade, top: float, count: int) -> Callable[[float], FloatArray]:
-    """Return what finds the modes at one speed w̄, (quantities, modes) in the order of `ModesAt`."""
-    functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
-    of = blade_functions(blade, functions)
-    x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
-    along = of.across.twice(x)
-    viscosity, _, air = blade.damping
-    damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
-
-    def solve(w: float) -> FloatArray:
-        frequencies, modes = of.modes(w, count)
-        decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
-        return np.stack([frequencies, blade.setting * of.euler @ modes, of.tip @ modes, decay])
-
-    return solve
 
 
 @one_thread

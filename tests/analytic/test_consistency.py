@@ -8,7 +8,7 @@ from analytic import Theory, Variant, linear_modes, periodic_orbits, reduced_mod
 from analytic.beam import BETA_1
 from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points
-from analytic.reduced.any_blade import blade_oscillator, coupling_vector
+from analytic.reduced.any_blade import blade_oscillator
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.model_range import softening_speed
 from analytic.reduced.shapes import CantileverMode, rotating_mode
@@ -134,40 +134,6 @@ def test_hardening_turns_to_softening(beam):
 def test_no_other_mode_of_the_cantilever_comes_near_2_omega_n():
     found = [blade_functions(UNIFORM, 24).first_mode(w) for w in np.linspace(0.0, 30.0, 61)]
     assert min(mode.others[0] / (2 * mode.w_n) for mode in found) > 3.0
-
-
-def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
-    """From the energy itself: the force on p of w̄ ∫(X Ẏ - Y Ẋ) dx at p = 0 is 4w̄ D q q̇."""
-    x, weights = gauss_points(48)
-    inner = x[:, np.newaxis] * x
-    mode, w_bar, k = rotating_mode(5.0), 5.0, 2
-
-    def fields(points, q, p):
-        basis = clamped_basis(3, points.ravel())
-        return (
-            q * mode.deflection(points) + p * basis.value[:, k].reshape(points.shape),
-            q * mode.slope(points) + p * basis.slope[:, k].reshape(points.shape),
-        )
-
-    def energy(q, p, q_dot, p_dot):
-        v, _ = fields(x, q, p)
-        v_dot, _ = fields(x, q_dot, p_dot)
-        slope, slope_dot = fields(inner, q, p)[1], fields(inner, q_dot, p_dot)[1]
-        u = -0.5 * x * (slope**2 @ weights)
-        u_dot = -x * (slope * slope_dot @ weights)
-        return w_bar * weights @ ((x + u) * v_dot - v * u_dot)
-
-    # The energy is at most quadratic in each variable, so central differences are exact.
-    q, q_dot = 0.7, 0.4
-    in_p = (energy(q, 1, q_dot, 0) - energy(q, -1, q_dot, 0)) / 2
-
-    def momentum(q):
-        return (energy(q, 0, q_dot, 1) - energy(q, 0, q_dot, -1)) / 2
-
-    force = in_p - q_dot * (momentum(q + 1) - momentum(q - 1)) / 2
-    of = blade_functions(UNIFORM, 20)
-    found = coupling_vector(of, of.first_mode(w_bar).coefficients)
-    assert found[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
 
 
 def test_tip_of_frm_carries_the_other_modes(beam):
