@@ -26,8 +26,6 @@ _NOTICEABLE_SHIFT = 2e-4
 """Shift of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
 _NOTICEABLE_STRETCH = 2e-3
 """Relative change of ω_n by the extension."""
-_FASTEST = 500.0
-"""w̄ up to which FrM and `periodic_orbits` have enough functions, of slender beams."""
 _HIGHEST_SPEED_RATIO = 4.0
 
 
@@ -90,7 +88,7 @@ def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
     if square <= 0.0:
         raise ValueError(
             f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
-            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
+            "EI/(mL³) there; lower omega, or take FrM"
         )
     oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
     return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
@@ -126,11 +124,6 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     return float(ratio) * beam.omega_0
 
 
-def better_model(w_bar: float) -> str:
-    """Return what goes further than a one-mode model at w̄, as the end of a sentence."""
-    return "take FrM" if w_bar <= _FASTEST else "rotate slower"
-
-
 def warn_beyond_range(
     beam: AnyBlade,
     omega: float,
@@ -152,19 +145,15 @@ def warn_beyond_range(
         others = blade_oscillator(beam.unit, w_bar, True).others
         warn_if_resonant(w_n * scale, scale * np.array(others))
     elif beam.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * beam.omega_0:
-        # The rotating beam's first frequency is never below ω0, so it is needed only here. Beyond
-        # what its basis resolves, the values there are lower bounds, of the ratio as well.
-        at = min(w_bar, _FASTEST)
-        mode = blade_oscillator(UNIFORM, at, False)
+        # The rotating beam's first frequency is never below ω0, so it is needed only here.
+        mode = blade_oscillator(UNIFORM, w_bar, False)
         first, second = scale * mode.oscillator.w_n, scale * mode.others[0]
-        if at * scale > _PAPER_SPEED_RATIO * first:
-            more, above = ("more than ", "above ") if w_bar > at else ("", "")
+        if omega > _PAPER_SPEED_RATIO * first:
             warn(
-                f"omega = {omega:g} rad/s is {more}{at * scale / first:.2f} times the rotating "
-                f"beam's first frequency ({above}{first:.4g} rad/s): beyond "
-                f"{_PAPER_SPEED_RATIO:g}, where the paper ends, the second mode ({above}"
-                f"{second:.4g} rad/s), which {variant.name} leaves out, matters; "
-                f"{better_model(w_bar)}"
+                f"omega = {omega:g} rad/s is {omega / first:.2f} times the rotating beam's first "
+                f"frequency ({first:.4g} rad/s): beyond {_PAPER_SPEED_RATIO:g}, where the paper "
+                f"ends, the second mode ({second:.4g} rad/s), which {variant.name} leaves out, "
+                "matters; take FrM"
             )
 
 

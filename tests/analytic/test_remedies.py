@@ -34,15 +34,12 @@ def complaint(function, *arguments, **options):
     return str(caught[-1].message) if caught else ""
 
 
-@pytest.mark.parametrize(
-    ("omega", "advice"), [(10.0, "take FrM"), (400.0, "take FrM"), (1000.0, "rotate slower")]
-)
-def test_one_mode_is_not_enough(omega, advice):
+@pytest.mark.parametrize("omega", [10.0, 400.0])
+def test_one_mode_is_not_enough(omega):
     beam = unit_beam(1e-10)
     speed = omega / 0.827424257935
-    assert complaint(reduced_model, beam, speed, "CI").endswith(advice)
-    slower = speed if advice == "take FrM" else 0.4 * speed
-    said = complaint(reduced_model, beam, slower, "FrM")
+    assert complaint(reduced_model, beam, speed, "CI").endswith("take FrM")
+    said = complaint(reduced_model, beam, speed, "FrM")
     assert said == "" or "rpm?" in said  # and no other warning
 
 
