@@ -42,7 +42,6 @@ GROUPS = (
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell",
         analytic__exact__linear__tracking="Crossing",
-        analytic__exact__linear__unstretched="unstretched_frequencies",
         analytic__exact__space__modes="SpaceModes",
     ),
     _group(

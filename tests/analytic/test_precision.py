@@ -39,7 +39,6 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.linear.unstretched import unstretched_frequencies  # fmt: skip
 from analytic.exact.plane.planarity import planar_note
 from analytic.section import OutOfPlane
 
@@ -57,7 +56,6 @@ ANSWERS = {
     "shear": lambda n: linear_modes(BEAM, n(6), 2, theory=Theory(shear=n(0.25))).frequencies,
     "damping_ratios": lambda n: damping_ratios(DAMPED, n(6), 2),
     "campbell": lambda n: campbell(BEAM, [n(0), n(6)], 1, 2).frequencies,
-    "unstretched": lambda n: unstretched_frequencies(BEAM, n(6), 2),
     "periodic_orbits": lambda n: periodic_orbits(BEAM, n(6), [n(0.25)]).frequency,
     "backbone_curve": lambda n: backbone_curve(BEAM, n(6), n(0.25), tolerance=n(2**-14)).frequency(
         n(0.125)

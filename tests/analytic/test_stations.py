@@ -26,7 +26,6 @@ from analytic import (
 )
 from analytic.exact.beam.discretization import resolved_model
 from analytic.exact.beam.steady import solve_modes, steady_rotation
-from analytic.exact.linear.unstretched import unstretched_frequencies
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 
@@ -53,7 +52,6 @@ def answers(blade):
     yield "mass", blade.mass
     yield "modes", linear_modes(blade, w).frequencies
     yield "inextensible modes", linear_modes(blade, w, theory=Theory(extension=False)).frequencies
-    yield "unstretched", unstretched_frequencies(blade, w)
     yield "ratio", Damping.from_ratio(blade, 3, 0.01).bending
     yield "ratios", damping_ratios(damped, w, 2)
     for name in ("FrM", "FrC"):

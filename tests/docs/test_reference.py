@@ -39,7 +39,7 @@ BEYOND = {
     "analytic.exact.free.orbits",
     "analytic.exact.linear.campbell",
     "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
-    "analytic.exact.linear.unstretched", "analytic.exact.plane.planarity",
+    "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.speeds",
     "analytic.section", "analytic.spin_up.quiet",

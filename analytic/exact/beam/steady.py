@@ -147,13 +147,12 @@ class Modes(NamedTuple):
     slopes: ComplexArray
 
 
-def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
+def solve_modes(steady: SteadyBeam) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
     With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
-    model, at_rest = steady.model, np.zeros((1, steady.size))
-    at = steady.equilibrium if stretched else at_rest[0]
+    model, at, at_rest = steady.model, steady.equilibrium, np.zeros((1, steady.size))
     tangent = steady.tangent(at[None], at_rest, at_rest)
     gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
     gyroscopic += gyroscopic.T

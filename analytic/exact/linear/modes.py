@@ -191,16 +191,15 @@ def _in_units(
 
 
 def settled_modes(
-    beam: AnyBlade, omega: float, count: int, model: Continuum, *, stretched: bool = True
+    beam: AnyBlade, omega: float, count: int, model: Continuum
 ) -> tuple[Continuum, Modes]:
     """Return the discretization that a finer one confirms, and its modes.
 
-    About the stretched or the unstretched blade. Rotation bends it in a layer at the clamp, √2/w̄
-    thin, which takes ~√w̄ functions.
+    Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     """
     first = steady_rotation(beam, omega, model)
     (steady, modes), *_ = settled(
-        lambda steady: (steady, solve_modes(steady, stretched=stretched)),
+        lambda steady: (steady, solve_modes(steady)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
         lambda found: np.log(found[1].frequencies[:count]),
