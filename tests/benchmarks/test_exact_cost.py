@@ -128,13 +128,6 @@ def test_modes_of_a_twisted_blade_take_a_tenth_of_a_second():
     assert cpu_seconds(lambda: linear_modes(FLAT.with_twist(0.5236), 2.0, 4)) < 0.1
 
 
-def test_a_million_points_of_a_curve_take_five_multiplications(beam):
-    curve, a = backbone_curve(beam, 6.0), np.linspace(0.0, 0.6, 1_000_000)
-    bare = seconds(lambda: a * a * 0.3, repeats=25)
-    answers = seconds(lambda: curve.frequency(a), repeats=25)
-    assert answers < 5.0 * bare, f"{1e3 * answers:.2f} ms against {1e3 * bare:.2f} ms"
-
-
 @pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])
 def test_spin_up_to_1e_6_takes_less_than_64_elements(beam, omega, ramp_time):
     spin_up, times = SpinUp(omega=omega, ramp_time=ramp_time), np.linspace(0.0, 15.0, 1501)
