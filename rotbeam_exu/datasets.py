@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.linear.campbell import Campbell

@@ -68,7 +68,7 @@ GROUPS = (
         "The transient, exact and linear; the residual vibration, and ramps that avoid it.",
         analytic="spin_up_response residual_amplitude quiet_ramp_times design_ramp linear_response",
         analytic__exact__driven__response="SpinUpResponse",
-        analytic__exact__beam__section_loads="SectionLoads",
+        analytic__exact__beam__state="SectionLoads",
         analytic__spin_up__quiet="QuietRamps",
         analytic__reduced__linear_frame="LinearResponse",
     ),

@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from analytic import SpinUp, SteadyRotation, spin_up_response
-from analytic.exact.beam.discretization import continuum
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import continuum
 from analytic.methods.collocation import radau
 
 

@@ -18,10 +18,9 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import SteadyBeam
-from analytic.exact.driven.loading import pushes, unit_load
+from analytic.exact.beam.steady import SteadyBeam, blade_continuum
+from analytic.exact.driven.transient import pushes, unit_load
 from analytic.profiles import evaluated
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from analytic import SpinUp, Theory, periodic_orbits, spin_up_response
-from analytic.exact.beam.discretization import continuum, finer_model
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import SteadyBeam, continuum
 from analytic.methods.collocation import radau
 from analytic.quadrature import axial_basis, gauss_points
 from tests.beams import SHARE, unit_beam
@@ -185,7 +185,7 @@ def test_the_section_at_the_clamp_does_not_turn():
 
 def test_more_functions_hold_the_same_shape():
     model = continuum(MU, 6, 4, shear=SHARE)
-    finer = finer_model(model)
+    finer = SteadyBeam(model, 0.0).refined().model
     assert (finer.bending, finer.axial, finer.shear) == (9, 6, 6)
     q = 0.2 * np.random.default_rng(2).normal(size=model.size)
     x = np.linspace(0.0, 1.0, 7)

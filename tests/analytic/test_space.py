@@ -21,10 +21,9 @@ from analytic import (
     planar_stability,
 )
 from analytic.damping import UNDAMPED
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
-from analytic.exact.beam.steady import SteadyBeam, steady_rotation
-from analytic.exact.driven.loading import DrivenBlade
+from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
+from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow

@@ -22,9 +22,8 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import Space, with_points_for
-from analytic.exact.beam.steady import steady_rotation
+from analytic.exact.beam.steady import blade_continuum, steady_rotation
 from analytic.exact.plane.growth import _steady_modes, planar_orbits
 from analytic.exact.plane.planarity import PlanarStability, growth_rates, planar_note
 from analytic.methods.continuation import Care

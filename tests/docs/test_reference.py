@@ -31,7 +31,6 @@ PLAIN = {
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "analytic.exact.beam.section_loads",
     "analytic.exact.beam.state", "analytic.exact.driven.forced_orbits",
     "analytic.exact.driven.response", "analytic.exact.free.backbone",
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",

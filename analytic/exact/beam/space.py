@@ -32,8 +32,7 @@ from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from .continuum import Continuum
-from .discretization import require_out_of_plane
-from .steady import SteadyBeam
+from .steady import SteadyBeam, require_out_of_plane
 
 Twist = Literal["inertial", "quasi-static", "rigid"]
 """Kinds of twist: it moves with its inertia, follows without inertia, or does not exist."""

@@ -1,24 +1,117 @@
-"""The exact beam in steady rotation: the system whose orbits are sought, its modes and states."""
+"""The exact beam in steady rotation: its functions, the system of its orbits, modes, states."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_steady_state
-from ...input_checks import finite_number, points_of_beam
+from ...beam import AnyBlade, require_planar, require_steady_state
+from ...input_checks import finite_number, points_of_beam, whole_number
 from ...methods.gyroscopic import reciprocal_modes
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
-from ...theory import BERNOULLI_EULER
+from ...profiles import evaluated, in_units
+from ...section import OutOfPlane
+from ...shape_functions import shape_functions
+from ...theory import BERNOULLI_EULER, Theory, require_theory
+from ...unit_blade import UnitBlade
 from .continuum import Continuum
-from .discretization import blade_continuum, finer_model
 from .state import BeamState, Driven
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
+
+
+continuum = lru_cache(maxsize=32)(Continuum)
+"""The discretization, built once for each set of arguments."""
+
+
+def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
+    """Return the discretization by at least so many functions, as many on every panel."""
+    require_planar(beam)
+    unit = _unit(beam, require_theory(theory))
+    slenderness, axial = (beam.slenderness, axial) if theory.extension else (0.0, 1)
+    bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
+    return continuum(slenderness, bending, axial, unit, theory.shear, theory.engesser)
+
+
+def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
+    """Return the discretization, refusing a mode that it does not resolve."""
+    functions = whole_number("functions", functions, least=4)
+    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
+        raise ValueError(
+            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
+            f"modes, got functions={functions} for mode {mode}: ask for less"
+        )
+    if mode > functions // 2:
+        raise ValueError(
+            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
+            f"ask for functions={2 * mode} or more"
+        )
+    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
+
+
+def require_shear(beam: AnyBlade, theory: Theory) -> None:
+    """Refuse a number for sections that tell their shear stiffness, and True for others."""
+    if theory.shear is not None and (theory.shear is True) != beam.section.at_stations:
+        raise ValueError(
+            f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
+            "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
+            "Theory(shear=0.32)"
+        )
+
+
+def require_out_of_plane(
+    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
+) -> OutOfPlane:
+    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_planar(blade)
+    if require_theory(theory).shear is not None:
+        raise ValueError(
+            "how slices shear out of the plane is unknown: take a theory without shear"
+        )
+    known = blade.section.out_of_plane
+    if known is None:
+        raise ValueError(
+            "how this blade bends and twists out of its plane is unknown: give its section by "
+            "blade.with_shape(Rectangle(height=..., width=...)) or "
+            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
+        )
+    if blade.unit.setting != 1.0:
+        raise ValueError(
+            f"motion out of the plane is known for a blade that bends in the plane of rotation, "
+            f"and this one is set at {blade.setting_angle:g} rad: take "
+            "blade.with_setting_angle(0.0)"
+        )
+    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
+        raise ValueError(
+            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
+            "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
+            "section that does not twist"
+        )
+    return known
+
+
+def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
+    """Return the blade without dimensions, with the rotary inertia of its slices."""
+    require_shear(beam, theory)
+    blade = beam.unit
+    told = beam.section.rotary_inertia is not None
+    if told or not theory.rotary_inertia:
+        return blade
+    x = np.linspace(0.0, 1.0, 257)
+    if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
+        raise ValueError(
+            "mass and axial stiffness of the blade do not vary alike, so that its sections "
+            "have no one ρ/E to take their rotary inertia from: give "
+            "Section(rotary_inertia=...) in kg m"
+        )
+    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
 
 
 class Discretized:
@@ -125,7 +218,19 @@ class SteadyBeam(AtConstantRate):
 
     def refined(self) -> Self:
         """Return the beam on half as many functions again."""
-        return replace(self, model=finer_model(self.model))
+        old = self.model
+        panels = old.blade.panel_count
+
+        def more(count: int) -> int:
+            a_panel = count // panels
+            # One more at least, on every panel: the same functions would confirm themselves.
+            return panels * (a_panel + max(a_panel // 2, 1))
+
+        axial = more(old.axial) if old.slenderness > 0.0 else old.axial
+        finer = continuum(
+            old.slenderness, more(old.bending), axial, old.blade, old.shear_ratio, old.engesser
+        )
+        return replace(self, model=finer)
 
 
 BeamOrbit = Orbit[SteadyBeam]

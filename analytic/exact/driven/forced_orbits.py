@@ -15,7 +15,7 @@ from ...loads import Load
 from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
+from ..beam.steady import require_out_of_plane
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpaceOrbitSet, SpecialPoint
 from ..plane.planarity import GrowthOutOfPlane, grown_about

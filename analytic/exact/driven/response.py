@@ -18,9 +18,8 @@ from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import blade_continuum
-from ..beam.section_loads import SectionLoads, in_newtons
-from ..beam.steady import steady_rotation
+from ..beam.state import SectionLoads, in_newtons
+from ..beam.steady import blade_continuum, steady_rotation
 from ..space.modes import flap_shape
 from ..space.steady import lives_in_space, require_bent, space_continuum, space_rotation
 from .transient import BladeMotion, drive, grid_of, integrated

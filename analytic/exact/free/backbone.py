@@ -12,7 +12,7 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import resolved_model
+from ..beam.steady import resolved_model
 from ..space.modes import orbit_modes, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch

@@ -14,8 +14,7 @@ from ...beam import AnyBlade
 from ...input_checks import finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
-from ..beam.section_loads import SectionLoads, in_newtons
-from ..beam.state import BeamState
+from ..beam.state import BeamState, SectionLoads, in_newtons
 from ..beam.steady import orbit_state
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing

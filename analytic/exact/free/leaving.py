@@ -32,8 +32,7 @@ from ...methods.orbit import Orbit
 from ...methods.orbit_curve import At, OrbitCurve
 from ...plotting import axes_or_new, draw_response
 from ...settled import settled
-from ..beam.discretization import require_out_of_plane
-from ..beam.steady import BeamOrbit
+from ..beam.steady import BeamOrbit, require_out_of_plane
 from ..space.steady import SpaceBlade, space_continuum, space_rotation
 from .branch import Branch, SpaceOrbitSet, SpecialPoint
 from .path import ModePath

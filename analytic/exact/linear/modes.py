@@ -19,8 +19,15 @@ from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
-from ..beam.discretization import MOST_FUNCTIONS, require_out_of_plane, resolved_model
-from ..beam.steady import Modes, SteadyBeam, solve_modes, steady_rotation
+from ..beam.steady import (
+    MOST_FUNCTIONS,
+    Modes,
+    SteadyBeam,
+    require_out_of_plane,
+    resolved_model,
+    solve_modes,
+    steady_rotation,
+)
 from ..space.modes import space_modes, torsion_modes
 from ..space.steady import lives_in_space, space_rotation
 

@@ -16,9 +16,8 @@ from ...methods.floquet import flow, normal_modes, reversible_monodromy
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.discretization import resolved_model
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
-from ..beam.steady import SteadyBeam
+from ..beam.steady import SteadyBeam, resolved_model
 from ..free.path import ModePath
 
 GROWTH = 1e-5

@@ -15,7 +15,7 @@ from ...input_checks import not_negative, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
+from ..beam.steady import require_out_of_plane
 from ..free.backbone import periodic_orbits
 from ..free.branch import AmplitudeNotReachedError, OrbitSet
 from .growth import LEAST_GROWTH, grown_and_checked, planar_orbits

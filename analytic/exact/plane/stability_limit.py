@@ -11,7 +11,7 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
+from ..beam.steady import require_out_of_plane
 from .growth import (
     GROWTH,
     LEAST_GROWTH,

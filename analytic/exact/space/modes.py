@@ -15,7 +15,7 @@ from ...input_checks import points_of_beam
 from ...methods.gyroscopic import reciprocal_modes
 from ...settled import settled
 from ...theory import Theory
-from ..beam.discretization import require_out_of_plane
+from ..beam.steady import require_out_of_plane
 from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
 

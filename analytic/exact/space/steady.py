@@ -17,9 +17,8 @@ from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
-from ..beam.discretization import require_shear
 from ..beam.state import Driven
-from ..beam.steady import AtConstantRate
+from ..beam.steady import AtConstantRate, require_shear
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
 from .unit import space_unit
