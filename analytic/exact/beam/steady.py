@@ -133,6 +133,25 @@ class Discretized:
         """Return the coordinates of the same shape on more functions, along the last axis."""
         return np.asarray(self.model.padded(q, finer.model))
 
+    def by(self, *drive: Any) -> Driven:
+        """Return what drives it, where a drive acts at phases (samples,) and a frequency."""
+        raise NotImplementedError
+
+    def residual(self, *state: Any) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ and their drive."""
+        return np.asarray(self.model.residual(*state[:3], self.by(*state[3:])))
+
+    def tangent(self, *state: Any) -> Tangent:
+        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
+        tangent: Tangent = self.model.tangent(*state[:3], self.by(*state[3:]))
+        return tangent
+
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in the same states, as the model has them."""
+        loads: tuple[FloatArray, FloatArray]
+        loads = self.model.section_loads(x, *state[:3], self.by(*state[3:]))
+        return loads
+
 
 class AtConstantRate(Discretized):
     """Equations of a blade in a frame that turns at a constant rate, in the plane or in space."""
@@ -150,23 +169,10 @@ class AtConstantRate(Discretized):
         del frequency
         return self
 
-    def by(self) -> Driven:
+    def by(self, *drive: Any) -> Driven:
         """Return what drives it."""
+        del drive
         return Driven(self.rate, push=self.push)
-
-    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.by()))
-
-    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.by())
-        return tangent
-
-    def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
-        found: tuple[FloatArray, FloatArray] = self.model.section_loads(x, *state, self.by())
-        return found
 
     def potential(self, q: FloatArray) -> FloatArray:
         """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""

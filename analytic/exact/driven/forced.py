@@ -15,7 +15,6 @@ from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Load
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
-from ...methods.system import Tangent
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
@@ -89,30 +88,14 @@ class DrivenBlade(Discretized):
         """Return the blade under a share of the load."""
         return replace(self, load=self.load.times(share))
 
-    def by(self, phase: FloatArray, nu: float) -> Driven:
+    def by(self, *drive: Any) -> Driven:
         """Return what drives it at the phases."""
+        phase, nu = drive
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
         push = pushes(self.model, [(self.load, phase)], angle)
         rate = self.speed(nu) + self.load.rate(phase)
         return Driven(rate, self.load.acceleration(phase, nu), push)
-
-    def _at(
-        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
-    ) -> tuple[FloatArray, FloatArray, FloatArray, Driven]:
-        return q, q_dot, q_ddot, self.by(*drive)
-
-    def residual(self, *state: Any) -> FloatArray:
-        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ at phases and ν."""
-        return self.model.residual(*self._at(*state))
-
-    def tangent(self, *state: Any) -> Tangent:
-        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
-        return self.model.tangent(*self._at(*state))
-
-    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x` in the same states, as the model does."""
-        return self.model.section_loads(x, *self._at(*state))
 
 
 @one_thread

@@ -21,7 +21,6 @@ from .leaving import LeavingBranch, leaving_branch
 from .orbits import Orbits, SpaceOrbits, orbits_of
 from .path import ModePath
 
-_MOST_COEFFICIENTS = 1000  # an orbit for each
 _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 
 
@@ -64,7 +63,7 @@ class Backbone(ModePath):
     ) -> BackboneCurve:
         """Return the backbone as a series in a², as `backbone_curve` does."""
         up_to = peak_deflection("up_to", up_to)
-        count = whole_number("coefficients", coefficients, least=5, most=_MOST_COEFFICIENTS)
+        count = whole_number("coefficients", coefficients, least=5)
         if positive("tolerance", tolerance) < 1e-10:
             raise ValueError(
                 f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"
