@@ -143,11 +143,6 @@ def test_at_rest_a_quarter_turn_of_the_blade_turns_flap_into_lag():
     assert turned.flap == pytest.approx(flat.lag, rel=1e-6)
 
 
-def test_an_unknown_gauge_is_refused():
-    with pytest.raises(ValueError, match="gauge must be 'lag' or 'flap'"):
-        periodic_orbits(BLADE, 1.0, [0.1], gauge="up")
-
-
 @pytest.mark.parametrize("away", [1e-3, pytest.param(0.03, marks=pytest.mark.slow)])
 def test_a_family_that_an_internal_resonance_ends_is_refused(away):
     """Lag has twice the frequency of flap at w̄ = 1.3587: no orbit of a = 0.02 is flap's alone."""

@@ -27,7 +27,6 @@ from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_ro
 from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
 from .transient import pushes, unit_load
 
-_MOST_HARMONICS = 100  # dense matrices of so many times twice the functions
 _LARGEST = 0.95  # |q|/L to which a response is followed
 
 
@@ -195,7 +194,7 @@ def forced_response(
         _require_no_resonance(beam, None if by_speed else highest, theory, asked)
     # Deflections are told from the steady state, at changing speeds from that at rest.
     system = DrivenBlade(replace(steady, rate=0.0) if by_speed else steady, unit)
-    least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
+    least = whole_number("harmonics", harmonics)
     try:
         found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least, tail)
     except NoOrbitError as failed:
