@@ -278,17 +278,6 @@ def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digi
     assert optimize.brentq(least, 0.75 * known, 1.17 * known) == pytest.approx(known, abs=digits)
 
 
-@pytest.mark.parametrize("bending_ratio", [1.0, 1.0 + 1e-13])
-@pytest.mark.parametrize("torsion_ratio", [0.1, 1.0, RIGID])
-def test_at_rest_a_round_section_has_the_multiplier_one_twice_more(bending_ratio, torsion_ratio):
-    """The plane may be turned about the blade; also where the twist is computed, and follows."""
-    blade = BEAM.with_section_out_of_plane(bending_ratio, torsion_ratio, 0.0)
-    found = planar_stability(blade, 0.0, 0.3)
-    nearest = np.sort(np.abs(found.multipliers[0] - 1.0))[:2]
-    assert nearest == pytest.approx(0.0, abs=2e-5)  # a double one: root of the round-off
-    assert found.stable.all()
-
-
 def test_torsion_does_not_matter_to_a_round_section():
     """In the tongue, where it grows, and with a twist that follows."""
     exponents = [
@@ -340,10 +329,3 @@ def test_edges_of_the_tongues(section, a, edge, into):
     assert inside.kind == "period doubling"
     assert inside.modes[0] == "flap 1"
     assert not outside.unstable
-
-
-def test_onset_of_a_section_that_does_not_twist():
-    at_two = 2.0 / BEAM.frequency_scale
-    for sign in (-1.0, 1.0):
-        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, theory=Theory())
-        assert found.unstable == (sign > 0.0)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_planar, require_steady_state
-from ...input_checks import finite_number, points_of_beam, whole_number
+from ...input_checks import points_of_beam, whole_number
 from ...methods.gyroscopic import reciprocal_modes
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
@@ -280,24 +280,13 @@ def solve_modes(steady: SteadyBeam) -> Modes:
 def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
     """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
     steady = steady_rotation(beam, omega, blade_continuum(beam, BERNOULLI_EULER, 20, 10))
-    return _state(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
+    return state_of(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
 
 
-def orbit_state(
-    beam: AnyBlade,
-    orbit: Orbit[Any],
-    x: ArrayLike,
-    phase: float,
-) -> BeamState:
-    """Return the state of an orbit of `beam` at the points `x` [m] and the `phase` [rad]."""
-    phases = np.array([finite_number("phase", phase, "rad")])
-    (q,), (q_dot,), _ = orbit.coordinates(phases)
-    return _state(beam, orbit.system.model, q, q_dot, x)
-
-
-def _state(
+def state_of(
     beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
 ) -> BeamState:
+    """Return the state of coordinates and their rates (n,) at the points `x` [m]."""
     at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)

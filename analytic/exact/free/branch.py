@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
-from ...input_checks import finite_values, points_of_beam, whole_number
+from ...input_checks import finite_number, finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
 from ..beam.state import BeamState, SectionLoads, in_newtons
-from ..beam.steady import orbit_state
+from ..beam.steady import state_of
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
 
@@ -87,7 +87,9 @@ class OrbitSet:
 
         In the frame of the clamp. Points beyond the beam, from 0 to L, are refused.
         """
-        return orbit_state(self.beam, self._orbit(i), x, phase)
+        orbit = self._orbit(i)
+        (q,), (q_dot,), _ = orbit.coordinates(np.array([finite_number("phase", phase, "rad")]))
+        return state_of(self.beam, orbit.system.model, q, q_dot, x)
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
@@ -151,9 +153,7 @@ class SpaceOrbitSet(OrbitSet):
 
         Along the clamp, in the direction of rotation (lag) and normal to both (flap).
         """
-        orbit = self._orbit(i)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        return np.asarray(self.beam.length * orbit.system.model.tip(q))
+        return np.asarray(self.axis(i, self.beam.length, phase)[:, 0])
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
         """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
