@@ -130,19 +130,11 @@ def in_newtons(
 
 
 class Driven(NamedTuple):
-    """Rotation of the clamp and loads, without units, as the equations of motion take them.
+    """Rotation of the clamp and loads, without units, as the equations of motion take them."""
 
-    Attributes
-    ----------
-    rate, rate_dot : float or ndarray (samples,)
-        w and its rate.
-    push : ndarray or None
-        Load beyond each Gauss point, as the discretization's `push` returns it.
-    """
-
-    rate: Any
+    rate: Any  # w, a number or (samples,)
     rate_dot: Any = 0.0
-    push: Any = None
+    push: Any = None  # load beyond each Gauss point, as the discretization's `push` returns it
 
 
 def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:

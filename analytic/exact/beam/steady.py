@@ -189,16 +189,10 @@ class SteadyBeam(AtConstantRate):
 
     The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
     maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.
-
-    Attributes
-    ----------
-    model : Continuum
-    rate : float
-        w̄ = ω/√(EI/mL³).
     """
 
     model: Continuum
-    rate: float
+    rate: float  # w̄ = ω/√(EI/mL³)
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:

@@ -45,26 +45,15 @@ class SpecialPoint(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class OrbitSet:
-    """Periodic orbits of one blade; base of `Orbits`, `BackboneBranch` and `ForcedResponse`.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    frequency : ndarray (orbits,)
-        [rad/s].
-    amplitude : ndarray (orbits,)
-        Peak |q|/L.
-    nondimensional : tuple of Orbit
-        The orbits as `analytic.methods` have them, in time t √(EI/mL³).
-    """
+    """Periodic orbits of one blade; base of `Orbits`, `BackboneBranch` and `ForcedResponse`."""
 
     _covered: ClassVar[int] = 6
     _tolerance: ClassVar[float] = 1e-6
 
     beam: AnyBlade
-    frequency: FloatArray
-    amplitude: FloatArray
-    nondimensional: tuple[Orbit[Any], ...] = field(repr=False)
+    frequency: FloatArray  # [rad/s], (orbits,)
+    amplitude: FloatArray  # peak |q|/L, (orbits,)
+    nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
 
     def _orbit(self, i: int) -> Orbit[Any]:
         count = len(self.nondimensional)
@@ -202,16 +191,9 @@ class SpaceOrbitSet(OrbitSet):
 
 @dataclass(frozen=True, kw_only=True)
 class Branch(OrbitSet):
-    """Periodic orbits in order along a curve, with marks at the special ones.
+    """Periodic orbits in order along a curve, with marks at the special ones."""
 
-    Attributes
-    ----------
-    marks : tuple of str
-        Mark of each point: "fold" where the curve turns around, "branch point" where another curve
-        crosses, "peak" where the amplitude of a response is greatest or least, "asked" for; or "".
-    """
-
-    marks: tuple[str, ...] = field(repr=False)
+    marks: tuple[str, ...] = field(repr=False)  # each a `Mark` of `methods.orbit_curve`
 
     def _marked(self, mark: str) -> tuple[SpecialPoint, ...]:
         return tuple(

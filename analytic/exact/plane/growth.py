@@ -39,19 +39,10 @@ _SHARE = 0.15  # of the energy, from which a mode is named
 
 
 class Growth(NamedTuple):
-    """Growth out of the plane over one period: the fastest motion.
+    """Growth out of the plane over one period: the fastest motion."""
 
-    Attributes
-    ----------
-    exponent : float
-        Logarithm of the largest multiplier's size.
-    multipliers : ndarray (8,)
-    kind : str
-    modes : tuple of str
-    """
-
-    exponent: float
-    multipliers: ComplexArray
+    exponent: float  # logarithm of the largest multiplier's size
+    multipliers: ComplexArray  # (8,)
     kind: str = ""
     modes: tuple[str, ...] = ()
 
