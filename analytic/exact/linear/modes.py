@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...methods.gyroscopic import inverse_eigenvalues
@@ -23,7 +23,6 @@ from ..beam.steady import (
     MOST_FUNCTIONS,
     Modes,
     SteadyBeam,
-    require_out_of_plane,
     resolved_model,
     solve_modes,
     steady_rotation,
