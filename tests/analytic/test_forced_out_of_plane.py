@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from analytic import (
-    Beam,
     Damping,
     Gravity,
     SpeedRipple,
@@ -15,10 +14,9 @@ from analytic import (
     TipForce,
     forced_response,
 )
+from tests.beams import unit_beam
 
-BEAM = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-)
+BEAM = unit_beam(1e-4)
 DAMPING = Damping(bending=0.02, axial=0.02, external=0.2)
 RIGID = BEAM.with_section_out_of_plane(1.0 / 16.0, math.inf).with_damping(DAMPING)
 THIN = Theory(trapeze=False)  # without inertia of the sections, which L2 leaves out against flap

@@ -31,6 +31,7 @@ from analytic.methods.system import Tangent
 from analytic.quadrature import axial_basis, gauss_points
 from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
+from tests.beams import unit_beam
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -163,9 +164,7 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
         (BEAM.with_hub_radius(4.0).with_tip_mass(0.5), 2e-8),
         (BEAM.with_taper(0.3, 0.3).with_point_mass(0.2, 5.0), 2e-6),
         (
-            Beam.from_stiffness(
-                length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
-            ).blade,
+            unit_beam(5e-4).blade,
             2e-8,
         ),
     ],

@@ -23,12 +23,11 @@ from analytic import (
     steady_state,
 )
 from analytic.exact.space.continuum import SpaceContinuum
+from tests.beams import unit_beam
 
 PLAIN = Theory(extension=False, trapeze=False)
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
-BEAM = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-)
+BEAM = unit_beam(1e-4)
 BLADE = BEAM.with_section_out_of_plane(1.0 / 16.0, 0.08)
 
 # Bending ratio, twist [degrees], hub, speed, frequencies.

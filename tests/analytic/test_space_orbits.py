@@ -7,7 +7,6 @@ import pytest
 
 from analytic import (
     AmplitudeNotReachedError,
-    Beam,
     Theory,
     TipForce,
     backbone,
@@ -18,11 +17,10 @@ from analytic import (
 )
 from analytic.exact.space.modes import orbit_modes
 from analytic.exact.space.steady import space_continuum, space_rotation
+from tests.beams import unit_beam
 
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
-BLADE = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-).with_section_out_of_plane(1.0 / 16.0, 0.08)
+BLADE = unit_beam(1e-4).with_section_out_of_plane(1.0 / 16.0, 0.08)
 
 
 def twisted(degrees):

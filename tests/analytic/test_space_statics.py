@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Blade, Theory, steady_state
+from tests.beams import unit_beam
 
 SHEARED = Theory(shear=True, trapeze=False)
 RIGID = Theory(extension=False, trapeze=False)
 MASS = np.diag([1.0, 1.0, 1.0, 2e-4, 1e-4, 1e-4])
-ROUND = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-).with_section_out_of_plane(1.0, 1.0)
+ROUND = unit_beam(1e-4).with_section_out_of_plane(1.0, 1.0)
 
 
 def bar(length, stiffness):

@@ -28,6 +28,7 @@ from analytic.exact.plane.growth import _steady_modes, planar_note, planar_orbit
 from analytic.exact.plane.planarity import PlanarStability, growth_rates
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
+from tests.beams import UNIT
 
 ROOT = Path(__file__).parents[2]
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
@@ -240,9 +241,6 @@ def test_a_stability_of_growth_that_overflows_is_finite(beam):
 
 
 ROUND = Tube()
-UNIT = Blade(
-    length=1.0, section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0)
-)
 
 
 @pytest.mark.filterwarnings("ignore:omega = 100 rad/s is 28 times")

@@ -143,9 +143,7 @@ def test_engessers_law_has_another_limit(ratio, higher):
     """By Reissner's law the same code is `linear_modes`, so the law is what differs."""
     page = Path(__file__).parents[2] / "docs" / "theory" / "continuum.md"
     assert "1.7e-3 higher, at $L/h=20$ 4.5e-5" in page.read_text(encoding="utf-8")
-    beam = Beam.from_stiffness(
-        length=1.0, axial_stiffness=12.0 * ratio**2, bending_stiffness=1.0, mass_per_length=1.0
-    )
+    beam = unit_beam(1.0 / (12.0 * ratio**2))
     ours = sheared(beam, 6.0, 1)[0]
     assert by_powers(beam, 6.0)[0] == pytest.approx(ours, rel=1e-10)
     # The digits that are printed.

@@ -133,9 +133,7 @@ def grown(
     return growth._replace(kind=kind, modes=modes)
 
 
-@lru_cache(maxsize=32)
-def _space(blade: AnyBlade, functions: int, theory: Theory) -> Space:
-    return Space(blade, functions, theory)
+_space = lru_cache(maxsize=32)(Space)
 
 
 def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
