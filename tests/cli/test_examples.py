@@ -17,7 +17,6 @@ from rotbeam_exu.sweeps import grid
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
-from rotbeam_exu.verification.verify import LADDER
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
@@ -70,7 +69,6 @@ def folder(tmp_path, monkeypatch, call):
             asked=(),
         ),
     )
-    monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     return tmp_path
 
 

@@ -7,7 +7,6 @@ from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
 from rotbeam_exu.verification.outcomes import found_of
 from rotbeam_exu.verification.submission import Declaration
-from rotbeam_exu.verification.verify import LADDER
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
@@ -45,12 +44,7 @@ def test_the_verdict_tables(call, monkeypatch):
             histories={}, sources={}, remarks={}, asked=("S1",),
         ),
     )  # fmt: skip
-    monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     monkeypatch.setenv("COLUMNS", "80")
     code, out, _ = call("verify", "--element", "cable", "--element", "exact")
     assert code == 0
     assert out.count("+1e-04") == 2 * len(THRESHOLDS)
-    code, out, _ = call("verify", "--element", "cable", "--cost")
-    assert code == 0
-    assert out.count("1.0e-03") == len(LADDER)
-    assert max(map(len, out.split("Each cell")[0].splitlines())) <= 80

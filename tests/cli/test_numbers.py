@@ -32,13 +32,6 @@ def test_only_decimal_digits_are_a_whole_number(call, tmp_path, monkeypatch, com
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("error", ["nan", "inf", "0", "-1"])
-def test_verify_asks_for_a_possible_error(call, error):
-    code, _, message = call("verify", "--element", "cable", "--cost", "--error", error)
-    assert code == 2
-    assert "error must be" in message
-
-
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

@@ -22,7 +22,7 @@ from ..references import reference
 from ..submission import Submission
 from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
 from .mistake import Mistake, largest, most_left
-from .tables import mistake_in_backbone, mistake_in_frequencies
+from .tables import mistake_in_table
 
 __all__ = ["Mistake", "mistakes_in"]
 
@@ -70,9 +70,7 @@ def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
     if case is None or case.asked is Asked.HISTORY:
         return None
     truth = reference(case, submission.declaration.theory)
-    if case.asked is Asked.BACKBONE:
-        return mistake_in_backbone(case, submission.backbone, truth, most)
-    return mistake_in_frequencies(case, submission.rows, truth, most)
+    return mistake_in_table(case, submission.rows, truth, most)
 
 
 def _in_tags(name: str, submission: Submission, judgement: Judgement) -> Mistake | None:
