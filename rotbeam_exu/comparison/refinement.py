@@ -22,8 +22,8 @@ from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
 from ..labels import dataset
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
-from ..runs.versions import versions
 from ..sweeps.cache import cache_of
 from ..sweeps.grid import solved
 from ..verification.convergence import converged

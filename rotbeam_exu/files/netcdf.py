@@ -35,8 +35,8 @@ def encode(data: xr.Dataset) -> bytes:
     lost = [name for name, value in given.attrs.items() if not same(value, kept.attrs.get(name))]
     lost += [
         name
-        for name, one in given.variables.items()
-        if not (_kind(one) == _kind(kept[name]) and one.identical(kept.variables[name]))
+        for name, one in given.data_vars.items()
+        if not (_kind(one) == _kind(kept[name]) and one.identical(kept[name]))
     ]
     if lost or not kept.identical(given):
         raise ValueError(
@@ -72,8 +72,9 @@ def decode(raw: bytes) -> tuple[xr.Dataset, bool]:
 def _with_plain_attributes(data: xr.Dataset) -> xr.Dataset:
     """Return a copy whose attributes are Python's numbers, text and lists."""
     data = data.copy()
-    for one in (data, *data.variables.values()):
-        one.attrs = plain(one.attrs)
+    data.attrs = plain(data.attrs)
+    for variable in data.variables.values():
+        variable.attrs = plain(variable.attrs)
     return data
 
 
