@@ -20,11 +20,12 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
+from ..labels import dataset
 from ..lazily import xr
-from ..result_columns import dataset
 from ..runs.check import SimulationError
 from ..runs.versions import versions
-from ..sweeps.grid import cache_of, solved
+from ..sweeps.cache import cache_of
+from ..sweeps.grid import solved
 from ..verification.convergence import converged
 from ..verification.judgement import FLOOR
 

@@ -15,7 +15,7 @@ from analytic.arrays import FloatArray
 from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState
 from analytic.exact.beam.steady import stretched_state
-from analytic.exact.plane.planarity import planar_note
+from analytic.exact.plane.growth import planar_note
 from analytic.input_checks import points_of_beam
 from analytic.loads import Load
 from analytic.motion import SpeedChange

@@ -21,6 +21,18 @@ SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
 
 
+OSCILLATION = {
+    "amplitude": "amplitude a = q/L, half peak to peak",
+    "amplitude_error": "error bar of a, estimator",
+    "first_harmonic": "first harmonic over L",
+    "frequency": "nonlinear frequency ω_NL [rad/s]",
+    "frequency_error": "error bar of ω_NL, estimator [rad/s]",
+    "offset": "mean of q over L",
+    "residual": "second bending mode, rms over L",
+}
+"""Numbers of a steady oscillation, with their labels."""
+
+
 class NoOscillationError(ValueError):
     """A run whose oscillation cannot be measured; the sentence says why, and what would do."""
 

@@ -40,7 +40,7 @@ from analytic import (
     stability_limit,
 )
 from analytic.exact.linear.unstretched import unstretched_frequencies  # fmt: skip
-from analytic.exact.plane.planarity import planar_note
+from analytic.exact.plane.growth import planar_note
 from analytic.section import OutOfPlane
 
 BEAM = Beam.reference()

@@ -25,8 +25,8 @@ from analytic import (
 from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import Space, with_points_for
 from analytic.exact.beam.steady import steady_rotation
-from analytic.exact.plane.growth import _steady_modes, planar_orbits
-from analytic.exact.plane.planarity import PlanarStability, growth_rates, planar_note
+from analytic.exact.plane.growth import _steady_modes, planar_note, planar_orbits
+from analytic.exact.plane.planarity import PlanarStability, growth_rates
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
 

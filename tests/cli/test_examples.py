@@ -14,7 +14,6 @@ import xarray as xr
 from rotbeam_exu import explorer
 from rotbeam_exu.cli import _COMMANDS, app, documented
 from rotbeam_exu.sweeps import grid
-from rotbeam_exu.sweeps.measured import MEASURED
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
@@ -46,7 +45,7 @@ def measured_at_once(cases, *_):
     """As `solved` yields it, of spin-ups that nobody computed."""
     for point in cases:
         result = xr.Dataset({"q": ("time", np.zeros(2))}, {"time": [0.0, 1.0]})
-        numbers = dict.fromkeys(MEASURED, 1e-3) | {
+        numbers = dict.fromkeys(grid.MEASURED, 1e-3) | {
             "amplitude": 0.1, "frequency": 3.73, "omega_n": 3.73,
         }  # fmt: skip
         yield point, result.assign_attrs(numbers, verdict="passed", failure="")

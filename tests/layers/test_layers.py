@@ -31,10 +31,10 @@ FLOORS = {
     ],
     "rotbeam_exu": [
         {"lazily"},
-        {"paper", "runs"},
+        {"labels", "paper"},
+        {"runs"},
         {"files"},
         {"result_columns"},
-        {"forced_columns"},
         {"datasets"},
         {"fem"},
         {"sweeps", "verification"},

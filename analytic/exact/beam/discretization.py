@@ -1,7 +1,4 @@
-"""Discretization of the exact blade: functions made once, refined, the same on every panel.
-
-And what a blade must tell for it, in its plane and out of it.
-"""
+"""Discretization of the exact blade: functions made once, refined, the same on every panel."""
 
 from __future__ import annotations
 
@@ -13,9 +10,8 @@ import numpy as np
 from ...beam import AnyBlade, require_planar
 from ...input_checks import whole_number
 from ...profiles import evaluated, in_units
-from ...section import OutOfPlane
 from ...shape_functions import shape_functions
-from ...theory import BERNOULLI_EULER, Theory, require_theory
+from ...theory import Theory, require_theory
 from ...unit_blade import UnitBlade
 from .continuum import Continuum
 
@@ -79,37 +75,6 @@ def require_shear(beam: AnyBlade, theory: Theory) -> None:
             "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
             "Theory(shear=0.32)"
         )
-
-
-def require_out_of_plane(
-    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
-) -> OutOfPlane:
-    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
-    require_planar(blade)
-    if require_theory(theory).shear is not None:
-        raise ValueError(
-            "how slices shear out of the plane is unknown: take a theory without shear"
-        )
-    known = blade.section.out_of_plane
-    if known is None:
-        raise ValueError(
-            "how this blade bends and twists out of its plane is unknown: give its section by "
-            "blade.with_shape(Rectangle(height=..., width=...)) or "
-            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
-        )
-    if blade.unit.setting != 1.0:
-        raise ValueError(
-            f"motion out of the plane is known for a blade that bends in the plane of rotation, "
-            f"and this one is set at {blade.setting_angle:g} rad: take "
-            "blade.with_setting_angle(0.0)"
-        )
-    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
-        raise ValueError(
-            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
-            "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
-            "section that does not twist"
-        )
-    return known
 
 
 def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...profiles import in_units
@@ -18,7 +18,7 @@ from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
-from ..beam.discretization import MOST_FUNCTIONS, require_out_of_plane, resolved_model
+from ..beam.discretization import MOST_FUNCTIONS, resolved_model
 from ..beam.steady import Modes, SteadyBeam, solve_modes, steady_rotation
 from ..space.modes import space_modes, torsion_modes
 from ..space.steady import lives_in_space
