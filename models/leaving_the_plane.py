@@ -31,5 +31,4 @@ for ax, branch, title in zip(axes, branches, titles, strict=True):
     ax.set_title(title, loc="left")
 axes[0].plot([], [], "k-", label="planar orbits")
 axes[0].legend()
-axes[1].get_legend().remove()
 plt.show()

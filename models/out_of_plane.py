@@ -22,11 +22,11 @@ rectangle = simulate(
 )  # fmt: skip
 tube = simulate(beam.with_shape(Tube(radius=0.015, wall=0.00077)), spin_up, **settings, step=5e-3)
 _, (above, edgewise, axes) = plt.subplots(3, figsize=(3.5, 5.6), height_ratios=[1.8, 1.0, 1.0])
-for t in (0.2, 0.8, 1.0, 1.4):
+for t, look in ((0.2, "-"), (0.8, "--"), (1.0, "-."), (1.4, ":")):
     x, y, z = rectangle["axis"].sel(time=t, method="nearest").to_numpy().T / beam.length
-    (line,) = above.plot(x, y)
+    (line,) = above.plot(x, y, look)
     above.text(x[-1] + 0.02, y[-1] - 0.02, f"{t} s", color=line.get_color())
-    edgewise.plot(x, z)
+    edgewise.plot(x, z, look)
 above.set(aspect="equal", xlim=(0.0, 1.15), ylim=(-0.85, 0.05), xlabel="x/L", ylabel="y/L")
 edgewise.set(xlim=(0.0, 1.15), xlabel="x/L", ylabel="z/L")
 for run, look, name in ((rectangle, "k-", "rectangle"), (tube, "k--", "tube")):
