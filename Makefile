@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # Tests are compiled once, not again by each worker and child.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run figures images golden references codes test test-all test-oldest coverage bench bench-peers lint docs docs-draft check-site check clean
+.PHONY: run figures images golden references codes test test-all test-oldest coverage bench lint docs docs-draft check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -27,8 +27,8 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/golden/test_paper_beam.py
 
 references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
-	$(BIN)/python -m rotbeam_exu.verification.regenerate
-	$(BIN)/python -m rotbeam_exu.verification.kit
+	$(BIN)/python tools/references.py
+	$(BIN)/python tools/problem.py
 
 codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++ and CalculiX's ccx
 	for script in models/codes/*/run.py; do $(CODES)/bin/python $$script || exit 1; done
@@ -37,7 +37,7 @@ codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants 
 test: $(VENV)/.dev  ## the default test suite
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not benchmarks and not site"
 
-test-all: $(VENV)/.peers  ## the default suite, what is marked slow, and the other codes
+test-all: $(VENV)/.dev  ## the default suite, and what is marked slow
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not benchmarks and not site" --hypothesis-profile all
 
 test-oldest: $(OLDEST)/.made  ## the default suite on the lowest versions that pyproject.toml allows
@@ -49,9 +49,6 @@ coverage: $(VENV)/.dev  ## which lines the default suite runs, in htmlcov/
 
 bench: $(VENV)/.dev  ## speed and memory, each against a reference measured in the same run
 	$(BIN)/python -m pytest -m benchmarks --benchmark-enable
-
-bench-peers: $(VENV)/.peers  ## what each formulation and each other code costs at equal error
-	$(BIN)/rotbeam verify --cost
 
 lint: $(VENV)/.dev  ## linters and type checks
 	$(BIN)/ruff check .
@@ -91,14 +88,10 @@ $(VENV)/.kit: $(VENV)/.run
 	$(PIP) install -c constraints.txt -e . --group kit
 	touch $@
 
-$(VENV)/.peers: $(VENV)/.dev
-	$(PIP) install -c constraints.txt -e ".[peers]" --group test --group dev
-	touch $@
-
 $(CODES)/.made: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(CODES)
 	$(CODES)/bin/python -m pip install -q "pip>=25.1"
-	$(CODES)/bin/python -m pip install -q -c constraints.txt -e ".[peers]" --group codes
+	$(CODES)/bin/python -m pip install -q -c constraints.txt -e . --group codes
 	touch $@
 
 $(OLDEST)/.made: pyproject.toml constraints.txt | $(VENV)/.pip

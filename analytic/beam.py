@@ -12,8 +12,9 @@ from .blade import Blade, Variations
 from .damping import UNDAMPED, Damping
 from .input_checks import positive, shown, warn_if_giga
 from .point_mass import PointMass
-from .section import Section
+from .section import OutOfPlane, Section
 from .section_shapes import Gyration
+from .theory import BERNOULLI_EULER, Theory, require_theory
 from .unit_blade import UNIFORM, UnitBlade
 from .warning import warn
 
@@ -239,6 +240,37 @@ def require_planar(beam: AnyBlade) -> None:
             "steady_state, periodic_orbits, forced_response or spin_up_response, which have it in "
             "space"
         )
+
+
+def require_out_of_plane(
+    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
+) -> OutOfPlane:
+    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+    require_planar(blade)
+    if require_theory(theory).shear is not None:
+        raise ValueError(
+            "how slices shear out of the plane is unknown: take a theory without shear"
+        )
+    known = blade.section.out_of_plane
+    if known is None:
+        raise ValueError(
+            "how this blade bends and twists out of its plane is unknown: give its section by "
+            "blade.with_shape(Rectangle(height=..., width=...)) or "
+            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio)"
+        )
+    if blade.unit.setting != 1.0:
+        raise ValueError(
+            f"motion out of the plane is known for a blade that bends in the plane of rotation, "
+            f"and this one is set at {blade.setting_angle:g} rad: take "
+            "blade.with_setting_angle(0.0)"
+        )
+    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
+        raise ValueError(
+            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
+            "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
+            "section that does not twist"
+        )
+    return known
 
 
 def undamped(beam: AnyBlade) -> AnyBlade:

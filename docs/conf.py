@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from fontTools.subset import Options, Subsetter, load_font, save_font
 from matplotlib.animation import FFMpegWriter
 from sphinx.util.fileutil import copy_asset
 
@@ -203,9 +204,33 @@ def put_mathjax(app: Any, error: Exception | None) -> None:
             copy_asset(source / part, place if (source / part).is_dir() else place.parent)
 
 
+def cut_icons(app: Any, error: Exception | None) -> None:
+    """Keep the icons that some page or the theme's style shows: 2000 weigh more than a page."""
+    if error is None:
+        static = Path(app.outdir) / "_static"
+        (static / "scripts/fontawesome.js").write_text("")  # for icons that the font does not have
+        sheet = static / "styles/pydata-sphinx-theme.css"
+        pages = "".join(page.read_text("utf-8") for page in Path(app.outdir).rglob("*.html"))
+        shown = set(re.findall(r"\bfa-[\w-]+", pages))
+        style = re.sub(
+            r"([^{}]*)\{--fa:[^}]*\}",
+            lambda rule: rule[0] * bool(shown & set(re.findall(r"fa-[\w-]+", rule[1]))),
+            sheet.read_text("utf-8"),
+        )
+        sheet.write_text(style, "utf-8")
+        file = static / "vendor/fontawesome/webfonts/fa-solid-900.woff2"
+        options = Options(flavor="woff2")
+        font, cut = load_font(file, options), Subsetter(options)
+        named = [int(code, 16) for code in re.findall(r"\\(f[0-9a-f]{3})", style)]
+        cut.populate(unicodes=named, text="".join(c for c in style if c > "\ue000"))
+        cut.subset(font)
+        save_font(font, file, options)
+
+
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("build-finished", put_mathjax)
+    app.connect("build-finished", cut_icons)
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("html-page-context", without_half_lists)

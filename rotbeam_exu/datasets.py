@@ -7,27 +7,27 @@ their dims and their labels.
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from functools import partial, singledispatch
 from typing import Any
 
 import numpy as np
 
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic import AmplitudeNotReachedError, AnyBlade
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
-from analytic.exact.linear.campbell import Campbell
-from analytic.exact.plane.planarity import PlanarStability
-from analytic.exact.plane.stability_limit import StabilityLimit
-from analytic.loads import rippled
+from analytic.exact.free.orbits import Orbits
+from analytic.loads import Load, rippled
 from analytic.reduced.linear_frame import LinearResponse
 
 from .files.results import parts
-from .forced_columns import of_forced, of_forced_in_space
+from .labels import GROWTH, dataset
 from .lazily import xr
-from .result_columns import COLUMNS, GROWTH, OMEGA, ORBIT, dataset, of_columns
-from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .result_columns import COLUMNS, SWINGS, of_columns
+from .runs.attributes import beam_attributes, loads_attributes, motion_attributes, versions
 from .runs.shape import shape_of
-from .runs.versions import versions
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
 _MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}
@@ -108,9 +108,7 @@ def _described(result: Any) -> xr.Dataset:
 
 for _kind, _columns in COLUMNS.items():
     _described.register(_kind, partial(of_columns, *_columns))
-_described.register(ForcedResponse, of_forced)
 _described.register(SectionLoads, shape_of)
-_described.register(SpaceForcedResponse, of_forced_in_space)
 
 
 @_described.register
@@ -147,10 +145,7 @@ def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr
         "q_dot": (response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
         **tip,
         "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
-        **{
-            f"root_{name}": (of[:, 0], label)
-            for name, (of, label) in _loads(response.section_loads([0.0])).items()
-        },
+        **_root_loads(response),
     }
     found = dataset(
         {name: ("time", *column) for name, column in columns.items()},
@@ -201,79 +196,101 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
     }
 
 
-@_described.register
-def _(found: PlanarStability) -> xr.Dataset:
-    """Over the amplitude `a`; multipliers by their real and imaginary parts."""
-    both = np.stack((found.multipliers.real, found.multipliers.imag), axis=-1)
-    return dataset(
-        {
-            "growth_rate": ("a", found.growth_rate, GROWTH),
-            "kind": ("a", list(found.kind), "how it grows"),
-            "modes": ("a", [" and ".join(modes) for modes in found.modes], "what grows"),
-            "converged": ("a", found.converged, "converged"),
-            "frequency": ("a", found.frequency, "frequency of the planar orbit [rad/s]"),
-            "multipliers": (
-                ("a", "multiplier", "part"), both, "Floquet multiplier out of the plane"
-            ),
-        },
-        {
-            "a": (found.amplitude, ORBIT),
-            "part": ["real", "imaginary"],
-        },
-        {**beam_attributes(found.blade), "omega": found.omega, "mode": found.mode},
-    )  # fmt: skip
-
-
-@_described.register
-def _(diagram: Campbell) -> xr.Dataset:
-    """Over `omega` and `mode`, and of each crossing its mode, k, speed and frequency."""
-    met = diagram.crossings
-    names = [diagram.name_of(one) for one in met]
-    return dataset(
-        {
-            "frequency": (("omega", "mode"), diagram.frequencies, "frequency [rad/s]"),
-            "crossing_mode": ("crossing", np.array(names, dtype=str), "mode that crosses k ω"),
-            "crossing_order": ("crossing", np.array([one.order for one in met], int), "order k"),
-            "crossing_omega": ("crossing", np.array([one.omega for one in met], float), OMEGA),
-            "crossing_frequency": (
-                "crossing", np.array([one.frequency for one in met], float), "frequency [rad/s]"
-            ),
-        },
-        {"omega": (diagram.omegas, OMEGA), "mode": (diagram.names, "mode")},
-        beam_attributes(diagram.beam),
-    )  # fmt: skip
-
-
-@_described.register
-def _(found: StabilityLimit) -> xr.Dataset:
-    """Over `tongue` the tongues below the limit, which is infinite if there is none."""
-    tongues = found.tongues
-    return dataset(
-        {
-            "limit": ((), found.amplitude, "amplitude |q|/L above which planar orbits leave"),
-            "limit_converged": ((), found.converged, "whether the limit is settled"),
-            "tongue_low": ("tongue", [one.low for one in tongues], "amplitude |q|/L, from"),
-            "tongue_high": ("tongue", [one.high for one in tongues], "amplitude |q|/L, to"),
-            "tongue_growth": ("tongue", [one.growth for one in tongues], "growth exponent [1/rad]"),
-        },
-        {},
-        {**beam_attributes(found.blade), "omega": found.omega, "mode": found.mode}
-        | {"sentence": str(found), "growth": found.growth},
-    )
-
-
-def _loads(found: SectionLoads) -> dict[str, tuple[Any, str]]:
+def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
     """Return tension, shear forces and moments with their labels, those of the plane or all."""
-    force = np.moveaxis(found.force, -1, 0)
-    moment = np.moveaxis(found.moment, -1, 0) if len(force) > 2 else found.moment[None]
-    axes = "xyz"[-len(moment) :]
+    found = response.section_loads([0.0])
+    moments = np.atleast_2d(found.moment[:, 0].T)
+    forces = zip("xyz", found.force[:, 0].T, strict=False)
+    about = zip("xyz"[-len(moments) :], moments, strict=True)
     return {
-        **{
-            f"force_{k}": (f, f"{_FORCES[k]} at the root [N]")
-            for k, f in zip("xyz", force, strict=False)
-        },
-        **{
-            f"moment_{k}": (m, f"{_MOMENTS[k]} at the root [N m]")
-            for k, m in zip(axes, moment, strict=True)
-        },
+        **{f"root_force_{k}": (one, f"{_FORCES[k]} at the root [N]") for k, one in forces},
+        **{f"root_moment_{k}": (one, f"{_MOMENTS[k]} at the root [N m]") for k, one in about},
     }
+
+
+@_described.register
+def _(response: ForcedResponse) -> xr.Dataset:
+    """Return `_curve`, and where the section is known what grows out of the plane."""
+    data = _curve(response)
+    if response.beam.blade.section.out_of_plane is None:
+        return data
+    try:
+        found = response.out_of_plane(confirm=False)
+    except ValueError as unknown:
+        reason = f"Whether the response stays in its plane is not known: {unknown}"
+        return data.assign_attrs(planar=reason)
+    growth = {
+        "growth_rate": ("point", found.growth_rate, GROWTH),
+        "kind": ("point", list(found.kind), "how it grows"),
+    }
+    return data.merge(dataset(growth, {})).assign_attrs(planar=str(found))
+
+
+def _curve(response: ForcedResponse) -> xr.Dataset:
+    """Return it over the points of the curve in order; q/L = Σ cosine cos kφ + sine sin kφ.
+
+    `mark` is "start", "end", "peak", "dip", "fold" or nothing. The backbone, but under gravity, is
+    over its orbits.
+    """
+    weight = response.load.varied == "speed"
+    swept = "rotation speed ω" if weight else "drive frequency ν"
+    # The weight across the blade is greatest, and negative, at θ = 0.
+    phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"
+    harmonics = ("point", "harmonic")
+    variables: dict[str, tuple[Any, Any, str]] = {
+        "frequency": ("point", response.frequency, f"{swept} [rad/s]"),
+        "amplitude": ("point", response.amplitude, "amplitude |q|/L"),
+        "phase": ("point", response.phase, phase),
+        "stable": ("point", response.stable, "whether disturbances in the plane decay"),
+        "mark": ("point", _marks(response), "what is special about the point"),
+        "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
+        "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
+    }
+    backbone: Orbits | None = None
+    if not weight:
+        try:
+            backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
+        except AmplitudeNotReachedError as error:
+            backbone = error.orbits  # what of it is reached
+    if backbone is not None:
+        free = np.append(backbone.omega_n, backbone.frequency)
+        label = "frequency of the free, undamped orbit [rad/s]"
+        variables["backbone_frequency"] = ("orbit", free, label)
+        peaks = np.append(0.0, backbone.amplitude)
+        variables["backbone_amplitude"] = ("orbit", peaks, "amplitude |q|/L")
+    inputs = response_inputs(
+        response.beam, response.load, None if weight else float(response.omega[0])
+    )
+    known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
+    return dataset(variables, {}, {**inputs, **known})
+
+
+@_described.register
+def _(response: SpaceForcedResponse) -> xr.Dataset:
+    """Return it as in the plane; q is the gauge, lag, flap and twist are the tip's amplitudes."""
+    data = _curve(response)
+    data["stable"].attrs["long_name"] = "whether disturbances decay"
+    swings = {name: ("point", getattr(response, name), label) for name, label in SWINGS.items()}
+    return data.merge(dataset(swings, {}))
+
+
+def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
+    """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
+    return {
+        **beam_attributes(beam),
+        **{f"damping_{name}": value for name, value in asdict(beam.damping).items()},
+        **loads_attributes([load]),
+        "load": type(load).__name__,
+        "load_size": load.size,
+        "load_symbol": load.symbol,
+        "load_unit": load.unit,
+        **({} if omega is None else {"omega": omega}),
+    }
+
+
+def _marks(response: ForcedResponse) -> list[str]:
+    marks = [mark if mark in ("fold", "peak") else "" for mark in response.marks]
+    for i in np.flatnonzero(np.array(marks) == "peak").tolist():
+        marks[i] = "dip" if response.amplitude[i] < response.amplitude[i - 1] else "peak"
+    marks[0], marks[-1] = "start", "end"
+    return marks

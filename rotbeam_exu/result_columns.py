@@ -1,11 +1,11 @@
-"""Labeled data: names, dims and labels of numbers, and the columns of most kinds of result.
+"""Columns of most kinds of result, whose numbers are attributes of theirs.
 
-They are those whose columns are attributes of theirs; others have a function in `datasets`.
+Other kinds have a function in `datasets`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from operator import attrgetter
 from typing import Any
@@ -16,57 +16,19 @@ from analytic.exact.free.branches import BackboneBranch
 from analytic.exact.free.curve import BackboneCurve
 from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits, SpaceOrbits
+from analytic.exact.linear.campbell import Campbell
 from analytic.exact.linear.modes import LinearModes
+from analytic.exact.plane.planarity import PlanarStability
+from analytic.exact.plane.stability_limit import StabilityLimit
 from analytic.exact.space.modes import SpaceModes
 from analytic.exact.space.steady_state import SteadyState
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
 
+from .labels import GROWTH, OMEGA, ORBIT, dataset
 from .lazily import xr
 from .runs.attributes import beam_attributes
-from .runs.oscillation import SteadyOscillation
-
-OMEGA = "angular velocity ω [rad/s]"
-GROWTH = "growth rate out of the plane [1/s]"
-ORBIT = "amplitude a = |q|/L of the planar orbit"
-AMPLITUDE = "peak amplitude a = |q|/L"
-
-
-def labeled(label: str) -> dict[str, str]:
-    """Return a label, "angular velocity ω [rad/s]", as the attributes of a variable.
-
-    Without a unit it is 1.
-    """
-    name, _, unit = label.partition(" [")
-    attrs = {"units": unit.removesuffix("]") or "1"}
-    return {**attrs, "long_name": name} if name else attrs
-
-
-def dataset(
-    variables: Mapping[str, tuple[Any, Any, str]],
-    coords: Mapping[str, Any],
-    attrs: Mapping[str, Any] | None = None,
-) -> xr.Dataset:
-    """Return a Dataset of labeled numbers.
-
-    Parameters
-    ----------
-    variables : mapping
-        Dims, values and label by name.
-    coords : mapping
-        Values and label by dimension, or values alone.
-    attrs : mapping, optional
-        All else that is known.
-    """
-    return xr.Dataset(
-        {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},
-        {
-            name: (name, found[0], labeled(found[1])) if isinstance(found, tuple) else found
-            for name, found in coords.items()
-        },
-        attrs,
-    )
-
+from .runs.oscillation import OSCILLATION, SteadyOscillation
 
 Dims = str | tuple[str, ...]
 Column = tuple[Dims, str, Callable[[Any], Any]]
@@ -74,7 +36,7 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 
 
 def of_columns(
-    columns: Mapping[str, Column], beam: str, known: Sequence[str], result: Any
+    columns: Mapping[str, Column], beam: str, known: tuple[str, ...], result: Any
 ) -> xr.Dataset:
     """Return the Dataset of a result; modes and harmonics count from 1.
 
@@ -86,8 +48,11 @@ def of_columns(
         {},
         {**about, **{name: getattr(result, name) for name in known}},
     )
-    counted = {"mode", "harmonic"} & set(data.dims)
-    return data.assign_coords({name: np.arange(1, data.sizes[name] + 1) for name in counted})
+    counted = {"mode", "harmonic"} & set(data.dims) - set(data.coords)
+    parts = {"part": ["real", "imaginary"]} if "part" in data.dims else {}
+    return data.assign_coords(
+        parts | {name: np.arange(1, data.sizes[name] + 1) for name in counted}
+    )
 
 
 def _own(name: str, dims: Dims, label: str) -> Column:
@@ -96,6 +61,12 @@ def _own(name: str, dims: Dims, label: str) -> Column:
 
 def _part(name: str, k: int, dims: Dims, label: str) -> Column:
     return dims, label, lambda found: getattr(found, name)[..., k]
+
+
+def _each(what: str, name: str, label: str, kind: type = float) -> Column:
+    """Return a column over the crossings, or the tongues, of a result."""
+    of, all_of = attrgetter(name), attrgetter(f"{what}s")
+    return what, label, lambda found: np.array([*map(of, all_of(found))], kind)
 
 
 def _of_rows(name: str, table: PaperTable) -> list[str]:
@@ -127,17 +98,6 @@ SWINGS = {
 }
 """Amplitudes of the tip in space, with their labels."""
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
-
-OSCILLATION = {
-    "amplitude": "amplitude a = q/L, half peak to peak",
-    "amplitude_error": "error bar of a, estimator",
-    "first_harmonic": "first harmonic over L",
-    "frequency": "nonlinear frequency ω_NL [rad/s]",
-    "frequency_error": "error bar of ω_NL, estimator [rad/s]",
-    "offset": "mean of q over L",
-    "residual": "second bending mode, rms over L",
-}
-"""Numbers of a steady oscillation, with their labels."""
 
 COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     Orbits: (_ORBITS, "beam", _OF_ORBITS),
@@ -183,6 +143,46 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
         _columns((), **OSCILLATION)
         | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
         "", ("cycles",),
+    ),
+    PlanarStability: (
+        {
+            "a": _own("amplitude", "a", ORBIT),
+            "growth_rate": _own("growth_rate", "a", GROWTH),
+            "kind": ("a", "how it grows", lambda found: list(found.kind)),
+            "modes": ("a", "what grows", lambda found: list(map(" and ".join, found.modes))),
+            "converged": _own("converged", "a", "converged"),
+            "frequency": _own("frequency", "a", "frequency of the planar orbit [rad/s]"),
+            "multipliers": (
+                ("a", "multiplier", "part"), "Floquet multiplier out of the plane",
+                lambda found: np.stack((found.multipliers.real, found.multipliers.imag), axis=-1),
+            ),
+        },
+        "blade", ("omega", "mode"),
+    ),
+    StabilityLimit: (
+        {
+            "limit": _own("amplitude", (), "amplitude |q|/L above which planar orbits leave"),
+            "limit_converged": _own("converged", (), "whether the limit is settled"),
+            "tongue_low": _each("tongue", "low", "amplitude |q|/L, from"),
+            "tongue_high": _each("tongue", "high", "amplitude |q|/L, to"),
+            "tongue_growth": _each("tongue", "growth", "growth exponent [1/rad]"),
+        },
+        "blade", ("omega", "mode", "growth"),
+    ),
+    Campbell: (
+        {
+            "omega": _own("omegas", "omega", OMEGA),
+            "mode": _own("names", "mode", "mode"),
+            "frequency": _own("frequencies", ("omega", "mode"), "frequency [rad/s]"),
+            "crossing_mode": (
+                "crossing", "mode that crosses k ω",
+                lambda found: np.array([found.name_of(one) for one in found.crossings], str),
+            ),
+            "crossing_order": _each("crossing", "order", "order k", int),
+            "crossing_omega": _each("crossing", "omega", OMEGA),
+            "crossing_frequency": _each("crossing", "frequency", "frequency [rad/s]"),
+        },
+        "beam", (),
     ),
     PaperTable: (
         {

@@ -23,11 +23,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import ComplexArray, FloatArray
-from rotbeam_exu.verification.case_rows import cases_csv
 from rotbeam_exu.verification.cases import CASES, Case
 from rotbeam_exu.verification.judgement import Judgement, judged
-from rotbeam_exu.verification.kit import STATIC
-from rotbeam_exu.verification.submission import Declaration, Frequency, Run, Submission
+from rotbeam_exu.verification.kit import STATIC, cases_csv
+from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import (
     digests,
     read_submission,
@@ -115,8 +114,8 @@ def take_part(
         declaration=replace(
             declaration, machine=_machine(), remarks=declaration.remarks or REMARK
         ),
-        frequencies=tuple(
-            Frequency(elements=n, speed=speed, frequency=float(frequency(CASES["L"], n, speed)))
+        rows=tuple(
+            Row(elements=n, speed=speed, values=(float(frequency(CASES["L"], n, speed)),))
             for n in meshes
             for speed in speeds
         ) if frequency else (),

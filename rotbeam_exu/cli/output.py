@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 import math
@@ -15,7 +14,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
-from rich.cells import cell_len
 from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElapsedColumn
 from rich.table import Table
@@ -29,13 +27,6 @@ _DIGITS = 7
 _LINES = 50
 """Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
 
-_SPELLED = {
-    "ω": "omega", "Ω": "Omega", "θ": "theta", "ϑ": "theta", "λ": "lambda", "μ": "mu", "η": "eta",
-    "ν": "nu", "ρ": "rho", "κ": "kappa", "φ": "phi", "ψ": "psi", "π": "pi", "τ": "tau", "×": "x",
-    "±": "+-", "²": "^2", "³": "^3", "⁴": "^4", "…": "...", "−": "-", "–": "-", "·": "*",
-    "√": "sqrt ", "₀": "0",
-}  # fmt: skip
-"""Letters of the theory, for outputs that lack them."""
 _CONTROL = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 """Categories of letters that steer a terminal, or the direction in which it writes."""
 
@@ -63,29 +54,14 @@ def harmless(text: str) -> str:
 
 
 def ready_streams() -> None:
-    """Let standard output and error exist, and spell letters they cannot encode, omega for ω.
-
-    On Windows a pipe and a file take the letters of one region only, as cp1252, which has no ω; in
-    place of "omega_NL" and "lambda" a reader would find "?_NL" and "?".
-    """
+    """Let standard output and error exist, and write UTF-8, also to pipes and files of Windows."""
     # Closed ones, as by >&-, are None; a new file takes their number, which no other then gets.
     nowhere = Path(os.devnull)
     sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
     sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="spelled")
-
-
-def _spell(error: UnicodeError) -> tuple[str, int]:
-    """Replace letters by their names, or by '?': the handler of an encoding error."""
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    letters = error.object[error.start : error.end]
-    return "".join(_SPELLED.get(letter, "?") for letter in letters), error.end
-
-
-codecs.register_error("spelled", _spell)
+            stream.reconfigure(encoding="utf-8", errors="replace")
 
 
 def print_columns(
@@ -97,8 +73,7 @@ def print_columns(
 ) -> None:
     """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
 
-    Where a terminal is too narrow for the table, it comes in parts that repeat the first column;
-    lines are broken between words only, never in a number. A CSV may go on without its `header`.
+    A CSV may go on without its `header`.
     """
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
@@ -106,60 +81,21 @@ def print_columns(
             writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
         return
+    table, texts = Table(), list(map(_cells, columns.values()))
+    for name, cells in zip(columns, texts, strict=True):
+        numbers = all(map(_is_number, cells))
+        table.add_column(name, justify="right" if numbers else "left", overflow="fold")
+    for row in zip(*texts, strict=True):
+        table.add_row(*row)
     console = new_console()
-    # Spelled before the widths are known, for what is spelled is longer.
-    readable = {
-        _encodable(name, console): [_encodable(cell, console) for cell in _cells(cells)]
-        for name, cells in columns.items()
-    }
-    names, cells = list(readable), list(readable.values())
-    least, most = (
-        [
-            max(cell_len(piece) for text in (name, *column) for piece in text.split(at) or [""])
-            for name, column in readable.items()
-        ]
-        for at in (None, "\n")
-    )
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    room = console.width
-    for part in _parts(least, room):
-        widths = _widths([least[i] for i in part], [most[i] for i in part], room)
-        table = Table()
-        for i, width in zip(part, widths, strict=True):
-            justify: Any = "right" if all(map(_is_number, cells[i])) else "left"
-            table.add_column(names[i], width=width, justify=justify)
-        for row in zip(*(cells[i] for i in part), strict=True):
-            table.add_row(*row)
-        # Two columns at least: a longer line is better than half a number.
-        console.width = max(room, _total(widths))
-        console.print(table, soft_wrap=False)
-
-
-def _total(widths: Sequence[int]) -> int:
-    """Return the width of a table: three letters of frame and padding for each column."""
-    return sum(widths) + 3 * len(widths) + 1
-
-
-def _parts(least: Sequence[int], room: int) -> list[list[int]]:
-    """Return the columns of each table, so that its longest words fit; the first is in each."""
-    parts = [[0]]
-    for column in range(1, len(least)):
-        if len(parts[-1]) > 1 and _total([least[i] for i in [*parts[-1], column]]) > room:
-            parts.append([0])
-        parts[-1].append(column)
-    return parts
-
-
-def _widths(least: Sequence[int], most: Sequence[int], room: int) -> list[int]:
-    """Return the columns' widths, with the widest texts narrowed for the table to fit.
-
-    Rich does not know how long words are where it shrinks columns, and breaks numbers.
-    """
-    widths = list(most)
-    while _total(widths) > room and widths != list(least):
-        widths[max(range(len(widths)), key=lambda i: widths[i] - least[i])] -= 1
-    return widths
+    if console.measure(table, options=console.options.update_width(10_000)).maximum > console.width:
+        # Rich does not know how long words are where it shrinks columns, and breaks numbers.
+        for name, column, cells in zip(columns, table.columns, texts, strict=True):
+            if column.justify == "right":
+                column.width = max(map(len, " ".join([name, *cells]).split()))
+    console.print(table, soft_wrap=False)
 
 
 def formatted(values: Iterable[float], form: str) -> list[str]:
@@ -217,10 +153,6 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return text in {"", "-", "failed"}
     return True
-
-
-def _encodable(text: str, console: Console) -> str:
-    return harmless(text).encode(console.encoding, "spelled").decode(console.encoding)
 
 
 class Drawn(Protocol):

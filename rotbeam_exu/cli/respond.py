@@ -63,8 +63,7 @@ def respond(
     $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
-    from ..datasets import dataset_of
-    from ..forced_columns import response_inputs
+    from ..datasets import dataset_of, response_inputs
 
     load = loads.one()
     file = configured(config)

@@ -87,7 +87,7 @@ def stability(
         inputs=inputs,
         force=results.force,
         compute=computed,
-        dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs),
+        dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs, sentence=str(pair[1])),
         table=lambda data: parts(data)["growth_rate"],
         show=lambda pair, _: _print(*pair),
         draw=lambda figures, data: figures.planar_stability(data),

@@ -13,7 +13,7 @@ from ..lazily import xr
 from .driving import DRIVING, Driving
 from .job import Job
 from .motion import chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
-from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Flag, Results, Workers
+from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Results, Workers
 from .output import formatted, print_columns, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
@@ -27,7 +27,6 @@ def sweep(
     driving: Driving = DRIVING,
     workers: Workers = WORKERS,
     shard: str = "1/1",
-    history: Flag = False,
     config: Path | None = None,
     results: Results = RESULTS,
 ) -> None:
@@ -44,8 +43,6 @@ def sweep(
         Ramp times T [s].
     shard
         Part k of n of the grid, as 1/4, for job arrays that share a cache.
-    history
-        Also keep q over time.
     config
         TOML file with the beam, and optionally [numerics]; a speed or ramp time in its [motion] is
         the grid's only one, unless others are given.
@@ -78,7 +75,7 @@ def sweep(
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
                 loads=one.loads,
                 jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
-                shard=part, history=history,
+                shard=part,
             )  # fmt: skip
 
     name = f"sweep-{numerics.name}"
@@ -89,7 +86,6 @@ def sweep(
         inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
         force=results.force,
         compute=computed,
-        table=_measured,
         show=_print,
     ).run()
     if failed:
@@ -110,16 +106,11 @@ def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float],
     return omega, ramp_time
 
 
-def _measured(result: xr.Dataset) -> xr.Dataset:
-    return result.drop_dims("time", errors="ignore")
-
-
 def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     """Print the result, and why cases failed; return how many did."""
     from ..sweeps.grid import failures
 
-    measured = _measured(result)
-    rows = measured.to_dataframe().reset_index()
+    rows = result.to_dataframe().reset_index()
     columns: dict[str, Any] = {
         "ω [rad/s]": rows["omega"],
         "T [s]": rows["ramp_time"],
@@ -135,7 +126,7 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
         title=f"{known['elements']} {known['element']} elements, {known['frame']} frame, "
         f"step {known['step']:g} s, to {known['duration']:g} s",
     )
-    failed = failures(measured)
+    failed = failures(result)
     for sentence, points in failed.items():
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
         print_text(f"failed at {where}: {sentence}")

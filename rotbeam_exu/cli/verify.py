@@ -5,20 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated
-
-from cyclopts import Parameter
-
-from analytic import AnyBlade
-from analytic.input_checks import positive
+from typing import TYPE_CHECKING
 
 from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
-from .motion import ChosenMotion, Config, configured, motion_of, slower_than_paper
-from .options import Flag, element_names, element_of, spelled_as
-from .output import counter, print_columns, print_note, print_text
+from .motion import Config, configured, motion_of
+from .options import Element, element_of
+from .output import counter, print_columns, print_note
 
 if TYPE_CHECKING:
     from ..verification.verify import Entry
@@ -30,23 +25,8 @@ _SHORT = {
 }  # fmt: skip
 
 
-def _names() -> tuple[str, ...]:
-    from ..verification.peers import PEERS
-
-    return *element_names(), *PEERS
-
-
-Judged = Annotated[str, Parameter(converter=spelled_as(_names))]
-
-
-def verify(
-    *,
-    element: list[Judged] | None = None,
-    cost: Flag = False,
-    error: float = 1e-2,
-    config: Config = None,
-) -> None:
-    """Judge elements and other codes by their limits.
+def verify(*, element: list[Element] | None = None, config: Config = None) -> None:
+    """Judge elements by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
 
@@ -56,85 +36,31 @@ def verify(
     ----------
     element
         A formulation: cable, exact or reissner, ancf3, linear, substructures; in space
-        space_cable, space_exact; one's own, as module:Class; or another code: kratos. Repeat it
-        for several; by default all that are installed.
-    cost
-        Print the cost at equal error instead.
-    error
-        That error, of q(t) over its largest value.
+        space_cable, space_exact; or one's own, as module:Class. Repeat it for several; by default
+        those in the plane.
 
     Examples
     --------
     $ rotbeam verify --element cable
-    $ rotbeam verify --element cable --element ancf3 --cost
+    $ rotbeam verify --element cable --element ancf3
     """
-    from ..verification.entries import entries_at_hand
-
-    entries = entries_at_hand() if element is None else tuple(map(_entry, element))
-    error = positive("error", error)
-    file = configured(config)
-    beam = file.beam
-    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
-    entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
-    if cost:
-        _print_costs(entries, error, beam, motion)
-    else:
-        _print_verdicts(entries, beam if config else None, motion)
-
-
-def _entry(name: str) -> Entry:
-    from ..fem.elements import FORMULATIONS
-    from ..verification.entries import formulation_entry
-    from ..verification.peers import PEERS, peer
-
-    if name in element_names() or ":" in name:
-        return formulation_entry(element_of(name))
-    if name not in PEERS:
-        known = ", ".join(repr(known) for known in (*FORMULATIONS, *PEERS))
-        raise ValueError(f"unknown element {name!r}; known are {known}")
-    return peer(name)
-
-
-def _print_verdicts(
-    entries: tuple[Entry, ...], beam: AnyBlade | None, motion: ChosenMotion
-) -> None:
+    from ..verification.entries import entries_at_hand, formulation_entry
     from ..verification.verify import verify as verification_of
 
-    spin_up = None if beam is None else motion.spin_up
+    own = [formulation_entry(element_of(name)) for name in element or ()]
+    file = configured(config)
+    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
+    entries = tuple(own) or entries_at_hand()
+    entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
     found = [
-        verification_of(entry, beam=beam, spin_up=spin_up, duration=motion.duration)
+        verification_of(
+            entry, beam=file.beam if config else None, spin_up=motion.spin_up if config else None,
+            duration=motion.duration,
+        )
         for entry in _tracked(entries)
-    ]
-    print_judgements(found, "the paper's beam" if beam is None else _named(motion))
-
-
-def _print_costs(
-    entries: tuple[Entry, ...], error: float, beam: AnyBlade, motion: ChosenMotion
-) -> None:
-    from ..verification.verify import LADDER, cost_at_error
-
-    columns: dict[str, list[str]] = {"code": [entry.name for entry in entries]}
-    titles = [f"{n} × {h * slower_than_paper(beam):g} s" for n, h in LADDER]
-    columns |= {title: [] for title in (*titles, f"s at {error:g}")}
-    for entry in _tracked(entries):
-        seconds, ladder = cost_at_error(entry, error, beam=beam, spin_up=motion.spin_up)
-        cells = [f"{e:.1e} {s:.2f} s" if math.isfinite(e) else "failed" for e, s in ladder]
-        cells.append(f"{seconds:.2f}" if math.isfinite(seconds) else "not reached")
-        for column, cell in zip(list(columns.values())[1:], cells, strict=True):
-            column.append(cell)
-    print_columns(
-        columns,
-        title=f"Wall time at an error of {error:g} of max|q|, {_named(motion)}, "
-        f"{2.0 * motion.spin_up.ramp_time:g} s",
-    )
-    print_text(
-        "Each cell: error and wall time of one run, one after the other in this process; the last "
-        "column interpolates time over error logarithmically.",
-    )
-
-
-def _named(motion: ChosenMotion) -> str:
-    return f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
+    ]  # fmt: skip
+    of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
+    print_judgements(found, of_own if config else "the paper's beam")
 
 
 def _tracked(entries: tuple[Entry, ...]) -> Iterator[Entry]:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.linalg import norm
 
 from analytic import Beam, periodic_orbits, reduced_model
-from analytic.exact.plane.planarity import planar_note
+from analytic.exact.plane.growth import planar_note
 
 from ..fem.frame import Frame
+from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
-from ..result_columns import AMPLITUDE, OMEGA, dataset, labeled
 from ..runs.attributes import beam_attributes
 from ..sweeps.grid import sweep
 from .theory import RATIO, beyond_range

@@ -12,9 +12,9 @@ import numpy as np
 from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 
+from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
-from ..result_columns import AMPLITUDE, OMEGA, dataset
 from ..sweeps.grid import sweep
 from .backbones import finite_element_points, measured_ratio
 from .theory import beyond_range

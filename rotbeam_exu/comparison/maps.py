@@ -11,8 +11,8 @@ from analytic.exact.plane.planarity import growth_rates
 from analytic.input_checks import finite_values
 from analytic.reduced.any_blade import blade_oscillator
 
+from ..labels import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
-from ..result_columns import GROWTH, OMEGA, ORBIT, dataset
 from ..runs.attributes import beam_attributes
 
 _W_BAR = "speed ω̄ = ω/√(EI/ρAL⁴)"

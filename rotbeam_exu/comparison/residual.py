@@ -23,8 +23,8 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
+from ..labels import dataset
 from ..lazily import xr
-from ..result_columns import dataset
 from ..runs.attributes import beam_attributes
 
 _CURVE = 400

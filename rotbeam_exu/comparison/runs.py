@@ -15,9 +15,9 @@ from analytic.exact.free.orbits import Orbits
 from analytic.lazily import interpolate
 
 from ..fem.simulation import simulate
+from ..labels import OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS
-from ..result_columns import OMEGA, dataset, labeled
 from ..runs.attributes import beam_attributes, motion_attributes
 from ..runs.oscillation import steady_oscillation
 from .theory import beyond_range

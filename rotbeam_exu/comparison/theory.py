@@ -16,9 +16,9 @@ from analytic.lazily import interpolate
 from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
 from analytic.reduced.shapes import CantileverMode
 
+from ..labels import OMEGA, dataset
 from ..lazily import xr
 from ..paper import SPEEDS
-from ..result_columns import OMEGA, dataset
 from ..runs.attributes import beam_attributes
 
 _SMALL = 0.03

@@ -29,9 +29,9 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 
 from ..comparison.theory import beyond_range
+from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import RAMP_TIMES, SPEEDS
-from ..result_columns import AMPLITUDE, OMEGA, dataset
 from ..sweeps.grid import sweep
 from ..sweeps.workers import worker_pool
 

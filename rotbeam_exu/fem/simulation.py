@@ -15,15 +15,15 @@ from analytic.arrays import FloatArray
 from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState
 from analytic.exact.beam.steady import stretched_state
-from analytic.exact.plane.planarity import planar_note
+from analytic.exact.plane.growth import planar_note
 from analytic.input_checks import points_of_beam
 from analytic.loads import Load
 from analytic.motion import SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError, check_run, remedy
-from ..runs.versions import versions
 from . import drive
 from .case import RunCase
 from .columns import columns

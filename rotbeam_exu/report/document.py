@@ -1,4 +1,4 @@
-"""A judgement as a JSON document; docs/howto/judge.md says what each key means."""
+"""A judgement as a JSON document; docs/howto/judge_report.md says what each key means."""
 
 from __future__ import annotations
 

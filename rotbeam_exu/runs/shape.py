@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from analytic.arrays import FloatArray
-from analytic.exact.beam.section_loads import SectionLoads, in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.input_checks import not_negative
 from analytic.profiles import evaluated
 from analytic.theory import BERNOULLI_EULER
 
+from ..labels import dataset
 from ..lazily import xr
 from .attributes import beam_attributes, beam_of
 
@@ -44,22 +46,20 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     strains = _strains(found, force, moment)
     over = ("time", "station")[-found.place.ndim + 1 :]
     by_axis = (*over, "section_axis")
-    named = {
-        "place": ((*over, "direction"), found.place, "m", "place in the frame of the clamp"),
-        "section": ((*over, "direction", "section_axis"), found.section, "1", "section's axes"),
-        "force": (by_axis, force, "N", "force on the inboard part"),
-        "moment": (by_axis, moment, "N m", "moment on the inboard part"),
-        "strain": (over, strains[..., 0], "1", "strain of the axis"),
-        "curvature": (by_axis, strains[..., 3:], "1/m", "elastic twist and curvatures"),
-    }
-    axes = {"direction": ["x", "y", "z"], "section_axis": ["normal", "chord", "thickness"]}
-    labels = {"units": "m", "long_name": "distance from the clamp"}
-    return xr.Dataset(
+    return dataset(
         {
-            name: (dims, values, {"units": unit, "long_name": label})
-            for name, (dims, values, unit, label) in named.items()
+            "place": ((*over, "direction"), found.place, "place in the frame of the clamp [m]"),
+            "section": ((*over, "direction", "section_axis"), found.section, "section's axes"),
+            "force": (by_axis, force, "force on the inboard part [N]"),
+            "moment": (by_axis, moment, "moment on the inboard part [N m]"),
+            "strain": (over, strains[..., 0], "strain of the axis"),
+            "curvature": (by_axis, strains[..., 3:], "elastic twist and curvatures [1/m]"),
         },
-        {"station": ("station", found.stations, labels), **axes},
+        {
+            "station": (found.stations, "distance from the clamp [m]"),
+            "direction": ["x", "y", "z"],
+            "section_axis": ["normal", "chord", "thickness"],
+        },
         beam_attributes(found.blade),
     )
 

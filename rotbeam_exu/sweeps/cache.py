@@ -15,7 +15,7 @@ from analytic.warning import warn
 from ..fem.elements import Formulation, formulation
 from ..files.results import read, save, writable_folder
 from ..lazily import xr
-from ..runs.versions import versions
+from ..runs.attributes import versions
 
 
 class Cache:
@@ -74,6 +74,20 @@ class Cache:
     def _path(self, description: dict[str, Any]) -> Path:
         content = json.dumps({"case": description, "made": self._made}, sort_keys=True)
         return self._folder / f"{hashlib.sha256(content.encode()).hexdigest()[:32]}.nc"
+
+
+def cache_of(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
+    """Return the cache in a folder; none, with a warning, of an element that no file defines."""
+    model = formulation(element)
+    made_by = maker(model)
+    if made_by is None:
+        cls = type(model)
+        warn(
+            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
+            "define it at the top level of a module on file"
+        )
+        return None
+    return Cache(folder, made_by=made_by)
 
 
 def maker(element: str | Formulation) -> dict[str, str] | None:

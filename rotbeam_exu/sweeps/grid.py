@@ -2,31 +2,41 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from functools import lru_cache
 from itertools import product
 from typing import Literal
 
 import numpy as np
 
 from analytic import AnyBlade, SpinUp
-from analytic.input_checks import finite_values, flag, whole_number
+from analytic.arrays import FloatArray
+from analytic.input_checks import finite_values, whole_number
 from analytic.loads import Load
-from analytic.warning import warn
 
 from ..fem.case import RunCase
-from ..fem.elements import Formulation, formulation
+from ..fem.elements import Formulation
 from ..fem.frame import Frame
+from ..fem.linearization import Linearization
+from ..fem.simulation import run_case
+from ..labels import OMEGA, dataset
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
-from .cache import Cache, maker
-from .measured import collect, solve
+from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
+from .cache import Cache, cache_of
 from .workers import worker_pool
 
 OnError = Literal["raise", "record"]
+
+MEASURED = {**OSCILLATION, "omega_n": "natural frequency ω_n of the mesh [rad/s]"}
+"""Quantities measured of a case, with their labels."""
 
 
 def sweep(
@@ -46,7 +56,6 @@ def sweep(
     progress: Callable[[int, int], None] | None = None,
     on_error: OnError = "raise",
     shard: tuple[int, int] = (1, 1),
-    history: bool = False,
 ) -> xr.Dataset:
     """Spin a beam up over a grid of speeds and ramp times, and measure each steady oscillation.
 
@@ -73,16 +82,13 @@ def sweep(
         Whether a failed case ends the sweep, or stays in the result with its sentence.
     shard : (int, int)
         Part k of n, from 1: only every n-th case is run, for job arrays that share a cache.
-    history : bool
-        Whether to keep q over time.
 
     Returns
     -------
     Dataset
         Over `omega` and `ramp_time`: amplitude, first_harmonic, offset and residual [-],
         frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, for a case
-        of another shard, "pending") and failure, the sentence; with `history` also q [m], NaN where
-        it was not computed or another case's time has no sample.
+        of another shard, "pending") and failure, the sentence.
 
     Raises
     ------
@@ -111,7 +117,6 @@ def sweep(
     )  # fmt: skip
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
-    history = flag("history", history)
     if jobs is not None:
         jobs = whole_number("jobs", jobs)
     part, parts = (whole_number("shard", number) for number in shard)
@@ -133,9 +138,37 @@ def sweep(
                     f"{result.attrs['failure']}; on_error='record' keeps going"
                 )
     except SimulationError as error:
-        error.run = collect(cases, results, history)
+        error.run = _table(cases, results)
         raise
-    return collect(cases, results, history)
+    return _table(cases, results)
+
+
+def _table(
+    cases: dict[tuple[float, float], RunCase],
+    results: dict[tuple[float, float], xr.Dataset],
+) -> xr.Dataset:
+    """Return the table of a sweep, as `sweep` describes it, with all results so far."""
+    omegas, ramp_times = (list(dict.fromkeys(values)) for values in zip(*cases, strict=True))
+    dims = ("omega", "ramp_time")
+    known = [results[point].attrs if point in results else {} for point in cases]
+
+    def column(name: str, missing: float | str) -> FloatArray:
+        values = np.array([one.get(name, missing) for one in known])
+        return values.reshape(len(omegas), len(ramp_times))
+
+    first = next(iter(cases.values())).describe()
+    return dataset(
+        {
+            **{name: (dims, column(name, math.nan), label) for name, label in MEASURED.items()},
+            "verdict": (dims, column("verdict", "pending"), "verdict"),
+            "failure": (dims, column("failure", ""), "why a case failed"),
+        },
+        {"omega": (omegas, OMEGA), "ramp_time": (ramp_times, "ramp time T [s]")},
+        {
+            **{k: v for k, v in first.items() if k not in dims},
+            "versions": json.dumps(versions()),
+        },
+    )
 
 
 def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
@@ -171,20 +204,6 @@ def _grid(
         (omega, ramp_time): make(SpinUp(omega=omega, ramp_time=ramp_time))
         for omega, ramp_time in product(omegas, ramp_times)
     }
-
-
-def cache_of(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
-    """Return the cache in a folder; none, with a warning, of an element that no file defines."""
-    model = formulation(element)
-    made_by = maker(model)
-    if made_by is None:
-        cls = type(model)
-        warn(
-            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
-            "define it at the top level of a module on file"
-        )
-        return None
-    return Cache(folder, made_by=made_by)
 
 
 def solved(
@@ -233,3 +252,41 @@ def _kept(store: Cache | None, case: RunCase, result: xr.Dataset) -> xr.Dataset:
     if store:
         store.put(case.describe(), result)
     return result
+
+
+def solve(case: RunCase) -> xr.Dataset:
+    """Run one case and measure it: the unit of work, a pure function of the case.
+
+    Returns
+    -------
+    Dataset
+        q over `time`; the measured numbers and the verdict as attributes. Of a case that fails, the
+        attributes alone: `failure` says why.
+    """
+    try:
+        run = run_case(case)
+        omega_n = _omega_n(case.beam, case.omega, case.model, case.elements)
+        measured = {**_steady(run), "omega_n": omega_n}
+    except SimulationError as error:
+        return xr.Dataset(attrs={"verdict": "failed", "failure": str(error)})
+    result = run[["q"]]
+    result.attrs = {**measured, "verdict": run.attrs["verdict"], "failure": ""}
+    return result
+
+
+def _steady(run: xr.Dataset) -> dict[str, float]:
+    """Measure the steady oscillation; what cannot be measured fails the case, not the sweep."""
+    try:
+        steady = steady_oscillation(run)
+    except NoOscillationError as error:
+        raise SimulationError(str(error)) from error
+    measured = {name: float(getattr(steady, name)) for name in MEASURED if name != "omega_n"}
+    for name, value in measured.items():
+        if not math.isfinite(value):
+            raise SimulationError(f"the {MEASURED[name]} was measured as {value}")
+    return measured
+
+
+@lru_cache(maxsize=64)
+def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
+    return float(Linearization.of(beam, omega, element, elements).frequencies(1)[0])

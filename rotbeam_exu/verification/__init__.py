@@ -1,1 +1,1 @@
-"""Codes judged: the measures, by which any code is, the entries of ours, and other codes."""
+"""The benchmark: its cases, references and judge, the kit, and our own elements as entries."""

@@ -1,4 +1,4 @@
-"""The codes at hand as entries of the verification: our formulations, and peers installed."""
+"""Our formulations as entries of the verification."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
 from .cases import Case
-from .peers import PEERS, installed, peer
 from .verify import Entry
 
 _SECOND = 2.0
@@ -65,9 +64,10 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         )  # fmt: skip
         return found.rename(q="lag", w="flap") if case.in_space else found
 
-    def lowest(beam: AnyBlade, omega: float, elements: int, count: int) -> FloatArray:
-        require(beam)
-        return np.asarray(Linearization.of(beam, omega, model, elements).frequencies(count))
+    def lowest(case: Case, omega: float, elements: int) -> FloatArray:
+        require(case.blade)
+        found = Linearization.of(case.blade, omega, model, elements)
+        return np.asarray(found.frequencies(case.count))
 
     def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
         require(case.blade)
@@ -89,9 +89,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
 
 
 def entries_at_hand() -> tuple[Entry, ...]:
-    """Return all formulations of ours worth a row, and the other codes that are installed."""
+    """Return all formulations of ours worth a row."""
     models: tuple[Formulation, ...] = (
         Cable(), Exact(), Exact(nodes=3), Ancf3(), Ancf3(law="coupled"), Linear(), Substructures(),
     )  # fmt: skip
-    ours = tuple(formulation_entry(model) for model in models)
-    return ours + tuple(peer(name) for name in PEERS if installed(name))
+    return tuple(formulation_entry(model) for model in models)

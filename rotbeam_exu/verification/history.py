@@ -18,7 +18,7 @@ from .cases import TIP, Case
 from .convergence import Convergence, converged
 from .outcomes import Finding, Outcome, found_of
 from .references import Reference
-from .submission import Declaration, Frequency, Run
+from .submission import Declaration, Row, Run
 
 HISTORY_FLOOR = 1e-6
 """Changes of q(t), over max|q|, in which no order is looked for: a ten-thousandth of what passes,
@@ -136,7 +136,7 @@ class Histories:
         known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
         runs = sorted(known, key=lambda run: run.fineness)
         try:
-            true = self.reference.frequencies_at([known[run].amplitude for run in runs])
+            true = self.reference.frequency_at([known[run].amplitude for run in runs])
             first = self.reference.first_frequency(speed)
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
@@ -193,9 +193,7 @@ class Histories:
 
 
 @one_thread
-def free_frequency(
-    case: Case, elements: int, speed: float, time: FloatArray, q: FloatArray
-) -> Frequency:
+def free_frequency(case: Case, elements: int, speed: float, time: FloatArray, q: FloatArray) -> Row:
     """Return the natural frequency that a small free vibration in steady rotation has.
 
     Parameters
@@ -228,9 +226,9 @@ def free_frequency(
             f"leaves the frequency known to {known:.0e} only, {FREE_KNOWN:.0e} are needed: take "
             "out all damping, and start in the first mode"
         )
-    return Frequency(
-        case=case.name, elements=elements, speed=speed, frequency=found.frequency,
-        rounding=found.frequency_error,
+    return Row(
+        case=case.name, elements=elements, speed=speed, values=(found.frequency,),
+        rounding=(found.frequency_error,),
     )  # fmt: skip
 
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from analytic import AnyBlade
 from analytic.threads import one_thread
 
-from .cases import CASES, Asked, Case
+from .cases import CASES, TIP, Asked, Case
 from .convergence import Convergence, Order, converged
 from .history import Histories, judged_apart, mending
 from .outcomes import Finding, Outcome, found_of, worst_of
 from .references import Reference, reference
-from .submission import BackbonePoint, Declaration, Frequency, SteadyTip, Submission
+from .submission import Declaration, Row, Submission
 
 THRESHOLDS = {
     "linear frequency": 2e-4,
@@ -207,15 +207,11 @@ def judged(
             continue
         sources[name] = truth.source
         own = linear[case.blade]
-        if case.asked in (Asked.FREQUENCIES, Asked.STEADY):
+        if case.asked is not Asked.HISTORY:
             (quantity,) = case.quantities
-            found, limits = _of_table(submission, truth, THRESHOLDS[quantity])
+            found, limits = _of_table(submission, truth, THRESHOLDS[quantity], own)
             findings[name] = {quantity: found}
             own.update(limits if case.asked is Asked.FREQUENCIES else {})
-        elif case.asked is Asked.BACKBONE:
-            (quantity,) = case.quantities
-            found = _backbone(submission, truth, THRESHOLDS[quantity], own)
-            findings[name] = {quantity: found}
         else:
             handed = [run for run in submission.runs if run.case == name]
             runs, remarks[name] = judged_apart(handed, truth)
@@ -251,71 +247,69 @@ def _of_histories(seen: Histories, linear: Mapping[float, Convergence]) -> dict[
 
 
 def _of_table(
-    submission: Submission, reference: Reference, tolerance: float
-) -> tuple[Finding, dict[float, Convergence]]:
-    """Return the worst finding of a table's numbers, and the limits of the first by speed.
-
-    They are of each number over the reference, less one. A mesh that the code refuses is left out.
-    A speed that the theory refuses is undecided.
-    """
-    case = reference.case
-    rows: dict[tuple[float, int], list[Frequency | SteadyTip]] = defaultdict(list)
-    for one in sorted(submission.rows, key=lambda one: one.elements):
-        for place in one.values if one.case == case.name else ():
-            rows[one.speed, place].append(one)
-
-    def finding(speed: float, place: int) -> Finding:
-        try:
-            true = float(reference.row(speed)[place])
-        except ValueError as error:
-            return Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
-        all_of = rows[speed, place]
-        done = [one for one in all_of if not one.failure]
-        if not done:
-            return Finding(outcome=Outcome.UNDECIDED, note=f"no mesh: {all_of[-1].failure}")
-        values = [one.values[place][0] / true - 1.0 for one in done]
-        declared = submission.declaration.order, None
-        elements = [one.elements for one in done]
-        noise = [FLOOR + one.values[place][1] / abs(true) for one in done]
-        runs = converged(elements, None, values, noise=noise, declared=declared)
-        where = f"{done[0].named(place)}at {speed:g} rad/s"
-        return found_of(runs, tolerance=tolerance, bound=reference.bound, where=where)
-
-    found = {at: finding(*at) for at in sorted(rows)}
-    runs = {speed: one.runs for (speed, place), one in found.items() if one.runs and not place}
-    limits = {speed: one for speed, one in runs.items() if math.isfinite(one.limit)}
-    return worst_of(list(found.values())), limits
-
-
-def _backbone(
     submission: Submission,
     reference: Reference,
     tolerance: float,
     linear: Mapping[float, Convergence],
-) -> Finding:
-    """Return the worst finding of ω_NL/ω_n - 1 over speeds and amplitudes.
+) -> tuple[Finding, dict[float, Convergence]]:
+    """Return the worst finding of a table's numbers, and the limits of the first by speed.
 
-    `linear` is, by speed, the limit of the code's ω_n/ω_n,exact - 1; without it ω_n is exact.
+    They are of each number over the reference, less one; of a backbone of ω_NL/ω_n - 1, where
+    `linear` is, by speed, the limit of the code's ω_n/ω_n,exact - 1, without which ω_n is exact.
     """
-    rows: dict[tuple[float, float], list[BackbonePoint]] = defaultdict(list)
-    for point in submission.backbone:
-        rows[point.speed, point.amplitude].append(point)
-    found, declared = [], (submission.declaration.order, None)
-    for (speed, amplitude), points in rows.items():
-        where = f"at {speed:g} rad/s and a = {amplitude:g}"
-        try:
-            true = reference.frequency_at(amplitude, speed)
-            shift = true / reference.first_frequency(speed) - 1.0
-        except (RuntimeError, ValueError) as error:
-            note = f"no reference {where}: {error}"
-            found.append(Finding(outcome=Outcome.UNDECIDED, note=note))
-            continue
+    rows: dict[tuple[float, float, int], list[Row]] = defaultdict(list)
+    for one in sorted(submission.rows, key=lambda one: one.elements):
+        if one.case == reference.case.name:
+            rows[one.place].append(one)
+    declared, found = submission.declaration.order, []
+    limits: dict[float, Convergence] = {}
+    for (speed, _, number), of_place in sorted(rows.items(), key=lambda one: one[0]):
+        here = _of_place(of_place, reference, tolerance, declared, linear)
+        found += here
+        runs = here[0].runs
+        if number == 1 and runs is not None and math.isfinite(runs.limit):
+            limits[speed] = runs
+    return worst_of(found), limits
+
+
+def _of_place(
+    rows: list[Row],
+    reference: Reference,
+    tolerance: float,
+    declared: float | None,
+    linear: Mapping[float, Convergence],
+) -> list[Finding]:
+    """Return the findings of the numbers at one place of a table, without meshes that failed.
+
+    A place that the theory refuses is undecided.
+    """
+    asked = reference.case.asked
+    speed, amplitude, number = rows[0].place
+    where, shift, floor, off, doubt = f"at {speed:g} rad/s", 1.0, FLOOR, 0.0, 0.0
+    if asked is Asked.BACKBONE:
+        where, floor = f"{where} and a = {amplitude:g}", 0.0
         off, doubt = mending(linear.get(speed))
-        values = [(point.frequency / true - 1.0 - off) / shift for point in points]
+    try:
+        true = reference.numbers(rows[0]).tolist()
+        if asked is Asked.BACKBONE:
+            shift = true[0] / reference.first_frequency(speed) - 1.0
+    except (RuntimeError, ValueError) as error:
+        return [Finding(outcome=Outcome.UNDECIDED, note=f"no reference {where}: {error}")]
+    done = [one for one in rows if not one.failure]
+    if not done:
+        return [Finding(outcome=Outcome.UNDECIDED, note=f"no mesh: {rows[-1].failure}")]
+    found = []
+    for k, right in enumerate(true):
+        rounding = [one.rounding[k] if one.rounding else 0.0 for one in done]
         runs = converged(
-            [one.elements for one in points], None, values, declared=declared,
-            noise=[point.rounding / abs(true * shift) for point in points],
+            [one.elements for one in done], None,
+            [(one.values[k] / right - 1.0 - off) / shift for one in done],
+            noise=[(floor + lost / abs(right)) / abs(shift) for lost in rounding],
+            declared=(declared, None),
         )  # fmt: skip
+        named = (
+            f"in {TIP[k]} " if asked is Asked.STEADY else f"in frequency {number} " * (number > 1)
+        )
         bound = (reference.bound + doubt) / abs(shift)
-        found.append(found_of(runs, tolerance=tolerance, bound=bound, where=where))
-    return worst_of(found)
+        found.append(found_of(runs, tolerance=tolerance, bound=bound, where=named + where))
+    return found

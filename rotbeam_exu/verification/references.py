@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, cast
@@ -18,6 +17,7 @@ from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import Asked, Case
 from .shipped import FILE, Shipped, shipped, spline
+from .submission import Row
 
 COMPUTED_BOUND = 1e-9
 """Relative error of computed frequencies: to it they settle."""
@@ -99,30 +99,39 @@ class Reference:
         """Return ω_n [rad/s] in steady rotation at `speed` [rad/s]; ValueError if refused."""
         return float(self.row(speed)[0])
 
-    def frequency_at(self, amplitude: float, speed: float | None = None) -> float:
-        """Return ω_NL [rad/s] of the exact orbit whose peak |q|/L is `amplitude`.
+    def numbers(self, row: Row) -> FloatArray:
+        """Return the exact values of a row of the case's table, as its `values`.
+
+        Raises
+        ------
+        ValueError, RuntimeError
+            If theory refuses them.
+        """
+        if self.case.asked is Asked.BACKBONE:
+            return self.frequency_at([row.amplitude], row.speed)
+        known = self.row(row.speed)
+        return known if self.case.asked is Asked.STEADY else known[row.number - 1 : row.number]
+
+    def frequency_at(self, amplitudes: ArrayLike, speed: float | None = None) -> FloatArray:
+        """Return ω_NL [rad/s] of the exact orbits whose peaks |q|/L are `amplitudes`, alike.
 
         Parameters
         ----------
-        amplitude : float
+        amplitudes : array_like
         speed : float, optional
             [rad/s]; by default the speed of the case's steady rotation.
 
         Raises
         ------
         ValueError
-            If the blade is damped, or the amplitude not between 0 and 1.
+            If the blade is damped, or an amplitude not between 0 and 1.
         RuntimeError
-            If the orbit is not reached.
+            If an orbit is not reached.
         """
-        return float(self.frequencies_at([amplitude], speed)[0])
-
-    def frequencies_at(self, amplitudes: Sequence[float], speed: float | None = None) -> FloatArray:
-        """Return `frequency_at` of several amplitudes, computed in one go."""
         speed = self.case.rotation.omega if speed is None else speed
         data = _shipped() if self.theory == BERNOULLI_EULER else None
-        blade, known = self.case.blade, self._known
-        at = [(speed, float(a)) for a in amplitudes]
+        blade, known, a = self.case.blade, self._known, np.asarray(amplitudes, dtype=float)
+        at = [(speed, one) for one in a.ravel().tolist()]
         for place in set(at) - set(known):
             here = data.frequency_at(blade, *place) if data else None
             if here is not None:
@@ -130,9 +139,9 @@ class Reference:
         missing = sorted(set(at) - set(known))
         if missing:
             # One backbone, for orbits are found from their neighbors.
-            found = periodic_orbits(blade, speed, [a for _, a in missing], theory=self.theory)
+            found = periodic_orbits(blade, speed, [one for _, one in missing], theory=self.theory)
             known.update(zip(missing, found.frequency.tolist(), strict=True))
-        return np.array([known[place] for place in at])
+        return np.array([known[place] for place in at]).reshape(a.shape)
 
 
 @lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask

@@ -1,4 +1,4 @@
-"""Submissions of a code: its declaration, frequencies and histories, from files or a call."""
+"""Submissions of a code: its declaration, tables and histories, from files or a call."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from analytic.arrays import FloatArray
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .cases import TIP, Asked, Case
+from .cases import Case
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,65 +45,41 @@ class Declaration:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frequency:
-    """A natural frequency [rad/s] in steady rotation at `speed` [rad/s], the first or another.
+class Row:
+    """Numbers of one mesh at one place of a table.
 
-    `rounding` is the error of its last digit [rad/s], where it was written to few.
+    Attributes
+    ----------
+    case : str
+        Name of the case.
+    elements : int
+    speed : float
+        Of the steady rotation [rad/s].
+    amplitude : float
+        Peak |q|/L of a backbone's point.
+    number : int
+        Of the natural frequency, the first being 1.
+    values : tuple of float
+        The frequency [rad/s], or lag [m], flap [m] and twist [rad] of the tip; empty of a failure.
+    failure : str
+        The code's own sentence, if it failed.
+    rounding : tuple of float
+        Errors of the last digits of the values; empty of numbers written to many.
     """
 
     case: str = "L"
     elements: int
     speed: float
+    amplitude: float = 0.0
     number: int = 1
-    frequency: float = math.nan
+    values: tuple[float, ...] = ()
     failure: str = ""
-    rounding: float = field(default=0.0, repr=False)
+    rounding: tuple[float, ...] = field(default=(), repr=False)
 
     @property
-    def values(self) -> dict[int, tuple[float, float]]:
-        """The frequency and its rounding, by the place in `Reference.row`."""
-        return {self.number - 1: (self.frequency, self.rounding)}
-
-    def named(self, _place: int) -> str:
-        """Return the name of a value."""
-        return f"in frequency {self.number} " if self.number > 1 else ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SteadyTip:
-    """The tip in steady rotation at `speed` [rad/s]: lag and flap [m], twist [rad].
-
-    `rounding` are the errors of their last digits, where they were written to few.
-    """
-
-    case: str
-    elements: int
-    speed: float
-    lag: float = math.nan
-    flap: float = math.nan
-    twist: float = math.nan
-    failure: str = ""
-    rounding: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), repr=False)
-
-    @property
-    def values(self) -> dict[int, tuple[float, float]]:
-        """Lag, flap and twist with their rounding, by the place in `Reference.row`."""
-        return dict(enumerate(zip((self.lag, self.flap, self.twist), self.rounding, strict=True)))
-
-    def named(self, place: int) -> str:
-        """Return the name of a value."""
-        return f"in {TIP[place]} "
-
-
-@dataclass(frozen=True, kw_only=True)
-class BackbonePoint:
-    """ω_NL [rad/s] at a speed [rad/s] and a peak |q|/L; `rounding` as of `Frequency`."""
-
-    elements: int
-    speed: float
-    amplitude: float
-    frequency: float
-    rounding: float = field(default=0.0, repr=False)
+    def place(self) -> tuple[float, float, int]:
+        """Place in the table, the same on all meshes."""
+        return self.speed, self.amplitude, self.number
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -120,8 +96,6 @@ class Run:
         NaN.
     time, q : ndarray (samples,)
         [s], and q [m] of Eq. 16, in space `cases.TIP` (samples, 3); empty of a run that failed.
-    q_dot : ndarray (samples,), optional
-        Its rate in the turning frame [m/s].
     failure : str
         The code's own sentence, if it failed.
     file : str
@@ -141,7 +115,6 @@ class Run:
     tolerance: float = math.nan
     time: FloatArray = field(repr=False)
     q: FloatArray = field(repr=False)
-    q_dot: FloatArray | None = field(default=None, repr=False)
     failure: str = ""
     file: str = ""
     dof: int | None = None
@@ -176,19 +149,9 @@ class Submission:
     """A submission: the data by which a code is judged. Empty fields were not submitted."""
 
     declaration: Declaration
-    frequencies: tuple[Frequency, ...] = ()
-    steady: tuple[SteadyTip, ...] = ()
-    backbone: tuple[BackbonePoint, ...] = ()
+    rows: tuple[Row, ...] = ()
     runs: tuple[Run, ...] = ()
-
-    @property
-    def rows(self) -> tuple[Frequency | SteadyTip, ...]:
-        """Rows of all tables but backbones."""
-        return (*self.frequencies, *self.steady)
 
     def has(self, case: Case) -> bool:
         """Return whether something of a case was submitted."""
-        if case.asked is Asked.BACKBONE:
-            return bool(self.backbone)
-        names = {run.case for run in self.runs} | {row.case for row in self.rows}
-        return case.name in names
+        return case.name in {row.case for row in self.rows} | {run.case for run in self.runs}

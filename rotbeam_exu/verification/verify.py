@@ -4,32 +4,31 @@ Anyone can have a code of their own judged: write a function with the signature 
 in an `Entry`, and read the judgement::
 
     def mine(case, *, elements, step):
-        ...                                   # spin the blade up; sample q [m] and q_dot [m/s]
-        return xarray.Dataset({"q": ("time", q), "q_dot": ("time", q_dot)}, {"time": time})
+        ...                                   # spin the blade up; sample q [m] over time [s]
+        return xarray.Dataset({"q": ("time", q)}, {"time": time})
 
     verify(Entry(name="mine", simulate=mine))
 """
 
 from __future__ import annotations
 
-import contextlib
-import math
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Protocol
 
 import numpy as np
 
-from analytic import AnyBlade, Beam, SpinUp, spin_up_response
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, TIP, Asked, Case, frequency_case, spin_up_case
+from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
 from .judgement import Judgement, judged
-from .submission import Declaration, Frequency, Run, SteadyTip, Submission
+from .submission import Declaration, Row, Run, Submission
 
 DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
@@ -38,17 +37,17 @@ the orbit of O the beam hardens; S2 leaves too little for that."""
 IN_SPACE = ("F", "F+p", "P", "W", "G")
 """Cases that `verify` takes of a code in space."""
 
-LADDER = ((4, 4e-3), (8, 2e-3), (16, 1e-3), (32, 5e-4))
-"""Meshes and steps [s] by which the cost at equal error is found; steps scaled as speeds are."""
+Numbers = Callable[[Case, float, int], Sequence[float] | FloatArray]
+"""From a case, a speed [rad/s] and a number of elements to numbers; raises as `Code` does."""
 
 
 class Code(Protocol):
     """A code that computes the history of a case."""
 
     def __call__(self, case: Case, *, elements: int, step: float) -> xr.Dataset:
-        """Return q [m] and q_dot [m/s] of the tip over `time` [s], as Eq. 16 has them.
+        """Return q [m] of the tip over `time` [s], as Eq. 16 has it.
 
-        In space lag and flap [m] and twist [rad] in place of both, as `cases.TIP`.
+        In space lag and flap [m] and twist [rad] in its place, as `cases.TIP`.
 
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
@@ -75,8 +74,8 @@ class Entry:
         Shown in the table.
     simulate : Code
     frequencies : callable, optional
-        (blade, omega, elements, count) -> lowest natural frequencies [rad/s] in steady rotation,
-        where the code has them.
+        (case, omega, elements) -> the `case.count` lowest natural frequencies [rad/s] in steady
+        rotation, where the code has them.
     in_space : bool
         Whether the code does cases in space, and those only.
     steady_tip : callable, optional
@@ -96,9 +95,9 @@ class Entry:
 
     name: str
     simulate: Code
-    frequencies: Callable[[AnyBlade, float, int, int], Sequence[float] | FloatArray] | None = None
+    frequencies: Numbers | None = None
     in_space: bool = False
-    steady_tip: Callable[[Case, float, int], FloatArray] | None = None
+    steady_tip: Numbers | None = None
     elements: int = 16
     step: float = 1e-3
     meshes: tuple[int, ...] = ()
@@ -150,8 +149,9 @@ def verify(
     if beam is None and spin_up is None:
         cases = [CASES[name] for name in (IN_SPACE if entry.in_space else DEFAULT)]
     else:
-        blade, motion = _by_default(beam, spin_up)
-        speeds = tuple(speed * faster_than_paper(blade) for speed in SPEEDS)
+        blade, motion = beam or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
+        faster = blade.omega_0 / Beam.reference().omega_0
+        speeds = tuple(speed * faster for speed in SPEEDS)
         cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
     return judged(handed_in(entry, cases), cases={case.name: case for case in cases})
 
@@ -163,74 +163,42 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
     cases = [case for case in cases if case.in_space is entry.in_space]
-    frequencies = [
-        one
-        for case in cases
-        if case.asked is Asked.FREQUENCIES
-        for speed in case.speeds
-        for elements in entry.own_meshes
-        for one in _frequencies(entry, case, speed, elements)
-    ]
-    steady = [
-        one
-        for case in cases
-        if case.asked is Asked.STEADY
-        for speed in case.speeds
-        for elements in entry.own_meshes
-        for one in _steady(entry, case, speed, elements)
-    ]
-    runs = [run for case in cases if case.asked is Asked.HISTORY for run in _runs(entry, case)]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,
             order_in_step=entry.order_in_step,
         ),
-        frequencies=tuple(frequencies), steady=tuple(steady), runs=tuple(runs),
+        rows=tuple(row for case in cases for row in _rows(entry, case)),
+        runs=tuple(run for case in cases for run in _runs(entry, case)),
     )  # fmt: skip
 
 
-def faster_than_paper(beam: AnyBlade) -> float:
-    """Return the beam's natural frequency at rest over the paper's beam's."""
-    return beam.omega_0 / Beam.reference().omega_0
-
-
-def _by_default(beam: AnyBlade | None, spin_up: SpinUp | None) -> tuple[AnyBlade, SpinUp]:
-    return beam or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
-
-
-def _frequencies(entry: Entry, case: Case, speed: float, elements: int) -> list[Frequency]:
-    """Return the frequencies of a mesh at a speed, none if the code does not have them."""
-    if entry.frequencies is None:
-        return []
-    made = [
-        Frequency(case=case.name, elements=elements, speed=speed, number=number)
-        for number in range(1, case.count + 1)
-    ]
-    try:
-        found = entry.frequencies(case.blade, speed, elements, case.count)
-    except NotImplementedError:
-        return []
-    except RuntimeError as error:
-        return [replace(one, failure=str(error)) for one in made]
-    return [replace(one, frequency=float(value)) for one, value in zip(made, found, strict=True)]
-
-
-def _steady(entry: Entry, case: Case, speed: float, elements: int) -> list[SteadyTip]:
-    """Return the steady tip of a mesh at a speed, none if the code does not have it."""
-    if entry.steady_tip is None:
-        return []
-    row = SteadyTip(case=case.name, elements=elements, speed=speed)
-    try:
-        found = dict(zip(TIP, entry.steady_tip(case, speed, elements).tolist(), strict=True))
-    except NotImplementedError:
-        return []
-    except RuntimeError as error:
-        return [replace(row, failure=str(error))]
-    return [replace(row, **found)]
+def _rows(entry: Entry, case: Case) -> Iterator[Row]:
+    """Yield the rows of a table that the code has, with its sentence where it fails."""
+    known = {Asked.FREQUENCIES: entry.frequencies, Asked.STEADY: entry.steady_tip}
+    compute = known.get(case.asked)
+    if compute is None:
+        return
+    for speed, elements in product(case.speeds, entry.own_meshes):
+        found: list[list[float]] = [[]] * case.count
+        failure = ""
+        try:
+            found = np.reshape(compute(case, speed, elements), (case.count, -1)).tolist()
+        except NotImplementedError:
+            continue
+        except RuntimeError as error:
+            failure = str(error)
+        for number, values in enumerate(found, 1):
+            yield Row(
+                case=case.name, elements=elements, speed=speed, number=number,
+                values=tuple(values), failure=failure,
+            )  # fmt: skip
 
 
 def _runs(entry: Entry, case: Case) -> list[Run]:
-    """Return the runs of a case, none if the code does not do it."""
+    """Return the runs of a history, none if the code does not do it."""
+    if case.asked is not Asked.HISTORY:
+        return []
     resolutions = {(elements, 2.0 * entry.step) for elements in entry.own_meshes}
     resolutions |= {(entry.elements, factor * entry.step) for factor in (1.0, 2.0, 4.0)}
     try:
@@ -254,50 +222,5 @@ def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
     time = found["time"].to_numpy()
     tip = [found[name].to_numpy() for name in case.columns]
     q = np.stack(tip, axis=1) if case.in_space else tip[0]
-    q_dot = None if case.in_space else found["q_dot"].to_numpy()
     wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
-    return replace(run, time=time, q=q, q_dot=q_dot, wall=wall, remark=remark)
-
-
-def cost_at_error(
-    entry: Entry,
-    error: float = 1e-2,
-    *,
-    beam: AnyBlade | None = None,
-    spin_up: SpinUp | None = None,
-) -> tuple[float, FloatArray]:
-    """Return the wall time [s] at which a code reaches an error, and the ladder it is read from.
-
-    LADDER's runs of twice the ramp time are timed one after the other, on one core if the caller
-    sees to it. The error is the largest of q(t) over max|q|; between runs the time over the error
-    is interpolated logarithmically. NaN where the ladder does not reach the error; where even its
-    first run is better, the time of that, an upper bound.
-
-    Returns
-    -------
-    seconds : float
-    ladder : ndarray (runs, 2)
-        Error and seconds of each run.
-    """
-    beam, spin_up = _by_default(beam, spin_up)
-    case, ladder = spin_up_case(beam, spin_up, 2.0 * spin_up.ramp_time), []
-    rungs = [(elements, step / faster_than_paper(beam)) for elements, step in LADDER]
-    with contextlib.suppress(RuntimeError):  # the first run loads the code; it does not count
-        entry.simulate(case, elements=rungs[0][0], step=rungs[0][1])
-    for elements, step in rungs:
-        started = clock.perf_counter()
-        try:
-            run = entry.simulate(case, elements=elements, step=step)
-        except RuntimeError:
-            ladder.append((math.nan, math.nan))
-            continue
-        seconds = clock.perf_counter() - started
-        exact = spin_up_response(beam, spin_up, run["time"].to_numpy(), tolerance=1e-6).q
-        ladder.append((float(np.abs(run["q"] - exact).max() / np.abs(exact).max()), seconds))
-    rows = np.array(ladder)
-    finished = rows[np.isfinite(rows[:, 0])]
-    if not finished.size:
-        return math.nan, rows
-    errors, times = np.log(finished[np.argsort(finished[:, 0])]).T
-    at_error = np.interp(math.log(error), errors, times, left=math.nan)
-    return math.exp(float(at_error)), rows
+    return replace(run, time=time, q=q, wall=wall, remark=remark)

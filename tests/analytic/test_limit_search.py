@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic.exact.plane.growth import GROWTH, Growth
+from analytic.exact.plane.growth import GROWTH, Growth, least_growth
 from analytic.exact.plane.stability_limit import _limit
 from analytic.methods.newton import NoOrbitError
 
@@ -135,3 +135,6 @@ def test_growth_counts_above_round_off():
     assert (still.unstable, still.per_radian, still.rate(3.0)) == (False, 0.0, 0.0)
     assert grows.unstable
     assert grows.rate(3.0) == pytest.approx(2.0 * GROWTH * 3.0 / (2.0 * np.pi))
+    # Damped, all that grows counts, and nothing else.
+    just = Growth((1.0 + 1e-9) * GROWTH, np.ones(8)).per_radian
+    assert least_growth(None, 0.005) == pytest.approx(just, rel=1e-8)

@@ -11,13 +11,7 @@ import pytest
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.verification.cases import CASES, Asked, Level
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.submission import (
-    BackbonePoint,
-    Declaration,
-    Frequency,
-    Run,
-    Submission,
-)
+from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import write_submission
 
 pytestmark = pytest.mark.benchmarks
@@ -27,38 +21,44 @@ MESHES, STEPS = (8, 16, 32), (5e-4, 1e-3, 2e-3)
 
 def whole(factor):
     """All cases of thin beams in the plane, five histories each at 2 ms; q(t) times a factor."""
-    runs, frequencies, points = [], [], []
+    runs, rows = [], []
     resolutions = [(n, 1e-3) for n in MESHES] + [(16, h) for h in STEPS if h != 1e-3]
     for name, case in CASES.items():
         if case.level is Level.SPACE or name in {"T", "TL"}:
             continue  # other theories' cases
         truth = reference(case, BERNOULLI_EULER)
         if case.asked is Asked.FREQUENCIES:
-            frequencies = [
-                Frequency(elements=n, speed=w, frequency=truth.first_frequency(w) + 0.01 / n**2)
+            rows += [
+                Row(elements=n, speed=w, values=(truth.first_frequency(w) + 0.01 / n**2,))
                 for n in MESHES
                 for w in case.speeds
             ]  # fmt: skip
         elif case.asked is Asked.BACKBONE:
-            points = [
-                BackbonePoint(elements=n, speed=w, amplitude=a, frequency=truth.frequency_at(a, w))
+            rows += [
+                Row(
+                    case="B",
+                    elements=n,
+                    speed=w,
+                    amplitude=a,
+                    values=(float(truth.frequency_at(a, w)),),
+                )
                 for n in MESHES
                 for w in case.speeds
                 for a in case.amplitudes
             ]
         else:
             time = np.linspace(0.0, case.duration, round(500 * case.duration) + 1)
-            q, rate = truth.history(time), truth.rate(time)
+            q = truth.history(time)
             runs += [
                 Run(
-                    case=name, elements=n, step=h, time=time, wall=1.0, q_dot=rate,
+                    case=name, elements=n, step=h, time=time, wall=1.0,
                     q=factor * q * (1.0 + 0.1 / n**2 + 100.0 * h**2),
                 )
                 for n, h in resolutions
             ]  # fmt: skip
     return Submission(
         declaration=Declaration(code="mine", order=2.0, order_in_step=2.0),
-        frequencies=tuple(frequencies), backbone=tuple(points), runs=tuple(runs),
+        rows=tuple(rows), runs=tuple(runs),
     )  # fmt: skip
 
 

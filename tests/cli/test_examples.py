@@ -14,11 +14,9 @@ import xarray as xr
 from rotbeam_exu import explorer
 from rotbeam_exu.cli import _COMMANDS, app, documented
 from rotbeam_exu.sweeps import grid
-from rotbeam_exu.sweeps.measured import MEASURED
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
-from rotbeam_exu.verification.verify import LADDER
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
@@ -47,7 +45,7 @@ def measured_at_once(cases, *_):
     """As `solved` yields it, of spin-ups that nobody computed."""
     for point in cases:
         result = xr.Dataset({"q": ("time", np.zeros(2))}, {"time": [0.0, 1.0]})
-        numbers = dict.fromkeys(MEASURED, 1e-3) | {
+        numbers = dict.fromkeys(grid.MEASURED, 1e-3) | {
             "amplitude": 0.1, "frequency": 3.73, "omega_n": 3.73,
         }  # fmt: skip
         yield point, result.assign_attrs(numbers, verdict="passed", failure="")
@@ -71,7 +69,6 @@ def folder(tmp_path, monkeypatch, call):
             asked=(),
         ),
     )
-    monkeypatch.setattr(room, "cost_at_error", lambda *_, **__: (1.25, [(1e-3, 2.5)] * len(LADDER)))
     return tmp_path
 
 

@@ -36,7 +36,7 @@ COMMANDS = {
     "table": (("table",), ("", "--format")),
     "figure": (("figure", "none", "--out", "{folder}/out"), ("--jobs", "--dpi")),
     "explore": (("explore", "--out", "{folder}/page.pdf"), ("--jobs", "--cache")),
-    "verify": (("verify", "--element", "none"), ("--element", "--error", "--cost")),
+    "verify": (("verify", "--element", "none"), ("--element", "--config")),
     "campbell": (("campbell", "--points", "2", "--count", "1", "--orders", "1"),
                       ("--format", "--omega-min", "--points=")),
     "respond": (("respond", "--from", "1", "--to", "2", "--points", "2", "--damping-ratio", "0.1",

@@ -7,7 +7,6 @@ import pytest
 from analytic import VARIANTS
 from rotbeam_exu.cli import _COMMANDS, documented
 from rotbeam_exu.fem.elements import ALIASES, FORMULATIONS
-from rotbeam_exu.verification.peers import PEERS
 
 
 def test_each_command_has_one_line_at_eighty_columns(call, monkeypatch):
@@ -39,7 +38,7 @@ def test_the_help_of_each_command(call, monkeypatch):
     for command, names in (
         ("run", [*FORMULATIONS, *ALIASES]),
         ("sweep", [*FORMULATIONS, *ALIASES]),
-        ("verify", [*FORMULATIONS, *ALIASES, *PEERS]),
+        ("verify", [*FORMULATIONS, *ALIASES]),
         ("backbone", VARIANTS),
     ):
         assert set(names) <= set(re.findall(r"\w+", helps[command][1]))

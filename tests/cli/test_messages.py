@@ -1,5 +1,7 @@
-"""A warning once per command, whatever its numbers; the rest is counted."""
+"""A warning once per command, whatever its numbers; texts and paths are printed as they are."""
 
+import io
+import sys
 import warnings
 
 import pytest
@@ -7,6 +9,7 @@ import pytest
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.cli import backbone as job
 from rotbeam_exu.cli.endings import Messages
+from rotbeam_exu.cli.output import ready_streams
 
 
 def test_warnings_that_differ_in_numbers_or_in_the_model_are_one(capsys):
@@ -56,3 +59,27 @@ def test_they_are_counted_ahead_of_the_reason_of_a_failure(call, monkeypatch, fa
         "warning: 1 m",
         "rotbeam: no",
     ]
+
+
+@pytest.mark.parametrize("name", ["a [red] b", "[/]", "a :smile: b", "[link=x]y"])
+def test_paths_in_errors_are_no_markup(call, tmp_path, name):
+    code, _, error = call("run", "--config", tmp_path / f"{name}.toml")
+    assert code == 2
+    assert f"{name}.toml" in error
+
+
+def test_paths_in_results_are_no_markup(call, tmp_path):
+    out = tmp_path / "a [red] [bold] :smile:"
+    short = ("--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure")
+    code, printed, _ = call("run", *short, "--out", out)
+    assert code == 0
+    assert f"{out}/cable-1-omega-6-ramp-3.nc" in printed
+
+
+def test_pipes_and_files_of_windows_take_every_letter(monkeypatch):
+    raw = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(raw, encoding="cp1252"))
+    ready_streams()
+    sys.stdout.write("ω_NL ± λ \udcff")
+    sys.stdout.flush()
+    assert raw.getvalue().decode("utf-8") == "ω_NL ± λ ?"

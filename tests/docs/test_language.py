@@ -1,21 +1,11 @@
 """The pages are plain English: short sentences, and the words of the field."""
 
 import re
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-MADE = {"_build", "gallery"}  # by Sphinx
-PAGES = [
-    ROOT / "README.md",
-    *sorted(
-        page
-        for page in (ROOT / "docs").rglob("*.md")
-        if not MADE & set(page.relative_to(ROOT / "docs").parts)
-    ),
-]
-MOST_WORDS = 35
+from docs.sentences import MOST_WORDS, PAGES, ROOT, long_sentences, prose, words
+
 # One's own word: what the field says.
 OWN_WORDS = {
     r"bars?": "uncertainty",
@@ -31,34 +21,6 @@ OWN_WORDS = {
     r"colour\w*|fibres?|licence|behaviour|centre\w*|grey|\w*metres?": "American spelling",
     r"judgement\w*|neighbour\w*|modelled|labelled": "American spelling",
 }
-
-
-def prose(text):
-    """Return the paragraphs of a page, without code, tables, headings and formulas."""
-    text = re.sub(r"^( *)(```+|~~~+).*?^\1\2 *$", "\n", text, flags=re.MULTILINE | re.DOTALL)
-    text = re.sub(r"\$\$.*?\$\$", "\n\n", text, flags=re.DOTALL)
-    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
-    text = re.sub(r"^\s*(\||#|:{3,}|:\w+:|\(\S+\)=).*$", "\n", text, flags=re.MULTILINE)
-    text = re.sub(r"^(?= *(?:[-*]|\d+\.) )", "\n", text, flags=re.MULTILINE)
-    text = re.sub(r"(?:\{[\w:]+\})?`+[^`]+`+|\$[^$]+\$", "X", text)
-    text = re.sub(r"!?\[([^]]*)\](?:\([^)]*\))?", r"\1", text)
-    text = re.sub(r"\b(Eqs?|Figs?|Secs?|al)\.", r"\1", text)  # no end of a sentence
-    parts = re.split(r"\n(?:[ \t]*\n)+", text)
-    return [" ".join(part.split()) for part in parts if part.strip() and part[:4] != " " * 4]
-
-
-def sentences(text):
-    """Split each paragraph where a full stop is followed by something that is no small letter."""
-    for paragraph in prose(text):
-        yield from re.split(r"(?<=[.!?])[*)\"]*\s+(?=[^a-z\s])", paragraph)
-
-
-def words(sentence):
-    return [part for part in sentence.split() if re.search(r"\w", part)]
-
-
-def long_sentences(text):
-    return [one for one in sentences(text) if len(words(one)) > MOST_WORDS]
 
 
 def own_words(text):

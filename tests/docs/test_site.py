@@ -3,6 +3,7 @@
 import shutil
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -105,6 +106,9 @@ def test_pages_are_whole_without_a_network(offline, name):
     page.close()
     assert [url for url in asked if not url.startswith((SITE.as_uri(), "data:"))] == []
     assert missed == []
+    if name == "index":  # before any compression
+        files = {unquote(urlsplit(url).path) for url in asked if url.startswith("file:")}
+        assert sum(Path(file).stat().st_size for file in files) < 0.7e6
 
 
 @pytest.mark.skipif(not AXE.exists(), reason="no axe: npm install --no-save axe-core")

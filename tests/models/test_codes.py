@@ -91,7 +91,7 @@ def test_times_at_equal_error_are_read_between_the_best_runs():
 
 def test_a_code_without_times_has_outcomes_only():
     handed = read_submission(CODES / "rod" / "submission")
-    handed = replace(handed, runs=(), frequencies=handed.frequencies[:2])
+    handed = replace(handed, runs=(), rows=handed.rows[:2])
     code = overview.Code(handed, judged(handed), 1.0)
     assert overview.costs([code])[1] == []
     (row,) = overview.verdicts([code])[1]

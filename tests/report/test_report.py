@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from rotbeam_exu.report.document import SCHEMA, Record, document
-from rotbeam_exu.report.latex import latex_table
-from rotbeam_exu.report.page import TITLE, report_page
+from rotbeam_exu.report.page import TITLE, latex_table, report_page
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome
@@ -158,7 +157,7 @@ def test_the_document_is_json_and_says_all(right):
 
 
 def test_every_key_of_the_document_is_documented(right):
-    text = (Path(__file__).parents[2] / "docs" / "howto" / "judge.md").read_text("utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "howto" / "judge_report.md").read_text("utf-8")
     documented = set(re.findall(r"`(\w+)`", text))
 
     def keys(value):
@@ -180,7 +179,7 @@ def test_what_was_not_measured_is_shown_all_the_same(submitted):
     whole = submitted()
     run = replace(whole.runs[0], wall=math.nan, cpu=math.nan, dof=None)
     alone = replace(
-        whole, frequencies=(), runs=(run,),
+        whole, rows=(), runs=(run,),
         declaration=replace(whole.declaration, order=None, order_in_step=None),
     )  # fmt: skip
     record = recorded(alone)

@@ -5,14 +5,13 @@ import signal
 
 import pytest
 
-from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
+from rotbeam_exu.verification.submission import Declaration, Row, Submission
 from rotbeam_exu.verification.submission_files import (
     digests,
     read_submission,
     write_submission,
 )
-from rotbeam_exu.verification.submission_files.content import LARGEST
-from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
+from rotbeam_exu.verification.submission_files.faults import LARGEST, MalformedSubmissionError
 from rotbeam_exu.verification.submission_files.tables import number
 
 SECRET = "example.org,password,hunter2\n"
@@ -107,7 +106,7 @@ def test_a_link_within_the_folder_is_a_file_of_it(mine, tmp_path):
     (mine / "L.csv").symlink_to(mine / "tables" / "L.txt")
     (tmp_path / "link").symlink_to(mine)  # nor is it held against the folder that it is one
     found = read_submission(tmp_path / "link")
-    assert found.frequencies == before.frequencies
+    assert found.rows == before.rows
     assert set(digests(mine, found)) == {"entry.toml", "L.csv"}
 
 
@@ -177,8 +176,8 @@ def test_a_code_has_a_name(mine, code):
 
 def test_a_fault_in_several_files_is_told_of_each(tmp_path):
     """Up to ten; a kind is one sentence with other numbers and cells."""
-    frequency = Frequency(elements=8, speed=6.0, frequency=3.731123456)
-    submission = Submission(declaration=Declaration(code="a"), frequencies=(frequency,))
+    row = Row(elements=8, speed=6.0, values=(3.731123456,))
+    submission = Submission(declaration=Declaration(code="a"), rows=(row,))
     folder = write_submission(submission, tmp_path / "mine")
     names = [f"S1/m{k:03d}_h1e-3.csv" for k in (8, 16, 32)]
     rows = (f"{name},{int(name[4:7])},1e-3" for name in names)

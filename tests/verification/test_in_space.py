@@ -12,7 +12,7 @@ from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference, row_of
-from rotbeam_exu.verification.submission import Declaration, Frequency, Run, SteadyTip, Submission
+from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import (
     MalformedSubmissionError,
     read_submission,
@@ -33,17 +33,15 @@ def rows_of(case, truth, change=lambda row: row):
             row = (change(truth.row(speed)) * (1.0 + 1e-2 / elements**2)).tolist()
             place = {"case": case.name, "elements": elements, "speed": speed}
             if case.asked is Asked.STEADY:
-                made.append(SteadyTip(**place, lag=row[0], flap=row[1], twist=row[2]))
+                made.append(Row(**place, values=tuple(row)))
             else:
-                made += [
-                    Frequency(**place, number=k, frequency=f) for k, f in enumerate(row, start=1)
-                ]
+                made += [Row(**place, number=k, values=(f,)) for k, f in enumerate(row, start=1)]
     return made
 
 
 def submitted(names, theory=EULER, declared=None, change=lambda row: row):
     """What a code of a theory hands in that declares it, or another."""
-    frequencies, steady, runs = [], [], []
+    rows, runs = [], []
     for case in map(CASES.get, names):
         truth = reference(case, theory)
         if case.asked is Asked.HISTORY:
@@ -57,13 +55,9 @@ def submitted(names, theory=EULER, declared=None, change=lambda row: row):
                 for n, h in RUNS
             ]  # fmt: skip
         else:
-            into = steady if case.asked is Asked.STEADY else frequencies
-            into += rows_of(case, truth, change)
+            rows += rows_of(case, truth, change)
     declaration = Declaration(code="mine", theory=declared or theory, order=2.0, order_in_step=2.0)
-    return Submission(
-        declaration=declaration, frequencies=tuple(frequencies), steady=tuple(steady),
-        runs=tuple(runs),
-    )  # fmt: skip
+    return Submission(declaration=declaration, rows=tuple(rows), runs=tuple(runs))
 
 
 @pytest.mark.parametrize("theory", CASES["T"].theories, ids=str)
@@ -124,7 +118,7 @@ def test_a_right_code_in_space_converges_from_files_as_well(theory, tmp_path):
     assert str(judged(files)) == str(found)
     for mine, theirs in zip(submission.runs, files.runs, strict=True):
         assert np.array_equal(mine.q, theirs.q)
-    assert files.steady == submission.steady
+    assert files.rows == submission.rows
 
 
 def test_shear_is_seen_in_the_frequencies_of_a_blade():
@@ -176,7 +170,7 @@ def test_a_blade_built_the_other_way_is_found(change, name):
     case = CASES["P"]
     other = replace(case, blade=replace(case.blade, line=change(case.blade.line)))
     rows = tuple(rows_of(case, reference(other)))
-    submission = Submission(declaration=Declaration(code="mine"), steady=rows)
+    submission = Submission(declaration=Declaration(code="mine"), rows=rows)
     (found,) = mistakes_in(submission, judged(submission))
     assert found.name == name
 
@@ -186,7 +180,7 @@ def test_gravity_the_other_way_is_found():
     case = CASES["G"]
     up = replace(case, loads=(Gravity(-9.81, tilt=0.5 * math.pi),))
     rows = tuple(rows_of(case, reference(up)))
-    submission = Submission(declaration=Declaration(code="mine"), steady=rows)
+    submission = Submission(declaration=Declaration(code="mine"), rows=rows)
     judgement = judged(submission)
     assert judgement.outcome_of("G") is Outcome.DIFFERS
     (found,) = mistakes_in(submission, judgement)

@@ -16,8 +16,8 @@ from rotbeam_exu.verification.verify import Entry, handed_in
 def of_frequency(difference, power, size=0.05, higher=0.0, **options):
     """Return a code with no more than a frequency, off by the difference and C/nᵖ (1 + c/n)."""
 
-    def lowest(beam, omega, elements, count):
-        exact = linear_modes(beam, omega, count).frequencies
+    def lowest(case, omega, elements):
+        exact = linear_modes(case.blade, omega, case.count).frequencies
         return exact * (1.0 + difference + size / elements**power * (1.0 + higher / elements))
 
     return Entry(name="mine", simulate=None, frequencies=lowest, **options)
@@ -67,14 +67,14 @@ def test_a_theory_that_refuses_a_speed_is_no_verdict_on_the_code():
     with pytest.warns(RotbeamWarning, match="rpm"):
         found = finding(entry, (burst,))
     assert found.outcome is Outcome.UNDECIDED
-    assert found.note.startswith("no reference: omega = ")
+    assert found.note.startswith("no reference at 989.951 rad/s: omega = ")
 
 
 def test_a_mesh_too_coarse_for_the_code_is_left_out():
-    def lowest(beam, omega, elements, count):
+    def lowest(case, omega, elements):
         if elements < 8:
             raise RuntimeError("too coarse")
-        return linear_modes(beam, omega, count).frequencies * (1.0 + 0.01 / elements**2)
+        return linear_modes(case.blade, omega, case.count).frequencies * (1.0 + 0.01 / elements**2)
 
     entry = Entry(name="mine", simulate=None, frequencies=lowest)
     found = finding(replace(entry, meshes=(4, 8, 16, 32)))

@@ -8,8 +8,8 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.exact.beam.discretization import continuum
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import continuum
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.convergence import converged
@@ -18,13 +18,12 @@ from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.mistakes.forces import FORCES, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.mistake import most_left
-from rotbeam_exu.verification.mistakes.tables import mistake_in_backbone, mistake_in_frequencies
+from rotbeam_exu.verification.mistakes.tables import mistake_in_table
 from rotbeam_exu.verification.outcomes import found_of
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import (
-    BackbonePoint,
     Declaration,
-    Frequency,
+    Row,
     Run,
     Submission,
 )
@@ -194,24 +193,22 @@ def test_what_none_of_them_explains_is_left_alone(named, exact):
 )
 def test_linear_frequencies(change, name):
     rows = [
-        Frequency(
-            elements=n, speed=speed, frequency=change(first(speed), speed) * (1 + 1e-3 / n**2)
-        )
+        Row(elements=n, speed=speed, values=(change(first(speed), speed) * (1 + 1e-3 / n**2),))
         for n in (8, 16)
         for speed in CASES["L"].speeds
     ]
-    found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
+    found = mistake_in_table(CASES["L"], rows, reference(CASES["L"]), 2e-4 / 3.0)
     assert (found and found.name) == name
 
 
 def test_frequencies_without_centrifugal_stiffening():
     """At low speeds; faster ones have no frequency at all."""
     rows = [
-        Frequency(elements=n, speed=w, frequency=np.sqrt(first(0.0) ** 2 - w**2))
+        Row(elements=n, speed=w, values=(np.sqrt(first(0.0) ** 2 - w**2),))
         for n in (8, 16)
         for w in (0.0, 2.0)
     ]
-    found = mistake_in_frequencies(CASES["L"], rows, reference(CASES["L"], BERNOULLI_EULER))
+    found = mistake_in_table(CASES["L"], rows, reference(CASES["L"]), 2e-4 / 3.0)
     assert found.name == "no centrifugal stiffening"
 
 
@@ -233,8 +230,8 @@ def backbone_reference(orbits):
         def first_frequency(self, speed):
             return orbits.omega_n
 
-        def frequency_at(self, a, speed):
-            return np.interp(a**2, orbits.amplitude**2, orbits.frequency)
+        def numbers(self, row):
+            return [np.interp(row.amplitude**2, orbits.amplitude**2, orbits.frequency)]
 
     return Reference()
 
@@ -251,8 +248,8 @@ def test_backbones(orbits, backbone_reference, name):
     for a in (0.1, 0.3, 0.6):
         w = np.interp(a**2, sizes**2, orbits.frequency)
         w = {"hertz": w / 2.0 / np.pi, "linear frequency": orbits.omega_n}.get(name, w)
-        rows.append(BackbonePoint(elements=16, speed=8.0, amplitude=a, frequency=w))
-    found = mistake_in_backbone(CASES["B"], rows, backbone_reference)
+        rows.append(Row(case="B", elements=16, speed=8.0, amplitude=a, values=(w,)))
+    found = mistake_in_table(CASES["B"], rows, backbone_reference, 1e-2)
     assert (found and found.name) == name
 
 
@@ -268,14 +265,12 @@ def test_a_mistake_may_leave_a_third_and_the_error_of_the_finest_run():
 
 def test_all_that_was_handed_in_is_searched(exact):
     """Frequencies in Hz and the sign of q, each named in its case with what is left."""
-    rows = tuple(
-        Frequency(elements=n, speed=2.0, frequency=first(2.0) / (2.0 * np.pi)) for n in (8, 16)
-    )
+    rows = tuple(Row(elements=n, speed=2.0, values=(first(2.0) / (2.0 * np.pi),)) for n in (8, 16))
     runs = tuple(
         Run(case="S1", elements=n, step=h, time=TIME, q=-exact.q * (1.0 + 0.1 / n**2))
         for n, h in ((8, 1e-3), (16, 1e-3), (16, 5e-4))
     )
-    submission = Submission(declaration=Declaration(code="mine"), frequencies=rows, runs=runs)
+    submission = Submission(declaration=Declaration(code="mine"), rows=rows, runs=runs)
     found = mistakes_in(submission, judged(submission))
     assert [(one.case, one.name) for one in found] == [("L", "hertz"), ("S1", "sign of q")]
     assert "hand in rad/s" in str(found[0])
@@ -307,9 +302,9 @@ def of_theory(theory, declared):
     time = np.linspace(0.0, 15.0, 1501)
     q = true.history(time)
     rows = [
-        Frequency(
+        Row(
             case="TL", elements=n, speed=w,
-            frequency=linear.first_frequency(w) * (1.0 + 1e-2 / n**2),
+            values=(linear.first_frequency(w) * (1.0 + 1e-2 / n**2),),
         )
         for n in (8, 16, 32)
         for w in CASES["TL"].speeds
@@ -319,7 +314,7 @@ def of_theory(theory, declared):
         for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (16, 5e-4), (16, 2e-3))
     ]
     declaration = Declaration(code="mine", order=2.0, order_in_step=2.0, theory=declared)
-    return Submission(declaration=declaration, frequencies=tuple(rows), runs=tuple(runs))
+    return Submission(declaration=declaration, rows=tuple(rows), runs=tuple(runs))
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import xarray as xr
 
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order, converged
+from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, found_of, worst_of
 from rotbeam_exu.verification.verify import Entry, handed_in
 
@@ -151,8 +152,8 @@ def test_the_worst_finding_decides_and_of_equal_ones_the_farthest_off():
 def test_a_code_is_run_on_three_meshes_and_with_three_steps():
     def code(case, *, elements, step):
         time = np.arange(0.0, case.duration + 0.3, 0.1)
-        names = {"q": ("time", 0.0 * time), "q_dot": ("time", 0.0 * time)}
-        return xr.Dataset(names, {"time": time}, {"verdict": "passed" if step < 2e-3 else "drifts"})
+        own = {"verdict": "passed" if step < 2e-3 else "drifts"}
+        return xr.Dataset({"q": ("time", 0.0 * time)}, {"time": time}, own)
 
     runs = handed_in(Entry(name="mine", simulate=code, elements=16), [CASES["S1"]]).runs
     assert [(run.elements, run.step) for run in runs] == [
@@ -163,3 +164,25 @@ def test_a_code_is_run_on_three_meshes_and_with_three_steps():
     assert all(run.time[-1] == pytest.approx(CASES["S1"].duration) for run in runs)
     assert Entry(name="mine", simulate=code, elements=1).own_meshes == (1, 2)
     assert Entry(name="mine", simulate=code, meshes=(9, 3)).own_meshes == (3, 9)
+
+
+@pytest.mark.parametrize("name", ["L", "P"])
+def test_a_refusal_of_frequencies_or_of_a_tip_is_told_and_what_is_not_done_is_left_out(name):
+    case = CASES[name]
+
+    def refusing(case, omega, elements):
+        if omega == case.speeds[0]:
+            raise NotImplementedError
+        raise RuntimeError(f"no license at {omega:g}")
+
+    entry = Entry(
+        name="mine", simulate=None, in_space=case.in_space, frequencies=refusing,
+        steady_tip=refusing,
+    )  # fmt: skip
+    submission = handed_in(entry, [case])
+    assert {row.speed for row in submission.rows} == set(case.speeds[1:])
+    assert {row.failure for row in submission.rows} == {
+        f"no license at {w:g}" for w in case.speeds[1:]
+    }
+    (finding,) = judged(submission).findings[name].values()
+    assert finding.note.startswith("no mesh: no license at")

@@ -24,7 +24,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade
+from ...beam import AnyBlade, require_out_of_plane
 from ...lazily import linalg
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
@@ -32,7 +32,6 @@ from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from .continuum import Continuum
-from .discretization import require_out_of_plane
 from .steady import SteadyBeam
 
 Twist = Literal["inertial", "quasi-static", "rigid"]

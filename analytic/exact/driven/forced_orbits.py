@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, undamped
+from ...beam import AnyBlade, require_out_of_plane, undamped
 from ...input_checks import finite_array, finite_number, not_negative
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpaceOrbitSet, SpecialPoint
 from ..plane.planarity import GrowthOutOfPlane, grown_about

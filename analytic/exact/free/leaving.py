@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...beam import require_undamped
+from ...beam import require_out_of_plane, require_undamped
 from ...lazily import optimize
 from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
@@ -32,7 +32,6 @@ from ...methods.orbit import Orbit
 from ...methods.orbit_curve import At, OrbitCurve
 from ...plotting import axes_or_new, draw_response
 from ...settled import settled
-from ..beam.discretization import require_out_of_plane
 from ..beam.steady import BeamOrbit
 from ..space.steady import SpaceBlade, space_continuum, space_rotation
 from .branch import Branch, SpaceOrbitSet, SpecialPoint

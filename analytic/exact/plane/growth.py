@@ -9,16 +9,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, undamped
-from ...input_checks import not_negative
+from ...beam import AnyBlade, require_planar, undamped
+from ...input_checks import not_negative, rotation_speed
 from ...lazily import linalg
 from ...methods.floquet import flow, normal_modes, reversible_monodromy
+from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.discretization import resolved_model
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
-from ..beam.steady import SteadyBeam
+from ..beam.steady import SteadyBeam, resolved_model
+from ..free.branch import AmplitudeNotReachedError
 from ..free.path import ModePath
 
 GROWTH = 1e-5
@@ -36,23 +37,15 @@ _FASTEST = 20.0  # growth over a period that is not looked at more closely
 _FAST = 1.0  # growth over a period beyond which it is no matter of resolution
 _SAME = 0.01  # of the growth, from half the functions and steps
 _REPORTED = 4  # modes
+_SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
 _SHARE = 0.15  # of the energy, from which a mode is named
 
 
 class Growth(NamedTuple):
-    """Growth out of the plane over one period: the fastest motion.
+    """Growth out of the plane over one period: the fastest motion."""
 
-    Attributes
-    ----------
-    exponent : float
-        Logarithm of the largest multiplier's size.
-    multipliers : ndarray (8,)
-    kind : str
-    modes : tuple of str
-    """
-
-    exponent: float
-    multipliers: ComplexArray
+    exponent: float  # logarithm of the largest multiplier's size
+    multipliers: ComplexArray  # (8,)
     kind: str = ""
     modes: tuple[str, ...] = ()
 
@@ -140,9 +133,7 @@ def grown(
     return growth._replace(kind=kind, modes=modes)
 
 
-@lru_cache(maxsize=32)
-def _space(blade: AnyBlade, functions: int, theory: Theory) -> Space:
-    return Space(blade, functions, theory)
+_space = lru_cache(maxsize=32)(Space)
 
 
 def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
@@ -250,3 +241,43 @@ def planar_orbits(
         beam=free, omega=omega, mode=mode, theory=theory, model=model,
         blade=blade, damping=not_negative("damping", damping),
     )  # fmt: skip
+
+
+def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
+    """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
+
+    It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
+    0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
+    blade, or one without a known section out of the plane, gives "" too.
+
+    Parameters
+    ----------
+    blade : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    amplitude : float
+        Peak |q|/L of the motion, about that of an orbit of the first mode.
+    """
+    require_planar(blade)
+    unit = blade.unit
+    if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
+        return ""
+    if not 0.0 < amplitude < 1.0:
+        return ""
+    omega, amplitude = rotation_speed(omega), float(amplitude)
+    try:
+        orbits = planar_orbits(blade, omega)
+        for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
+            # What the first resolution finds, the finer one confirms.
+            told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH
+            if told and (what := orbits.growth(a, 2)).per_radian >= LEAST_GROWTH:
+                return (
+                    f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit "
+                    f"of a = {a:.3g} leaves it by {what.per_radian:.2g} per radian ({what.kind} of "
+                    f"{' and '.join(what.modes)}), and this one has a = {amplitude:.3g}"
+                )
+    except ValueError as unknown:
+        return f"whether this motion stays in its plane is not known: {unknown}"
+    except (AmplitudeNotReachedError, NoOrbitError):
+        pass
+    return ""

@@ -10,17 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_planar, undamped
+from ...beam import AnyBlade, require_out_of_plane, undamped
 from ...input_checks import not_negative, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
 from ..free.backbone import periodic_orbits
-from ..free.branch import AmplitudeNotReachedError, OrbitSet
-from .growth import LEAST_GROWTH, grown_and_checked, planar_orbits
-
-_SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
+from ..free.branch import OrbitSet
+from .growth import grown_and_checked, planar_orbits
 
 
 @one_thread
@@ -45,46 +42,6 @@ def growth_rates(
         decays = damping and not found.unstable
         rates[k] = found.exponent * frequency / (2.0 * np.pi) if decays else found.rate(frequency)
     return rates
-
-
-def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
-    """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
-
-    It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
-    0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
-    blade, or one without a known section out of the plane, gives "" too.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    amplitude : float
-        Peak |q|/L of the motion, about that of an orbit of the first mode.
-    """
-    require_planar(blade)
-    unit = blade.unit
-    if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
-        return ""
-    if not 0.0 < amplitude < 1.0:
-        return ""
-    omega, amplitude = rotation_speed(omega), float(amplitude)
-    try:
-        orbits = planar_orbits(blade, omega)
-        for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
-            # What the first resolution finds, the finer one confirms.
-            told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH
-            if told and (what := orbits.growth(a, 2)).per_radian >= LEAST_GROWTH:
-                return (
-                    f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit "
-                    f"of a = {a:.3g} leaves it by {what.per_radian:.2g} per radian ({what.kind} of "
-                    f"{' and '.join(what.modes)}), and this one has a = {amplitude:.3g}"
-                )
-    except ValueError as unknown:
-        return f"whether this motion stays in its plane is not known: {unknown}"
-    except (AmplitudeNotReachedError, NoOrbitError):
-        pass
-    return ""
 
 
 @dataclass(frozen=True, kw_only=True)

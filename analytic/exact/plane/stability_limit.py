@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass
 from itertools import groupby
 
-from ...beam import AnyBlade
+from ...beam import AnyBlade, require_out_of_plane
 from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import require_out_of_plane
 from .growth import (
     GROWTH,
     LEAST_GROWTH,
@@ -95,9 +94,6 @@ class StabilityLimit:
     modes: tuple[str, ...]
     tongues: tuple[Tongue, ...]
     converged: bool
-
-    def __float__(self) -> float:
-        return self.amplitude
 
     def __str__(self) -> str:
         at = f"At {self.omega:g} rad/s the planar orbits of this section"

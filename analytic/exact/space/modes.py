@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
+from ...beam import AnyBlade, require_out_of_plane
 from ...input_checks import points_of_beam
 from ...methods.gyroscopic import reciprocal_modes
 from ...settled import settled
 from ...theory import Theory
-from ..beam.discretization import require_out_of_plane
 from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
 

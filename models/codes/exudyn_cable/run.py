@@ -18,7 +18,7 @@ history = called(ENTRY)
 
 def frequency(case: Case, n: int, speed: float) -> float:
     """Return the first one about the steady state."""
-    return ENTRY.frequencies(case.blade, speed, n, 1)[0]
+    return ENTRY.frequencies(case, speed, n)[0]
 
 
 if __name__ == "__main__":

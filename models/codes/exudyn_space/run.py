@@ -17,14 +17,19 @@ from rotbeam_exu.verification.submission import Declaration
 ENTRY = formulation_entry(SpaceExact())
 
 
+def of_tube(case: Case) -> Case:
+    """Return the case of a tube, which bends alike in all directions."""
+    return replace(case, blade=case.blade.with_shape(Tube()))
+
+
 def history(case: Case, n: int, h: float):
-    """Spin a tube up, which bends alike in all directions."""
-    return called(ENTRY)(replace(case, blade=case.blade.with_shape(Tube())), n, h)
+    """Spin a tube up."""
+    return called(ENTRY)(of_tube(case), n, h)
 
 
 def frequency(case: Case, n: int, speed: float) -> float:
     """Return the first one in the plane about the steady state."""
-    return ENTRY.frequencies(case.blade.with_shape(Tube()), speed, n, 1)[0]
+    return ENTRY.frequencies(of_tube(case), speed, n)[0]
 
 
 if __name__ == "__main__":

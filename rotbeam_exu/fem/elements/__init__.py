@@ -51,10 +51,7 @@ def formulation(
     element = ALIASES.get(element, element)
     if element not in FORMULATIONS:
         names = ", ".join(map(repr, FORMULATIONS))
-        raise ValueError(
-            f"unknown element {element!r}; known are {names}; other codes are in "
-            "rotbeam_exu.verification.peers"
-        )
+        raise ValueError(f"unknown element {element!r}; known are {names}")
     cls: Any = FORMULATIONS[element]
     fields = [field.name for field in dataclasses.fields(cls)]
     for name in options or {}:

@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import AnyBlade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.exact.beam.discretization import require_out_of_plane
+from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items

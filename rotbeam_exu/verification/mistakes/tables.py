@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TypeVar
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,19 +14,16 @@ from analytic.arrays import FloatArray
 from ..cases import Asked, Case
 from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
-from ..submission import BackbonePoint, Frequency, SteadyTip
+from ..submission import Row
 from .histories import SIGNS, TWISTED, UNITS
 from .mistake import Mistake, explaining, largest
 
-Row = TypeVar("Row", Frequency | SteadyTip, BackbonePoint)
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the frequencies that a right code hands in with the mistake."""
 
-SMALL = THRESHOLDS["linear frequency"]
-"""Relative error of a frequency below which no mistake is looked for: what passes."""
-
 SMALL_OF_SHIFT = 1e-2
-"""The same of backbones, over the largest shift: a first harmonic for a peak is 5 % at 0.6."""
+"""Error of a backbone over the largest shift below which no mistake is looked for: a first harmonic
+for a peak is 5 % at 0.6. Of other tables it is what passes."""
 
 _MOST_BINS, _IN_BIN, _FEWEST = 300, 1e-3, 3
 """Bins up to a frequency that are tried, how far off one it may be, and how many frequencies."""
@@ -46,87 +43,90 @@ _STEADY_SIGNS = {
 """Signs of a steady tip after a half turn about the blade, and after a mirror."""
 
 
-def mistake_in_frequencies(
-    case: Case,
-    rows: Sequence[Frequency | SteadyTip],
-    reference: Reference,
-    most: float = THRESHOLDS["linear frequency"] / 3.0,
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Seen:
+    """The finest mesh's rows of a table, their numbers in one row, and the exact ones."""
+
+    case: Case
+    rows: list[Row]
+    reference: Reference
+    found: FloatArray
+    true: FloatArray
+
+    def of_rows(self, name: str) -> FloatArray:
+        """Return an attribute of all rows."""
+        return np.array([getattr(row, name) for row in self.rows])
+
+    @property
+    def linear(self) -> FloatArray:
+        """ω_n at the rows' speeds [rad/s]."""
+        return np.array([self.reference.first_frequency(row.speed) for row in self.rows])
+
+
+def mistake_in_table(
+    case: Case, rows: Sequence[Row], reference: Reference, most: float
 ) -> Mistake | None:
-    """Return the mistake that explains the errors of the finest mesh's frequencies or tips."""
+    """Return the mistake that explains the errors of the finest mesh's numbers, if there is one.
+
+    It leaves `most` at most, of backbones over the largest shift at a speed.
+    """
     done = [one for one in rows if one.case == case.name and not one.failure]
-    finest = _finest(done) if done else []
-    places = [
-        (one.speed, place, value) for one in finest for place, (value, _) in one.values.items()
-    ]
-    if not places:
+    finest = [one for one in done if one.elements == max(one.elements for one in done)]
+    if not finest:
         return None
-    found = np.array([value for *_, value in places])
-
-    def of(factor: float) -> FloatArray:
-        speeds = {factor * speed for speed, *_ in places}
-        known = {speed: row_of(case, reference.theory, speed)[0] for speed in speeds}
-        return np.array([known[factor * speed][place] for speed, place, _ in places])
-
-    def suspects() -> _Suspects:
-        if case.asked is Asked.STEADY:
-            other = "sign of the precone" if case.loads else "sign of gravity"
-            for name, (said, factors) in {**SIGNS, **_STEADY_SIGNS}.items():
-                if name != other:
-                    yield name, said, true * [factors[place] for _, place, _ in places]
-            return
-        yield from _other_units(true)
-        yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
-        speeds = np.array([speed for speed, *_ in places])
-        if not case.in_space and any(case.speeds):
-            yield from _other_motions(true, speeds, float(of(0.0)[0]))
-        yield from _bins(found, true)
-        for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
-            if not case.in_space or not factor:  # whose modes take a tenth of a second
-                yield name, said, of(factor)
-
-    true = np.array([reference.row(speed)[place] for speed, place, _ in places])
-    (quantity,) = case.quantities
-    small = THRESHOLDS[quantity]
-    return _explaining(case, found, true, np.ones(true.size), small, most, suspects())
-
-
-def mistake_in_backbone(
-    case: Case, rows: Sequence[BackbonePoint], reference: Reference, most: float = SMALL_OF_SHIFT
-) -> Mistake | None:
-    """Return the mistake that explains the error of the finest mesh's backbones."""
-    points = _finest(rows)
-    true = np.array([reference.frequency_at(one.amplitude, one.speed) for one in points])
-    linear = np.array([reference.first_frequency(one.speed) for one in points])
-    scale = np.array([largest((true / linear - 1.0)[_at(points, one.speed)]) for one in points])
-
-    def suspects() -> _Suspects:
-        yield from _other_units(true)
-        yield "linear frequency", "the frequencies are ω_n, whatever the amplitude", linear
-        a = np.array([one.amplitude for one in points])
-        said = "the amplitudes are those of the first harmonic: hand in the peak, max|q|/L"
-        yield "first harmonic", said, _of_orbits(case, points, a, first_harmonic=True)
-        said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
-        yield "peak to peak", said, _of_orbits(case, points, 0.5 * a)
-
-    found = np.array([one.frequency for one in points])
-    return _explaining(case, found, true, scale, SMALL_OF_SHIFT, most, suspects())
-
-
-def _explaining(
-    case: Case,
-    found: FloatArray,
-    true: FloatArray,
-    scale: FloatArray,
-    small: float,
-    most: float,
-    suspects: _Suspects,
-) -> Mistake | None:
-    """Return the mistake that explains what frequencies are off by, relative to `scale`."""
+    found = np.concatenate([one.values for one in finest])
+    true = np.concatenate([reference.numbers(one) for one in finest])
+    seen = _Seen(case=case, rows=finest, reference=reference, found=found, true=true)
+    suspects, small, scale = _of_frequencies, THRESHOLDS[case.quantities[0]], np.ones(true.size)
+    if case.asked is Asked.STEADY:
+        suspects = _of_tips
+    elif case.asked is Asked.BACKBONE:
+        shift, speeds = true / seen.linear - 1.0, seen.of_rows("speed")
+        scale = np.array([largest(shift[speeds == speed]) for speed in speeds])
+        suspects, small = _of_backbones, SMALL_OF_SHIFT
     before = largest((found / true - 1.0) / scale)
     if not before > small:
         return None
-    left = ((name, said, largest((found / w - 1.0) / scale)) for name, said, w in suspects)
+    left = ((name, said, largest((found / w - 1.0) / scale)) for name, said, w in suspects(seen))
     return explaining(case.name, before, most, left)
+
+
+def _of_frequencies(seen: _Seen) -> _Suspects:
+    """Yield frequencies in other units, of other speeds and motions, and from a spectrum."""
+    case, true, speeds = seen.case, seen.true, seen.of_rows("speed")
+
+    def at(factor: float) -> FloatArray:
+        theory, wanted = seen.reference.theory, set((factor * speeds).tolist())
+        known = {speed: row_of(case, theory, speed)[0] for speed in wanted}
+        return np.array([known[factor * row.speed][row.number - 1] for row in seen.rows])
+
+    yield from _other_units(true)
+    yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
+    if not case.in_space and any(case.speeds):
+        yield from _other_motions(true, speeds, float(at(0.0)[0]))
+    yield from _bins(seen.found, true)
+    for name, (said, factor) in _SPEED_UNITS.items() if any(case.speeds) else ():
+        if not case.in_space or not factor:  # whose modes take a tenth of a second
+            yield name, said, at(factor)
+
+
+def _of_tips(seen: _Seen) -> _Suspects:
+    """Yield steady tips of other signs and units."""
+    other = "sign of the precone" if seen.case.loads else "sign of gravity"
+    for name, (said, factors) in {**SIGNS, **_STEADY_SIGNS}.items():
+        if name != other:
+            yield name, said, seen.true * np.tile(factors, len(seen.rows))
+
+
+def _of_backbones(seen: _Seen) -> _Suspects:
+    """Yield backbones in other units, and over other amplitudes."""
+    a = seen.of_rows("amplitude")
+    yield from _other_units(seen.true)
+    yield "linear frequency", "the frequencies are ω_n, whatever the amplitude", seen.linear
+    said = "the amplitudes are those of the first harmonic: hand in the peak, max|q|/L"
+    yield "first harmonic", said, _of_orbits(seen, a, first_harmonic=True)
+    said = "the amplitudes are from peak to peak: hand in the peak, max|q|/L"
+    yield "peak to peak", said, _of_orbits(seen, 0.5 * a)
 
 
 def _other_motions(true: FloatArray, speeds: FloatArray, at_rest: float) -> _Suspects:
@@ -161,30 +161,19 @@ def _other_units(true: FloatArray) -> _Suspects:
         yield name, f"the frequencies are in {unit}: hand in rad/s", factor * true
 
 
-def _of_orbits(
-    case: Case, points: Sequence[BackbonePoint], a: FloatArray, first_harmonic: bool = False
-) -> FloatArray:
+def _of_orbits(seen: _Seen, a: FloatArray, first_harmonic: bool = False) -> FloatArray:
     """Return the exact frequencies at peaks or first harmonics; where there is none, infinity."""
-    found = np.full(a.size, np.inf)
-    for speed in {one.speed for one in points}:
-        here = _at(points, speed)
+    found, speeds = np.full(a.size, np.inf), seen.of_rows("speed")
+    for speed in np.unique(speeds):
+        here = speeds == speed
         wanted = np.unique(a[here])
         try:
             # A first harmonic is up to 3 % larger than the peak.
             peaks = np.union1d(wanted, 0.97 * wanted) if first_harmonic else wanted
-            orbits = periodic_orbits(case.blade, speed, peaks)
+            orbits = periodic_orbits(seen.case.blade, float(speed), peaks)
         except (RuntimeError, ValueError):
             continue
         sizes = orbits.first_harmonic if first_harmonic else orbits.amplitude
         # Frequencies are nearly linear in a².
         found[here] = np.interp(a[here] ** 2, sizes**2, orbits.frequency)
     return found
-
-
-def _at(points: Sequence[BackbonePoint], speed: float) -> np.ndarray[tuple[int], np.dtype[np.bool]]:
-    return np.array([one.speed == speed for one in points])
-
-
-def _finest(rows: Sequence[Row]) -> list[Row]:
-    most = max(one.elements for one in rows)
-    return [one for one in rows if one.elements == most]

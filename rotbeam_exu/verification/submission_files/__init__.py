@@ -6,7 +6,7 @@ import hashlib
 import math
 import os
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -15,12 +15,19 @@ from typing import Any
 import numpy as np
 
 from ...files.results import whole_folder
-from ..cases import CASES, TIP, Asked, Case
+from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
-from ..submission import BackbonePoint, Frequency, Run, SteadyTip, Submission
+from ..submission import Row, Run, Submission
 from . import entry, runs
-from .content import OUTSIDE, below, content_of
-from .faults import Faults, MalformedSubmissionError, near, printable
+from .faults import (
+    OUTSIDE,
+    Faults,
+    MalformedSubmissionError,
+    below,
+    content_of,
+    near,
+    printable,
+)
 from .tables import (
     FAILURE,
     LEAST_DIGITS,
@@ -74,38 +81,29 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     >>> with TemporaryDirectory() as folder:
     ...     _ = Path(folder, "entry.toml").write_text('benchmark = "1.1"\ncode = "mine"')
     ...     _ = Path(folder, "L.csv").write_text("elements,speed,frequency\n8,6.0,3.731123456")
-    ...     print(read_submission(folder).frequencies[0].frequency)
-    3.731123456
+    ...     print(read_submission(folder).rows[0].values)
+    (3.731123456,)
     """
     root, faults = Path(folder), Faults()
     if not root.is_dir():
         raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
     declaration = entry.declaration_of(root, faults)
-    points: dict[Asked, list[dict[str, Any]]] = {asked: [] for asked in Asked}
+    rows: list[Row] = []
     for file, case in _tables().items():
         if os.path.lexists(root / file):
-            points[case.asked] += _points(root, file, case, faults)
+            rows += _rows(root, file, case, faults)
     for file, case in _vibrations(root):
-        points[case.asked] += _vibration(root, file, case, points[case.asked], faults)
+        rows += _vibration(root, file, case, rows, faults)
     histories = runs.runs_of(root, faults, only)
     _strangers(root, faults)
-    frequencies, steady = points[Asked.FREQUENCIES], points[Asked.STEADY]
-    backbone = [row for row in points[Asked.BACKBONE] if "failure" not in row]
-    some = bool(frequencies or steady or backbone or histories)
-    if not (faults or some):
+    if not (faults or rows or histories):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
         faults.add(entry.FILE, said)
     if declaration is None:
         raise MalformedSubmissionError(faults.told())
-    made = Submission(
-        declaration=declaration,
-        frequencies=tuple(Frequency(**row) for row in frequencies),
-        steady=tuple(SteadyTip(**row) for row in steady),
-        backbone=tuple(BackbonePoint(**row) for row in backbone),
-        runs=histories,
-    )
+    made = Submission(declaration=declaration, rows=tuple(rows), runs=histories)
     if faults:
-        raise MalformedSubmissionError(faults.told(), made if some else None)
+        raise MalformedSubmissionError(faults.told(), made if rows or histories else None)
     return made
 
 
@@ -134,10 +132,10 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> from rotbeam_exu.verification.submission import Declaration, Frequency, Submission
+    >>> from rotbeam_exu.verification.submission import Declaration, Row, Submission
     >>> from rotbeam_exu.verification.submission_files import write_submission
-    >>> mine = Frequency(elements=8, speed=6.0, frequency=3.731123456)
-    >>> submission = Submission(declaration=Declaration(code="mine"), frequencies=(mine,))
+    >>> mine = Row(case="L", elements=8, speed=6.0, values=(3.731123456,))
+    >>> submission = Submission(declaration=Declaration(code="mine"), rows=(mine,))
     >>> with TemporaryDirectory() as folder:
     ...     written = write_submission(submission, Path(folder, "mine"))
     ...     print(sorted(path.name for path in written.iterdir()))
@@ -151,14 +149,15 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
     for table, case in _tables().items():
-        points: list[Any] = [row for row in submission.rows if row.case == case.name]
-        points += submission.backbone if case.asked is Asked.BACKBONE else ()
-        columns = [
-            one for one in _columns(case)
-            if one is not _ROUNDING or any(point.rounding for point in points)
+        columns = _columns(case)
+        names = [column.name for column in columns if column.measured]
+        rows = [
+            vars(row) | dict(zip(names, row.values, strict=False))
+            | {"rounding": row.rounding[0] if row.rounding else None}
+            for row in submission.rows if row.case == case.name
         ]  # fmt: skip
-        texts |= {table: written(columns, points)} if points else {}
-    texts |= {runs.FILE: written(runs.COLUMNS, named)} if named else {}
+        texts |= {table: written(columns, rows)} if rows else {}
+    texts |= {runs.FILE: written(runs.COLUMNS, list(map(vars, named)))} if named else {}
     for name in (*texts, *(run.case for run in named)):
         if (root / name).exists():
             raise FileExistsError(f"{root} holds {name} already: choose another folder")
@@ -173,9 +172,8 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
 
 def _write_history(run: Run, folder: Path) -> None:
     """Write the history of a run into the folder of its case."""
-    held = ["time", *(TIP if run.q.ndim > 1 else ("q",)), *["q_dot"] * (run.q_dot is not None)]
-    parts = (run.time, run.q, run.q_dot)
-    numbers = np.column_stack([part for part in parts if part is not None])
+    held = "time", *CASES[run.case].columns
+    numbers = np.column_stack([run.time, run.q])
     (folder / run.case).mkdir(exist_ok=True)
     with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
         # NumPy's words of a number are its shortest ones that read back the same.
@@ -211,32 +209,38 @@ def _columns(case: Case) -> tuple[Column, ...]:
     return (*places, Column("frequency", _positive, "rad/s", measured=True), _ROUNDING, FAILURE)
 
 
-def _points(folder: Path, file: str, case: Case, faults: Faults) -> list[dict[str, Any]]:
-    """Return the rows of a case's table by field; rows with a failure have no frequency."""
+def _rows(folder: Path, file: str, case: Case, faults: Faults) -> list[Row]:
+    """Return the rows of a case's table."""
     columns = _columns(case)
     sheet = sheet_of(folder, file, columns, faults)
     names = [column.name for column in columns if column.measured]
-    of_case = {} if case.asked is Asked.BACKBONE else {"case": case.name}
-    found: dict[tuple[float, ...], dict[str, Any]] = {}
+    found: dict[tuple[Any, ...], Row] = {}
     most = dict.fromkeys(names, 0)
-    for line, cells, row in rows_of(sheet, faults) if sheet else ():
-        place = row["elements"], row["speed"], row.get("amplitude", row.get("number", 0))
-        if place in found:
+    for line, cells, stated in rows_of(sheet, faults) if sheet else ():
+        values = tuple(stated.pop(name) for name in names if name in stated)
+        told = stated.pop("rounding", None)
+        row = Row(case=case.name, **stated, values=values, rounding=(told,) if told else ())
+        if (row.elements, row.place) in found:
             faults.add(file, "the same row stands above: keep one", line)
             continue
-        found[place] = row | of_case
-        most |= {name: max(most[name], digits(cells[name])) for name in names if name in row}
-    measured = [row for row in found.values() if names[0] in row]
+        found[row.elements, row.place] = row
+        if values:
+            most = {name: max(most[name], digits(cells[name])) for name in names}
+    measured = any(row.values for row in found.values())
     short = [name for name, count in most.items() if measured and count < LEAST_DIGITS]
     if short:
         named = {"frequency": "frequencies are"}.get(short[0], f"column {short[0]!r} is")
         faults.add(file, f"{named} written to {most[short[0]]} {TOO_FEW}")
         return []
-    for row in measured:
-        errors = tuple(rounding(most[name], abs(row[name])) for name in names)
-        told = row.get("rounding", 0.0)
-        row["rounding"] = errors if len(errors) > 1 else max(errors[0], told)
-    return list(found.values())
+    return [_rounded(row, list(most.values())) for row in found.values()]
+
+
+def _rounded(row: Row, most: Sequence[int]) -> Row:
+    """Return a row with the errors of its last digits, or what is told of them."""
+    lost = [rounding(count, abs(value)) for count, value in zip(most, row.values, strict=False)]
+    told = row.rounding or [0.0] * len(lost)
+    errors = tuple(map(max, lost, told))
+    return replace(row, rounding=errors if any(errors) else ())
 
 
 def _vibrations(root: Path) -> list[tuple[str, Case]]:
@@ -249,9 +253,7 @@ def _vibrations(root: Path) -> list[tuple[str, Case]]:
     ]
 
 
-def _vibration(
-    root: Path, file: str, case: Case, rows: list[dict[str, Any]], faults: Faults
-) -> list[dict[str, Any]]:
+def _vibration(root: Path, file: str, case: Case, rows: Sequence[Row], faults: Faults) -> list[Row]:
     """Return the row that a free vibration stands for, if it is right and is not in the table."""
     place = _VIBRATION.fullmatch(file.partition("/")[2])
     try:
@@ -260,12 +262,12 @@ def _vibration(
             raise ValueError(f"is no name of a free vibration: {remedy}")
         elements, speed = whole("elements", place[1]), asked(case.speeds)("speed", place[2])
         mine = case.name, elements, speed
-        if mine in [(one["case"], one["elements"], one["speed"]) for one in rows]:
+        if mine in [(one.case, one.elements, one.speed) for one in rows]:
             raise ValueError("the same mesh and speed are handed in twice: keep one")
         lasting = replace(case, duration=FREE_FOR)
         held = runs.history_of(root, file, lasting, math.nan, faults)
         if held is not None:
-            return [vars(free_frequency(case, elements, speed, held["time"], held["q"]))]
+            return [free_frequency(case, elements, speed, held["time"], held["q"])]
     except ValueError as error:
         faults.add(file, str(error))
     return []

@@ -16,8 +16,7 @@ from analytic.arrays import FloatArray
 
 from ..cases import CASES, TIP, Asked, Case
 from ..submission import Run
-from .content import below
-from .faults import Faults, printable, several, shown
+from .faults import Faults, below, printable, several, shown
 from .tables import (
     DIGITS,
     FAILURE,
@@ -149,11 +148,10 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
 def history_of(
     folder: Path, file: str, case: Case, step: float, faults: Faults
 ) -> dict[str, Any] | None:
-    """Return time, q and perhaps q_dot up to the end of the case; None if something is wrong.
+    """Return time and q up to the end of the case, and the error that the last digits leave.
 
-    In space q is lag, flap and twist, (samples, 3).
-
-    Also the error of their last digits. `step` is NaN where it is not known.
+    None if something is wrong. In space q is lag, flap and twist, (samples, 3). `step` is NaN where
+    it is not known. A rate, q_dot, is not judged.
     """
     wanted = (HISTORY[0], *TIP_COLUMNS) if case.in_space else HISTORY
     sheet = sheet_of(folder, file, wanted, faults)
@@ -174,11 +172,9 @@ def history_of(
     if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
         return None
     within = columns["time"] <= case.duration
-    errors = [_rounding(columns, name, most, step) for name in case.columns]
-    found = {name: values[within] for name, values in columns.items()}
-    if case.in_space:
-        return {"time": found["time"], "q": tip.T[within], "rounding": np.array(errors)}
-    return found | {"rounding": errors[0]}
+    errors = np.array([_rounding(columns, name, most, step) for name in case.columns])
+    q, lost = (tip.T, errors) if case.in_space else (tip[0], errors[0])
+    return {"time": columns["time"][within], "q": q[within], "rounding": lost}
 
 
 def _numbers(sheet: Sheet, faults: Faults) -> FloatArray | None:

@@ -11,15 +11,14 @@ import io
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .content import text_of
-from .faults import Faults, near, shown
+from .faults import Faults, near, shown, text_of
 
 MOST_LINES = 2_000_000
 LONGEST_LINE = 10_000
@@ -259,13 +258,13 @@ def rounding(most: int, largest: float) -> float:
     return 0.5 * float(10.0 ** (math.floor(math.log10(largest)) + 1 - most))
 
 
-def written(columns: Iterable[Column], things: Sequence[object]) -> str:
-    """Return the table of the attributes of things, which reads back the same."""
-    held = [column for column in columns if hasattr(things[0], column.field)]
+def written(columns: Iterable[Column], rows: Sequence[Mapping[str, object]]) -> str:
+    """Return the table of rows by field, which reads back the same."""
+    held = [one for one in columns if any(row.get(one.field) is not None for row in rows)]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(column.name for column in held)
-    writer.writerows([_cell(getattr(one, column.field)) for column in held] for one in things)
+    writer.writerows([_cell(row.get(column.field)) for column in held] for row in rows)
     return out.getvalue()
 
 

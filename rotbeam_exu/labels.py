@@ -1,0 +1,49 @@
+"""Labeled data: a Dataset of numbers with their dims and labels, and labels that several share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from .lazily import xr
+
+OMEGA = "angular velocity ω [rad/s]"
+GROWTH = "growth rate out of the plane [1/s]"
+ORBIT = "amplitude a = |q|/L of the planar orbit"
+AMPLITUDE = "peak amplitude a = |q|/L"
+
+
+def labeled(label: str) -> dict[str, str]:
+    """Return a label, "angular velocity ω [rad/s]", as the attributes of a variable.
+
+    Without a unit it is 1.
+    """
+    name, _, unit = label.partition(" [")
+    attrs = {"units": unit.removesuffix("]") or "1"}
+    return {**attrs, "long_name": name} if name else attrs
+
+
+def dataset(
+    variables: Mapping[str, tuple[Any, Any, str]],
+    coords: Mapping[str, Any],
+    attrs: Mapping[str, Any] | None = None,
+) -> xr.Dataset:
+    """Return a Dataset of labeled numbers.
+
+    Parameters
+    ----------
+    variables : mapping
+        Dims, values and label by name.
+    coords : mapping
+        Values and label by dimension, or values alone.
+    attrs : mapping, optional
+        All else that is known.
+    """
+    return xr.Dataset(
+        {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},
+        {
+            name: (name, found[0], labeled(found[1])) if isinstance(found, tuple) else found
+            for name, found in coords.items()
+        },
+        attrs,
+    )
