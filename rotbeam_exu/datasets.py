@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.free.orbits import Orbits
