@@ -65,7 +65,7 @@ def test_rates_are_those_of_theory():
     times = np.linspace(0.0, 5.0, 77)
     exact = spin_up_response(BEAM, CASES["S1"].motion, times, tolerance=1e-7)
     # A derivative of a quintic spline has one order less: the bound over the spacing of 5 ms.
-    assert reference(CASES["S1"]).rate(times) == pytest.approx(exact.q_dot, abs=1e-5)
+    assert reference(CASES["S1"]).history(times, 1) == pytest.approx(exact.q_dot, abs=1e-5)
 
 
 @pytest.mark.parametrize(("name", "amplitude"), [("S2", 0.413), ("S1", 0.333), ("S4", 0.333)])
