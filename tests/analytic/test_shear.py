@@ -8,10 +8,9 @@ from numpy.polynomial import Legendre
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from analytic import SpinUp, Theory, periodic_orbits, spin_up_response
-from analytic.exact.beam.discretization import continuum, finer_model
+from analytic import Theory, periodic_orbits
 from analytic.exact.beam.state import Driven
-from analytic.methods.collocation import radau
+from analytic.exact.beam.steady import SteadyBeam, continuum
 from analytic.quadrature import axial_basis, gauss_points
 from tests.beams import SHARE, unit_beam
 
@@ -129,63 +128,20 @@ def test_an_orbit_makes_the_action_stationary(theory):
         assert abs(action) < 1e-6 * scale
 
 
-@pytest.mark.parametrize("rotary_inertia", [False, True])
-def test_an_orbit_returns_and_keeps_its_integral(rotary_inertia):
-    """By Radau's rule, where shear without rotary inertia has no mass."""
-    orbits = periodic_orbits(
-        STUBBY, 3.0, [0.3], theory=Theory(rotary_inertia=rotary_inertia, shear=SHARE)
-    )
-    assert orbits.jacobi_drift[0] < 1e-10
-    orbit = orbits.nondimensional[0]
-    system, method, steps = orbit.system, radau(8), 40
-    h = 2.0 * np.pi / orbit.frequency / steps
-    start = [part[0] for part in orbit.coordinates(np.zeros(1))]
-    q, q_dot = start[:2]
-    acceleration = np.tile(start[2], (8, 1))
-    for _ in range(steps):
-        acceleration = method.step(
-            h, q, q_dot, acceleration, residual=system.residual, tangent=system.tangent
-        ).z
-        positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
-        q, q_dot = positions[-1], velocities[-1]
-    # The orbit's own functions meet the equations to its residual.
-    assert system.model.tip(q) == pytest.approx(system.model.tip(start[0]), abs=1e-7)
-    assert system.model.tip_rate(q, q_dot) == pytest.approx(
-        system.model.tip_rate(*start[:2]), abs=1e-6
-    )
-
-
 def test_shear_vanishes_with_its_compliance(fitted_order):
-    """Of orbits and of histories: to first order, and what is left is the beam without shear."""
+    """To first order, and what is left is the beam without shear."""
     shares = np.array([1e1, 1e2, 1e3])
-    times = np.linspace(0.0, 3.0, 31)
-    spin = partial(
-        spin_up_response, STUBBY, SpinUp(omega=3.0, ramp_time=1.0), times, tolerance=1e-8
-    )
     orbits = partial(periodic_orbits, STUBBY, 3.0, [0.3])
-    rigid_q, rigid = spin().q, orbits()
+    rigid = orbits()
     drops = [rigid.frequency[0] - orbits(theory=Theory(shear=s)).frequency[0] for s in shares]
     # The frequency falls; the second order in the compliance is a thousandth of the first.
     assert min(drops) > 0.0
     assert fitted_order(shares, drops) == pytest.approx(-1.0, abs=0.01)
-    apart = [np.abs(spin(theory=Theory(shear=s)).q - rigid_q).max() for s in shares]
-    assert fitted_order(shares, apart) == pytest.approx(-1.0, abs=0.01)
-
-
-def test_the_section_at_the_clamp_does_not_turn():
-    """There the tangent turns by shear alone, and so do its rates."""
-    orbits = periodic_orbits(STUBBY, 3.0, [0.3], theory=Theory(rotary_inertia=True, shear=SHARE))
-    at = orbits.state(0, [0.0], phase=1.0)
-    along, across = 1.0 + at.u_slope, at.v_slope
-    assert abs(across[0]) > 1e-3
-    assert at.shear_angle == pytest.approx(np.arctan2(across, along), abs=1e-13)
-    turning = (along * at.v_slope_dot - across * at.u_slope_dot) / (along**2 + across**2)
-    assert at.shear_angle_dot == pytest.approx(turning, abs=1e-12)
 
 
 def test_more_functions_hold_the_same_shape():
     model = continuum(MU, 6, 4, shear=SHARE)
-    finer = finer_model(model)
+    finer = SteadyBeam(model, 0.0).refined().model
     assert (finer.bending, finer.axial, finer.shear) == (9, 6, 6)
     q = 0.2 * np.random.default_rng(2).normal(size=model.size)
     x = np.linspace(0.0, 1.0, 7)

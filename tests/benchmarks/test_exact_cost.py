@@ -26,6 +26,7 @@ from analytic.methods.crest import peak_gradient
 from analytic.methods.harmonic_balance import jacobian
 from analytic.quadrature import gauss_points
 from rotbeam_exu import simulate
+from tests.beams import unit_beam
 
 pytestmark = pytest.mark.benchmarks
 
@@ -96,9 +97,7 @@ def test_a_branch_to_ninety_percent_takes_nine_factorizations(factorization):
     assert taken < 9.0 * factorization[1]
 
 
-FLAT = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-).with_section_out_of_plane(1.0 / 16.0, 0.08)
+FLAT = unit_beam(1e-4).with_section_out_of_plane(1.0 / 16.0, 0.08)
 
 
 @pytest.mark.parametrize(
@@ -126,13 +125,6 @@ def test_a_spin_up_in_space_takes_forty_times_that_in_the_plane():
 
 def test_modes_of_a_twisted_blade_take_a_tenth_of_a_second():
     assert cpu_seconds(lambda: linear_modes(FLAT.with_twist(0.5236), 2.0, 4)) < 0.1
-
-
-def test_a_million_points_of_a_curve_take_five_multiplications(beam):
-    curve, a = backbone_curve(beam, 6.0), np.linspace(0.0, 0.6, 1_000_000)
-    bare = seconds(lambda: a * a * 0.3, repeats=25)
-    answers = seconds(lambda: curve.frequency(a), repeats=25)
-    assert answers < 5.0 * bare, f"{1e3 * answers:.2f} ms against {1e3 * bare:.2f} ms"
 
 
 @pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])
@@ -164,16 +156,6 @@ def test_a_response_curve_with_two_folds_takes_less_than_a_simulation(beam):
     run = seconds(lambda: simulate(beam, spin_up, elements=16, duration=15.0))
     response = seconds(curve)
     assert response < run, f"{response:.3f} s against {run:.3f} s"
-
-
-@pytest.mark.parametrize(("omega", "ramp_time"), [(2.0, 3.0), (6.0, 3.0), (8.0, 2.5)])
-def test_a_loose_tolerance_costs_less(beam, omega, ramp_time):
-    spin_up, times = SpinUp(omega=omega, ramp_time=ramp_time), np.linspace(0.0, 15.0, 1501)
-    loose, tight = (
-        seconds(lambda t=tolerance: spin_up_response(beam, spin_up, times, tolerance=t))
-        for tolerance in (1e-4, 1e-8)
-    )
-    assert loose < tight, f"{loose:.3f} s against {tight:.3f} s"
 
 
 def test_a_thousand_ramp_times_take_a_twentieth_of_one_transient(beam):

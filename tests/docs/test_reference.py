@@ -31,7 +31,6 @@ PLAIN = {
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "analytic.exact.beam.section_loads",
     "analytic.exact.beam.state", "analytic.exact.driven.forced_orbits",
     "analytic.exact.driven.response", "analytic.exact.free.backbone",
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",
@@ -39,7 +38,7 @@ BEYOND = {
     "analytic.exact.free.orbits",
     "analytic.exact.linear.campbell",
     "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
-    "analytic.exact.linear.unstretched", "analytic.exact.plane.planarity",
+    "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.speeds",
     "analytic.section", "analytic.spin_up.quiet",

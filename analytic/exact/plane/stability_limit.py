@@ -95,9 +95,6 @@ class StabilityLimit:
     tongues: tuple[Tongue, ...]
     converged: bool
 
-    def __float__(self) -> float:
-        return self.amplitude
-
     def __str__(self) -> str:
         at = f"At {self.omega:g} rad/s the planar orbits of this section"
         if self.damping:

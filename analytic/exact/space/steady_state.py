@@ -13,7 +13,7 @@ from ...input_checks import finite_array, finite_number, points_of_beam, rotatio
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.section_loads import SectionLoads, in_newtons
+from ..beam.state import SectionLoads, in_newtons
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 

@@ -25,31 +25,15 @@ _POINTS = 40  # on each panel, for the unloaded line
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceUnit(UnitBlade):
-    """A blade without dimensions, with its line and its section out of the plane.
+    """A blade without dimensions, with its line and its section out of the plane."""
 
-    Attributes
-    ----------
-    angle : float
-        ψ [rad].
-    line : Line
-        Over L.
-    flap, torsion : float
-        r = EI2/EI3 and g = GJ/EI3.
-    polar : float or None
-        ρI_p over m0 L² at the root, None of a homogeneous section.
-    told_rotary : bool
-        Whether the section tells `rotary`.
-    body_offsets : tuple
-        (c2, c3) over L of each point mass.
-    """
-
-    angle: float = 0.0
-    line: Line = STRAIGHT
-    flap: float = 1.0
-    torsion: float = math.inf
-    polar: float | None = None
-    told_rotary: bool = False
-    body_offsets: tuple[Offset, ...] = ()
+    angle: float = 0.0  # ψ [rad]
+    line: Line = STRAIGHT  # over L
+    flap: float = 1.0  # r = EI2/EI3
+    torsion: float = math.inf  # g = GJ/EI3
+    polar: float | None = None  # ρI_p over m0 L² at the root, None of a homogeneous section
+    told_rotary: bool = False  # whether the section tells `rotary`
+    body_offsets: tuple[Offset, ...] = ()  # (c2, c3) over L of each point mass
 
     @cached_property
     def panels(self) -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
-from analytic.exact.beam.section_loads import in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import BeamState
 from analytic.lazily import Lazily
 
