@@ -40,10 +40,7 @@ class BackboneBranch(Branch):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
+    beam, omega, mode : those of the backbone
     amplitude : ndarray (points,)
         Peak |q|/L, in order along each piece.
     frequency : ndarray (points,)

@@ -39,11 +39,7 @@ class BackboneCurve:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        From 1.
+    beam, omega, mode : as given
     omega_n : float
         ω_n [rad/s].
     holds_up_to : float

@@ -34,11 +34,7 @@ class Orbits(OrbitSet):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        The mode from which the orbits grow, from 1.
+    beam, omega, mode : as given
     omega_n : float
         Its linear frequency ω_n [rad/s].
     amplitude : ndarray (orbits,)
