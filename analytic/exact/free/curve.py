@@ -123,7 +123,7 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
         warn(
             f"the backbone at omega = {of.omega:g} rad/s has a series of {count} coefficients that "
             f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
-            f"{nearest_resonance(below, of.modes, of.mode)}; ask for more coefficients, or take "
+            f"{nearest_resonance(of, below)}; ask for more coefficients, or take "
             f"backbone(...).branch"
         )
     return curve
