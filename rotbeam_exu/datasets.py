@@ -26,9 +26,8 @@ from .files.results import parts
 from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
-from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.attributes import beam_attributes, loads_attributes, motion_attributes, versions
 from .runs.shape import shape_of
-from .runs.versions import versions
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
 _MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}

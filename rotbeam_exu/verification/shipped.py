@@ -27,7 +27,7 @@ FILE = Path(__file__).parent / "data" / "references.nc"
 DIGEST = "b47671f0fcc83cabdcfb3aeb183c29d58b218c23b6cb07b2061a70db6da0b796"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
-_REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
+_REMEDY = "install rotbeam-exu again, or make them by tools/references.py of the repository"
 
 DURATION = 20.0
 """End of the shipped histories [s]."""

@@ -1,6 +1,7 @@
 """The shipped truth against what is computed anew, and the truth of what is not shipped."""
 
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,11 +11,13 @@ import xarray as xr
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
 from analytic.theory import Theory
-from rotbeam_exu.verification import regenerate
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
 from rotbeam_exu.verification.references import reference, sampled_history
 from rotbeam_exu.verification.shipped import DURATION, shipped, shipped_backbones, shipped_histories
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+import references
 
 BEAM = Beam.reference()
 
@@ -224,7 +227,7 @@ def test_no_bit_of_the_data_is_another(tmp_path, monkeypatch):
         other[place] ^= 1 << (place % 8)
         said = other_data(tmp_path, monkeypatch, bytes(other))
         assert "references.nc were damaged or changed (SHA-256 " in said
-        assert "install rotbeam-exu again, or make them by python -m" in said
+        assert "install rotbeam-exu again, or make them by tools" in said
     assert "damaged or changed" in other_data(tmp_path, monkeypatch, raw[:-1])
 
 
@@ -242,7 +245,7 @@ def test_data_made_anew_are_taken_with_the_digest_that_is_written(tmp_path, monk
     code.write_text(Path(room.__file__).read_text("utf-8"), "utf-8")
     monkeypatch.setattr(room, "__file__", str(code))
     monkeypatch.setattr(room, "FILE", tmp_path / "references.nc")
-    regenerate.write(data.assign_attrs(commit="another"))
+    references.write(data.assign_attrs(commit="another"))
     found = re.search(r'^DIGEST = "([0-9a-f]{64})"$', code.read_text("utf-8"), re.MULTILINE)[1]
     assert found != room.DIGEST
     monkeypatch.setattr(room, "DIGEST", found)
@@ -251,5 +254,5 @@ def test_data_made_anew_are_taken_with_the_digest_that_is_written(tmp_path, monk
 
 def test_missing_data_say_how_to_make_them(tmp_path, monkeypatch):
     monkeypatch.setattr(room, "FILE", tmp_path / "references.nc")
-    with pytest.raises(RuntimeError, match=r"python -m rotbeam_exu\.verification\.regenerate"):
+    with pytest.raises(RuntimeError, match="by tools/references.py of the repository"):
         shipped.__wrapped__()

@@ -1,4 +1,4 @@
-"""Make the shipped reference data anew: `python -m rotbeam_exu.verification.regenerate`.
+"""Make the shipped reference data anew: part of `make references`.
 
 Takes eight minutes, half of it the kicked tube. Look at what moved, and by how much against the
 bounds, before committing it.
@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 from rich.progress import track
 
 from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
@@ -21,11 +22,9 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
 from analytic.theory import Theory
-
-from ..lazily import xr
-from . import shipped
-from .cases import VERSION, Case
-from .references import Sampled, row_of, sampled_history
+from rotbeam_exu.verification import shipped
+from rotbeam_exu.verification.cases import VERSION, Case
+from rotbeam_exu.verification.references import Sampled, row_of, sampled_history
 
 SPACING = 5e-3
 """Time between the shipped samples [s]."""
@@ -172,13 +171,8 @@ def write(data: xr.Dataset) -> None:
     Path(shipped.__file__).write_text(code, encoding="utf-8")
 
 
-def main() -> None:
-    """Compute and write all data; their commit is told dirty if something is not in it."""
-    root = Path(__file__).parents[2]
-    described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
-    commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()
-    write(dataset(commit))
-
-
 if __name__ == "__main__":
-    main()
+    # The commit is told dirty if something is not in it.
+    described = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty"]
+    commit = subprocess.run([*described, "--abbrev=12"], capture_output=True, text=True, check=True)
+    write(dataset(commit.stdout.strip()))
