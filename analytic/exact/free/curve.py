@@ -22,9 +22,8 @@ from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError
 from .internal_resonance import nearest_resonance
-from .path import ModePath
+from .path import AmplitudeNotReachedError, ModePath
 
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for

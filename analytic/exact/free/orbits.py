@@ -16,9 +16,9 @@ from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError, OrbitSet, SpaceOrbitSet
+from .branch import OrbitSet, SpaceOrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
-from .path import ModePath
+from .path import AmplitudeNotReachedError, ModePath
 
 if TYPE_CHECKING:
     from ...plotting import Axes
