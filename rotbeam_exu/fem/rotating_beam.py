@@ -12,7 +12,7 @@ from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
-from ..runs.resolution import whole_steps
+from ..runs.check import whole_steps
 from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled
 from .frame import Frame

@@ -22,8 +22,8 @@ from analytic.motion import SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError, check_run, remedy
-from ..runs.versions import versions
 from . import drive
 from .case import RunCase
 from .columns import columns

@@ -27,9 +27,9 @@ from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..labels import OMEGA, dataset
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
-from ..runs.versions import versions
 from .cache import Cache, cache_of
 from .workers import worker_pool
 

@@ -14,7 +14,6 @@ from analytic import (
     periodic_orbits,
     reduced_model,
 )
-from analytic.exact.linear.unstretched import unstretched_frequencies
 from tests.beams import UNIT
 
 
@@ -60,8 +59,6 @@ def test_a_mass_inside_the_span_is_met_to_all_digits(mass, inertia):
     assert found == pytest.approx(exact, rel=1e-9)
     assert blade.omega_0 == pytest.approx(exact[0], rel=1e-12)
     assert reduced_model(blade, 0.0, "FrM").omega_n == pytest.approx(exact[0], rel=1e-10)
-    # The axial motion does not know of bending at rest.
-    assert unstretched_frequencies(blade, 0.0)[0] == pytest.approx(exact[0], rel=1e-9)
 
 
 def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():

@@ -178,17 +178,6 @@ def test_spin_up_before_anything_moves(beam):
     assert complaint(spin_up_response, beam, spin_up, [1e-4, 0.5], tolerance=1e-6) == ""
 
 
-def test_spin_up_too_long(beam, monkeypatch):
-    spin_up = SpinUp(omega=1.0, ramp_time=1.0)
-    assert "1e+05 at most" in complaint(spin_up_response, beam, spin_up, [1e12])
-    monkeypatch.setattr("analytic.exact.driven.response._MOST_STEPS", 30)
-    said = complaint(spin_up_response, beam, spin_up, [100.0], tolerance=1e-4)
-    end = float(re.search(r"ask for times up to ([0-9.e+-]+) s", said)[1])
-    assert complaint(spin_up_response, beam, spin_up, [end], tolerance=1e-2) == ""
-    # No less than need be.
-    assert "at most" in complaint(spin_up_response, beam, spin_up, [1.3 * end], tolerance=1e-4)
-
-
 def test_spin_up_ramp_too_short(beam):
     said = complaint(spin_up_response, beam, SpinUp(omega=6.0, ramp_time=1e-300), [0.1])
     assert said.endswith("take a longer ramp")

@@ -20,10 +20,9 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
-from analytic.exact.beam.steady import SteadyBeam, steady_rotation
-from analytic.exact.driven.loading import DrivenBlade
+from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
+from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
@@ -32,7 +31,7 @@ from analytic.parts import UNDAMPED
 from analytic.quadrature import gauss_points
 from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
-from tests.beams import clamped_basis
+from tests.beams import clamped_basis, unit_beam
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -157,19 +156,6 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
         assert np.abs(multipliers - wanted).min() < 1e-4
 
 
-def test_damping_takes_its_decay_from_the_growth():
-    """Mathieu's tongue of twice a mode: what grows loses ζν [1/s], to first order."""
-    section, amplitude, ratio = SLENDER, 0.3917, 1e-4
-    blade = BEAM.with_section_out_of_plane(**asdict(section))
-    free, damped = (planar_stability(blade, 2.0, amplitude, damping=d) for d in (0.0, ratio))
-    assert free.kind == damped.kind
-    assert free.modes == (("flap 1",),)
-    lost = float(free.growth_rate[0] - damped.growth_rate[0])
-    flap = linear_modes(blade, 2.0, 1, plane="flap").frequencies[0]
-    # The orbit bends the mode a little; ratios of higher modes are higher in 1/s.
-    assert lost == pytest.approx(ratio * flap, rel=1e-2)
-
-
 @pytest.mark.parametrize(
     ("blade", "digits"),
     # What 18 functions and the round-off of K leave; at a mass inside e jumps, and w' with it.
@@ -178,9 +164,7 @@ def test_damping_takes_its_decay_from_the_growth():
         (BEAM.with_hub_radius(4.0).with_tip_mass(0.5), 2e-8),
         (BEAM.with_taper(0.3, 0.3).with_point_mass(0.2, 5.0), 2e-6),
         (
-            Beam.from_stiffness(
-                length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
-            ).blade,
+            unit_beam(5e-4).blade,
             2e-8,
         ),
     ],
@@ -293,17 +277,6 @@ def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digi
     assert optimize.brentq(least, 0.75 * known, 1.17 * known) == pytest.approx(known, abs=digits)
 
 
-@pytest.mark.parametrize("bending_ratio", [1.0, 1.0 + 1e-13])
-@pytest.mark.parametrize("torsion_ratio", [0.1, 1.0, RIGID])
-def test_at_rest_a_round_section_has_the_multiplier_one_twice_more(bending_ratio, torsion_ratio):
-    """The plane may be turned about the blade; also where the twist is computed, and follows."""
-    blade = BEAM.with_section_out_of_plane(bending_ratio, torsion_ratio, 0.0)
-    found = planar_stability(blade, 0.0, 0.3)
-    nearest = np.sort(np.abs(found.multipliers[0] - 1.0))[:2]
-    assert nearest == pytest.approx(0.0, abs=2e-5)  # a double one: root of the round-off
-    assert found.stable.all()
-
-
 def test_torsion_does_not_matter_to_a_round_section():
     """In the tongue, where it grows, and with a twist that follows."""
     exponents = [
@@ -355,18 +328,3 @@ def test_edges_of_the_tongues(section, a, edge, into):
     assert inside.kind == "period doubling"
     assert inside.modes[0] == "flap 1"
     assert not outside.unstable
-
-
-def test_the_stretch_moves_the_narrow_tongue(beam):
-    """By 3.3e-4 of w̄ in 4.4: what is unstable without extension is not with it."""
-    inside = 4.43220 - 1e-4
-    assert growth(ROUND, inside, 0.5).unstable
-    assert not growth(ROUND, inside, 0.5, theory=Theory()).unstable
-    assert growth(ROUND, inside - 3.3e-4, 0.5, theory=Theory()).unstable
-
-
-def test_onset_of_a_section_that_does_not_twist():
-    at_two = 2.0 / BEAM.frequency_scale
-    for sign in (-1.0, 1.0):
-        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, theory=Theory())
-        assert found.unstable == (sign > 0.0)

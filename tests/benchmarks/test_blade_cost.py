@@ -1,4 +1,4 @@
-"""Cost of a real blade, of what grows out of the plane, and of threads."""
+"""Cost of a real blade, and of threads."""
 
 import os
 import statistics

@@ -21,6 +21,7 @@ from analytic import (
 )
 from analytic.quadrature import gauss_points
 from rotbeam_exu import simulate
+from tests.beams import unit_beam
 
 pytestmark = pytest.mark.benchmarks
 
@@ -63,9 +64,7 @@ def test_a_curve_takes_a_twentieth_of_a_simulation(beam, omega):
     assert share(lambda: backbone_curve(beam, omega), omega) < 0.05
 
 
-FLAT = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-).with_section_out_of_plane(1.0 / 16.0, 0.08)
+FLAT = unit_beam(1e-4).with_section_out_of_plane(1.0 / 16.0, 0.08)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ PLAIN = {
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "
         "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
-        "analytic.reduced.model.ReducedModel"
+        "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),
     "loads and shapes that are used as TipForce and Rectangle are": (
         "analytic.Circle analytic.DistributedForce analytic.Ellipse analytic.SpeedRipple "
@@ -36,7 +36,6 @@ PLAIN = {
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "analytic.exact.beam.section_loads",
     "analytic.exact.beam.state", "analytic.exact.driven.forced_orbits",
     "analytic.exact.driven.response", "analytic.exact.free.backbone",
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",
@@ -44,7 +43,7 @@ BEYOND = {
     "analytic.exact.free.orbits",
     "analytic.exact.linear.campbell",
     "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
-    "analytic.exact.linear.unstretched", "analytic.exact.plane.planarity",
+    "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",

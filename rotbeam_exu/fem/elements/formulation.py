@@ -14,7 +14,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.description import Described
-from analytic.exact.beam.section_loads import in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
 from analytic.motion import Rotation

@@ -19,8 +19,15 @@ from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
 from ..submission import Row, Run, Submission
 from . import entry, runs
-from .content import OUTSIDE, below, content_of
-from .faults import Faults, MalformedSubmissionError, near, printable
+from .faults import (
+    OUTSIDE,
+    Faults,
+    MalformedSubmissionError,
+    below,
+    content_of,
+    near,
+    printable,
+)
 from .tables import (
     FAILURE,
     LEAST_DIGITS,

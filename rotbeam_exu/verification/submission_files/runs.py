@@ -16,8 +16,7 @@ from analytic.arrays import FloatArray
 
 from ..cases import CASES, TIP, Asked, Case
 from ..submission import Run
-from .content import below
-from .faults import Faults, printable, several, shown
+from .faults import Faults, below, printable, several, shown
 from .tables import (
     DIGITS,
     FAILURE,
