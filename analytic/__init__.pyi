@@ -8,7 +8,7 @@ from .exact.driven.response import spin_up_response as spin_up_response
 from .exact.free.backbone import backbone as backbone
 from .exact.free.backbone import backbone_curve as backbone_curve
 from .exact.free.backbone import periodic_orbits as periodic_orbits
-from .exact.free.branch import AmplitudeNotReachedError as AmplitudeNotReachedError
+from .exact.free.path import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.linear.campbell import campbell as campbell
 from .exact.linear.modes import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes

@@ -35,7 +35,7 @@ from analytic import (
     stability_limit,
 )  # fmt: skip
 from analytic.section import OutOfPlane
-from rotbeam_exu import natural_frequencies, simulate, sweep
+from rotbeam_exu import natural_frequencies, simulate
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
@@ -82,7 +82,6 @@ FLAGS = {
     "linear_response": lambda f: linear_response(BEAM, SLOW, [1.0], foreshortening=f),
     "residual_amplitude": lambda f: residual_amplitude(BEAM, SLOW, corrected=f),
     "Variant": lambda f: Variant(name="mine", shape="rotating", axial="consistent", coriolis=f),
-    "sweep": lambda f: sweep(BEAM, omegas=[6.0], ramp_times=[3.0], history=f),
 }
 
 

@@ -53,11 +53,7 @@ class LeavingBranch(SpaceOrbitSet, Branch):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        Planar mode from which the planar orbits grow, from 1.
+    beam, omega, mode : those of the backbone
     periods : int
         Periods of the planar orbit that one of these orbits takes at first: 1 or 2.
     mirror : bool
