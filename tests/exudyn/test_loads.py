@@ -20,7 +20,6 @@ from analytic import (
 from rotbeam_exu import SimulationError, load, save, simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.runs.attributes import loads_of
 from rotbeam_exu.runs.check import check_run, remedy
@@ -70,35 +69,6 @@ def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed)
     assert exact.amplitude[i] > 0.2
     # What is left of the start, and the step's share, are a third of it.
     assert np.abs(q - exact.response(angle, i)).max() < 1e-3 * exact.amplitude[i]
-
-
-@pytest.mark.slow  # by default under gravity, in exact spin-ups, by energy, and in both frames
-@pytest.mark.parametrize(
-    ("kind", "size", "omega", "element", "frame"),
-    [
-        (TipForce, 0.5, 2.0, Exact(nodes=3), "rotating"),
-        (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
-        (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
-        (TipForce, 0.5, 2.0, "cable", "inertial"),
-        (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
-        (DistributedForce, 1.2, 2.0, "cable", "rotating"),
-        (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
-    ],
-)
-def test_under_a_harmonic_load_it_settles_on_the_exact_response(
-    beam, kind, size, omega, element, frame
-):
-    blade, scale = by_mass(beam, 2.0), beam.frequency_scale
-    force = beam.bending_stiffness / beam.length**2
-    unit = {SpeedRipple: scale, TipForce: force, DistributedForce: force / beam.length}[kind]
-    pushed, nu = kind(amplitude=size * unit), 3.8 * scale
-    exact = forced_response(blade, omega, pushed, [0.9 * nu, nu, 1.1 * nu])
-    drive = replace(pushed, frequency=nu)
-    time, _, q = last_cycle(blade, omega, [drive], nu, 7, frame=frame, element=element)
-    (i,) = exact.at(nu)
-    assert exact.amplitude[i] > 0.2
-    # The step in the inertial frame; elsewhere a third of it.
-    assert np.abs(q - exact.response(nu * time, i)).max() < 2e-3 * exact.amplitude[i]
 
 
 @pytest.mark.parametrize(
