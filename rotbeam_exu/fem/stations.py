@@ -13,7 +13,8 @@ import math
 import numpy as np
 
 from analytic.arrays import FloatArray, few_at_once
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import sparse
 from analytic.quadrature import gauss_points

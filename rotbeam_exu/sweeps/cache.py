@@ -15,7 +15,7 @@ from analytic.warning import warn
 from ..fem.elements import Formulation, formulation
 from ..files.results import read, save, writable_folder
 from ..lazily import xr
-from ..runs.versions import versions
+from ..runs.attributes import versions
 
 
 class Cache:

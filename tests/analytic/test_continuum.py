@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.exact.beam.discretization import continuum
+from analytic.exact.beam.steady import continuum
 from analytic.quadrature import gauss_points
 from analytic.unit_blade import UNIFORM
 

@@ -23,12 +23,11 @@ from analytic import (
     steady_state,
 )
 from analytic.exact.space.continuum import SpaceContinuum
+from tests.beams import unit_beam
 
 PLAIN = Theory(extension=False, trapeze=False)
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
-BEAM = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
-)
+BEAM = unit_beam(1e-4)
 BLADE = BEAM.with_section_out_of_plane(1.0 / 16.0, 0.08)
 
 # Bending ratio, twist [degrees], hub, speed, frequencies.
@@ -177,22 +176,6 @@ def test_shapes_of_a_round_bar_are_those_of_the_plane():
     # Flap comes first, and turns a blade whose centers of mass lie behind it.
     assert turns[0][:, 0] == pytest.approx(2.0 * turns[1][:, 0], rel=1e-7)
     assert abs(turns[0][-1, 0]) > 1e-2
-
-
-def test_the_first_torsion_of_a_bar_in_closed_form():
-    """(π/2) √(GJ/ρIp) at rest, of any polar inertia, and sin(πx/2)."""
-    homogeneous = (1.0 + 0.0625) * 1e-4
-    for given, polar in ((None, homogeneous), (2e-4, 2e-4)):
-        blade = BEAM.with_section_out_of_plane(0.0625, 0.08, given).with_setting_angle(0.3)
-        modes = linear_modes(blade, 0.0, 9, theory=SOLID)
-        torsion = int(np.argmax(modes.shares[:, 2]))
-        assert modes.frequencies[torsion] == pytest.approx(
-            0.5 * math.pi * math.sqrt(0.08 / polar), rel=1e-8
-        )
-        turn = modes.twist([0.0, 0.25, 0.5, 1.0])[:, torsion]
-        assert turn / turn[-1] == pytest.approx(
-            np.sin(0.5 * math.pi * np.array([0.0, 0.25, 0.5, 1.0])), abs=1e-7
-        )
 
 
 def test_torsion_alone_has_the_rotary_inertia_that_is_told():

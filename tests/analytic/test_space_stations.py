@@ -8,7 +8,6 @@ from scipy import optimize, special
 from scipy.spatial.transform import Rotation
 
 from analytic import (
-    Beam,
     Blade,
     Section,
     Theory,
@@ -20,15 +19,13 @@ from analytic.description import describe, from_description
 from analytic.exact.beam.state import Driven
 from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
-from tests.beams import finite_elements
+from tests.beams import finite_elements, unit_beam
 
 MU, R, G = 1e-4, 1.0 / 16.0, 0.08
 X = np.linspace(0.0, 1.0, 4)
 STIFFNESS = np.tile([1.0 / MU, 0.3 / MU, 0.3 / MU, G, R, 1.0], (4, 1))
 MASS = np.tile([1.0, MU * (1.0 + R), MU * R, MU], (4, 1))
-BEAM = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1.0 / MU, bending_stiffness=1.0, mass_per_length=1.0
-)
+BEAM = unit_beam(MU)
 CENTERS = {"center": (0.05, 0.02), "tension": (0.03, -0.01)}
 SHEARED = Theory(shear=True, trapeze=False)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic import AmplitudeNotReachedError, linear_modes, periodic_orbits
+from analytic import AmplitudeNotReachedError, periodic_orbits
 from analytic.methods.continuation import Care
 
 
@@ -34,8 +34,3 @@ def test_an_orbit_lost_in_round_off_does_not_cost_the_larger(beam):
     with pytest.raises(AmplitudeNotReachedError, match="take linear_modes") as caught:
         periodic_orbits(beam, 6.0, [1e-14, 0.1])
     assert caught.value.orbits.amplitude.tolist() == [0.1]
-
-
-def test_tiny_orbits_above_round_off_are_the_linear_mode(beam):
-    found = periodic_orbits(beam, 6.0, [1e-7])
-    assert found.frequency[0] == pytest.approx(linear_modes(beam, 6.0, 1).frequencies[0], rel=1e-10)

@@ -101,3 +101,6 @@ def test_a_body_for_paraview_has_the_height_and_width_given(call, tmp_path):
     text = (tmp_path / "film" / "film-0002.vtu").read_text()
     assert f'NumberOfPoints="{4 * 41}" NumberOfCells="40"' in text
     assert 'Name="stress"' in text
+    code, _, error = call("animate", *motion, "--height", "0.04", "-o", tmp_path / "other.pvd")
+    assert (code, "give width too, or leave both out" in error) == (2, True)
+    assert not (tmp_path / "other.pvd").exists()

@@ -12,8 +12,7 @@ import pytest
 
 from rotbeam_exu.report import page as page_room
 from rotbeam_exu.report.document import SCHEMA, Record, document
-from rotbeam_exu.report.latex import latex_table
-from rotbeam_exu.report.page import TITLE, report_page
+from rotbeam_exu.report.page import TITLE, latex_table, report_page
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome

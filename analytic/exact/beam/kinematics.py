@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ...arrays import ComplexArray, FloatArray
 from ...shape_functions import shape_functions
 from ...unit_blade import UnitBlade
-from .section_loads import in_plane_of_bending, set_at
 
 _MORE = 3  # points on each cell: functions of low degree still make fields that are not, exp(iθ)
 
@@ -183,3 +182,22 @@ class Kinematics:
         turn = np.exp(1j * self._angle(q)) * self.weights
         turning = 1j * (1.0 + self._strain(q)) * turn
         return np.concatenate((turning @ self._phi, turn @ self._psi), axis=-1)
+
+
+def in_plane_of_bending(angle: FloatArray, setting: float) -> FloatArray:
+    """Return the sections (..., 3, 3) of a planar blade set at ψ, turned by θ (...), both [rad].
+
+    In columns, in the frame of the clamp.
+    """
+    turn = np.zeros((*angle.shape, 3, 3))
+    turn[..., 0, 0] = turn[..., 1, 1] = np.cos(angle)
+    turn[..., 1, 0] = np.sin(angle)
+    turn[..., 0, 1] = -turn[..., 1, 0]
+    turn[..., 2, 2] = 1.0
+    return set_at(setting) @ turn
+
+
+def set_at(setting: float) -> FloatArray:
+    """Return the rotation (3, 3) about the blade by its setting angle [rad]."""
+    c, s = math.cos(setting), math.sin(setting)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])

@@ -17,9 +17,8 @@ from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
-from ..beam.discretization import require_shear
 from ..beam.state import Driven
-from ..beam.steady import AtConstantRate
+from ..beam.steady import AtConstantRate, require_shear
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
 from .unit import space_unit
@@ -91,30 +90,17 @@ def require_section(beam: AnyBlade) -> None:
 class SpaceBlade(AtConstantRate):
     """The blade in a frame that turns at a constant rate; a system of `methods`.
 
-    Attributes
-    ----------
-    model : SpaceContinuum
-    rate : float
-        w̄ = ω/√(EI3/mL³).
-    direction : tuple
-        Direction of the gauge, the tip's place from the steady state, in the root frame.
-    near : ndarray (n,), optional
-        Coordinates from which the steady state is found; from rest by default.
-    load : tuple
-        Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
-    lift : float
-        Pull on all masses along the axis of rotation, over EI3/(m0 L³).
-    mirror : bool
-        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
-        would as well.
+    The gauge is the tip's place from the steady state along a direction in the root frame. With
+    `mirror` orbits are sought that the mirror maps onto themselves in reversed time, where the half
+    turn would as well.
     """
 
     model: SpaceContinuum
-    rate: float
+    rate: float  # w̄ = ω/√(EI3/mL³)
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    near: FloatArray | None = None
-    load: tuple[tuple[float, ...], ...] = ()
-    lift: float = 0.0
+    near: FloatArray | None = None  # from where the steady state is found; from rest by default
+    load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
+    lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
     mirror: bool = False
 
     @cached_property
