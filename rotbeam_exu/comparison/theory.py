@@ -14,8 +14,12 @@ from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
-from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
-from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.shapes import (
+    CantileverMode,
+    converged_degree,
+    rotating_frequency,
+    rotating_mode,
+)
 
 from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
