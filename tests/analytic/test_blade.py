@@ -137,17 +137,6 @@ def test_a_free_motion_conserves_the_jacobi_integral(psi, shear_share):
     assert (after - before) / (2.0 * h) == pytest.approx(power, abs=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("hub", "w", "ratio"),
-    [(2.0, 7.7624, 3), (5.0, 4.0914, 3), (1.0, 4.6543, 4), (0.5, 7.7636, 4), (0.5, 3.5392, 5)],
-)
-def test_where_the_second_mode_meets_a_harmonic_of_the_first(hub, w, ratio):
-    first, second = linear_modes(
-        UNIT.with_hub_radius(hub), w, 2, theory=Theory(extension=False)
-    ).frequencies
-    assert second / first == pytest.approx(ratio, abs=2e-5)
-
-
 def test_a_blade_that_is_the_beam_has_its_numbers(beam):
     blade = beam.blade
     assert (blade.mass, blade.omega_0, blade.burst_speed) == pytest.approx(

@@ -43,7 +43,7 @@ def test_across_a_resonance_its_harmonic_turns_around(around_a_tongue):
 def test_ratios_start_from_the_linear_modes_and_change_with_the_square(beam):
     of = backbone(beam, 2.0)
     small = [of.path.at(a) for a in (0.05, 0.1, 0.15)]
-    modes, ratios = frequency_ratios(small, of.modes, 1)
+    modes, ratios = frequency_ratios(of, small)
     assert modes == [2, 3, 4, 5]
     linear = of.modes[1:5] / of.modes[0]
     changes = (ratios - linear) / np.array([[0.05], [0.1], [0.15]]) ** 2

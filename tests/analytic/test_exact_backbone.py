@@ -11,8 +11,8 @@ from analytic import AmplitudeNotReachedError, Theory, linear_modes, periodic_or
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
 from analytic.methods.harmonic_balance import LastTangent, solve
-from analytic.quadrature import axial_basis, gauss_points, transverse_basis
-from tests.beams import UNIT, deflection_matrices
+from analytic.quadrature import gauss_points
+from tests.beams import UNIT, clamped_basis, deflection_matrices
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
@@ -30,18 +30,18 @@ def perturbed_lambda(rate):
     """
     count = 16
     x, weights = gauss_points(60)
-    basis = transverse_basis(count, x)
+    basis = clamped_basis(count, x)
     tension = 0.5 * (1.0 - x**2) * weights
     stiffness, mass = deflection_matrices(rate, count)
     inverse, vectors = linalg.eigh(mass, stiffness)
     square = 1.0 / inverse[-1]
-    c = vectors[:, -1] / (transverse_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])
+    c = vectors[:, -1] / (clamped_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])
     v, slope, curvature = basis.value @ c, basis.slope @ c, basis.curvature @ c
     modal = weights @ v**2
 
     def integral(f):
         """Integral from the clamp, by the Legendre interpolant."""
-        legendre = axial_basis(x.size, x)
+        legendre = clamped_basis(x.size, x, 1)
         return legendre.value @ (legendre.slope * weights[:, None]).T @ f
 
     # u' = -v'²/2 - v'⁴/8: V/a⁴ and T/(a²ȧ²), with the centrifugal potential in V.

@@ -1,17 +1,15 @@
-"""The exact beam with shear: Reissner's statics, action, limits."""
+"""The exact beam with shear: Reissner's statics and limits."""
 
 from functools import partial
 
 import numpy as np
 import pytest
-from numpy.polynomial import Legendre
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from analytic import Theory, periodic_orbits
 from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import SteadyBeam, continuum
-from analytic.quadrature import axial_basis, gauss_points
 from tests.beams import SHARE, unit_beam
 
 MU = 1e-3
@@ -59,73 +57,6 @@ def test_a_small_force_bends_and_shears_the_cantilever():
 @pytest.mark.parametrize("force", [1.0, 8.0])
 def test_a_large_force_bends_it_as_reissner_says(force):
     assert bent_at_rest(force) == pytest.approx(reissners_cantilever(force), abs=1e-10)
-
-
-@pytest.mark.parametrize("theory", [Theory(), Theory(rotary_inertia=True, shear=SHARE)], ids=str)
-def test_an_orbit_makes_the_action_stationary(theory):
-    """δ∫(T - V)dt = 0 with T and V written in u, v and the section's angle, for any variation.
-
-    Of Reissner's beam, and of Bernoulli and Euler's, whose section follows the tangent. Shares
-    nothing with the solver but the orbit.
-    """
-    omega = 3.0
-    orbits = periodic_orbits(STUBBY, omega, [0.3], theory=theory)
-    period = 2.0 * np.pi / orbits.frequency[0] * STUBBY.frequency_scale
-    phases = 2.0 * np.pi * np.arange(64) / 64
-    x, weights = gauss_points(40)
-    states = [orbits.state(0, x, phase) for phase in phases]
-    z = np.array([x + s.u + 1j * s.v for s in states])
-    z_dot = np.array([s.u_dot + 1j * s.v_dot for s in states])
-    tangent = np.array([np.arctan2(s.v_slope, 1.0 + s.u_slope) for s in states])
-    turning = np.array(
-        [
-            ((1.0 + s.u_slope) * s.v_slope_dot - s.v_slope * s.u_slope_dot)
-            / ((1.0 + s.u_slope) ** 2 + s.v_slope**2)
-            for s in states
-        ]
-    )
-    phi, phi_dot = tangent, turning
-    if theory.shear:
-        phi = tangent - np.array([s.shear_angle for s in states])
-        phi_dot = turning - np.array([s.shear_angle_dot for s in states])
-    basis = axial_basis(x.size, x)
-    derivative = basis.curvature @ (basis.slope * weights[:, None]).T
-    slope = np.array([1.0 + s.u_slope + 1j * s.v_slope for s in states])
-
-    def lagrangian(z, z_dot, slope, phi, phi_dot):
-        if not theory.shear:
-            phi = np.angle(slope)
-        strain = slope * np.exp(-1j * phi) - 1.0
-        curvature = phi @ derivative.T
-        kinetic = 0.5 * np.abs(z_dot + 1j * omega * z) ** 2
-        if theory.rotary_inertia:
-            kinetic += 0.5 * MU * (phi_dot + omega) ** 2
-        elastic = 0.5 * (strain.real**2 + SHARE * strain.imag**2) / MU + 0.5 * curvature**2
-        return (kinetic - elastic) @ weights, elastic @ weights
-
-    rng = np.random.default_rng(3)
-    for _ in range(4):
-        of_z = Legendre(rng.normal(size=5) + 1j * rng.normal(size=5), domain=[0, 1])
-        of_phi = Legendre(rng.normal(size=5), domain=[0, 1])
-        n = 1 if theory.shear else 2  # a section that does not shear has no slope at the clamp
-        k, start = rng.integers(1, 4), rng.uniform(0.0, 2.0 * np.pi)
-        wave = np.cos(k * phases + start)[:, None]
-        wave_rate = -k * 2.0 * np.pi / period * np.sin(k * phases + start)[:, None]
-        h = 1e-5
-        plus, minus = (
-            lagrangian(
-                z + s * h * wave * x**n * of_z(x),
-                z_dot + s * h * wave_rate * x**n * of_z(x),
-                slope + s * h * wave * (n * x ** (n - 1) * of_z(x) + x**n * of_z.deriv()(x)),
-                phi + s * h * wave * x * of_phi(x),
-                phi_dot + s * h * wave_rate * x * of_phi(x),
-            )
-            for s in (1.0, -1.0)
-        )
-        action = np.mean(plus[0] - minus[0])
-        # The elastic part alone, without its cancellation over time, sets the scale.
-        scale = np.mean(np.abs(plus[1] - minus[1]))
-        assert abs(action) < 1e-6 * scale
 
 
 def test_shear_vanishes_with_its_compliance(fitted_order):

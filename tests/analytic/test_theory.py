@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import Section, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import Section, SpinUp, linear_modes, spin_up_response
 from analytic.theory import BERNOULLI_EULER, Theory
 from tests.beams import SHARE, unit_beam
 
@@ -15,18 +15,6 @@ STUBBY = unit_beam(1e-3)
 
 def first_frequency(blade, theory):
     return linear_modes(blade, 3.0, 1, theory=theory).frequencies[0]
-
-
-@pytest.mark.parametrize("theory", [BERNOULLI_EULER, Theory(rotary_inertia=True), SHEARED])
-def test_the_beam_as_a_blade_is_the_same(theory):
-    """Its section is homogeneous: ρI = m EI/EA, which is what the beam has."""
-    blade, spin_up = STUBBY.blade, SpinUp(omega=2.0, ramp_time=1.0)
-    for answer in (
-        lambda one: first_frequency(one, theory),
-        lambda one: periodic_orbits(one, 3.0, [0.2], theory=theory).frequency,
-        lambda one: spin_up_response(one, spin_up, [0.5, 1.0], tolerance=1e-5, theory=theory).q,
-    ):
-        assert answer(blade) == pytest.approx(answer(STUBBY), rel=1e-10)
 
 
 def test_a_taper_has_the_inertia_of_its_own_sections():

@@ -40,10 +40,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-    loads : tuple of loads
-    theory : Theory
+    beam, spin_up, loads, theory : as given
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)

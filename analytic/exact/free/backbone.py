@@ -28,17 +28,8 @@ _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 class Backbone(ModePath):
     """Free orbits of the exact beam that grow out of one mode at one speed; made by `backbone`.
 
-    It computes when it is asked, and keeps its path of orbits.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        The mode from which the orbits grow, from 1.
-    theory : Theory
-        Extension, shear and rotary inertia.
+    It has the beam, omega, mode and theory that are given, computes when it is asked, and keeps its
+    path of orbits.
 
     Examples
     --------

@@ -20,14 +20,6 @@ from ..beam.steady import state_of
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
 
 
-class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `orbits` are the Orbits below it, or None."""
-
-    def __init__(self, message: str, orbits: Any = None) -> None:
-        super().__init__(message)
-        self.orbits = orbits
-
-
 class SpecialPoint(NamedTuple):
     """A point of a branch that is special.
 

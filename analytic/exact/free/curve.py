@@ -22,9 +22,8 @@ from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError
 from .internal_resonance import nearest_resonance
-from .path import ModePath
+from .path import AmplitudeNotReachedError, ModePath
 
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
@@ -39,11 +38,7 @@ class BackboneCurve:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        From 1.
+    beam, omega, mode : as given
     omega_n : float
         ω_n [rad/s].
     holds_up_to : float
@@ -127,7 +122,7 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
         warn(
             f"the backbone at omega = {of.omega:g} rad/s has a series of {count} coefficients that "
             f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
-            f"{nearest_resonance(below, of.modes, of.mode)}; ask for more coefficients, or take "
+            f"{nearest_resonance(of, below)}; ask for more coefficients, or take "
             f"backbone(...).branch"
         )
     return curve

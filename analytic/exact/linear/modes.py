@@ -40,9 +40,7 @@ class LinearModes:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
+    beam, omega : as given
     frequencies : ndarray (count,)
         Natural frequencies in the rotating frame [rad/s], ascending.
     coordinates : ndarray (count, n)

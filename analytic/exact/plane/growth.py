@@ -19,8 +19,7 @@ from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import SteadyBeam, resolved_model
-from ..free.branch import AmplitudeNotReachedError
-from ..free.path import ModePath
+from ..free.path import AmplitudeNotReachedError, ModePath
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""

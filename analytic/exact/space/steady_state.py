@@ -23,14 +23,7 @@ class SteadyState:
 
     Attributes
     ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    theory : Theory
-    force, moment : tuple
-        At the tip [N], [N m].
-    gravity : float
-        Along the axis of rotation, against it [m/s²].
+    blade, omega, theory, force, moment, gravity : as given
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade
-from ...line import STRAIGHT, Line, Offset, scaled
+from ...parts import STRAIGHT, Line, Offset, scaled
 from ...profiles import Profile, evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
@@ -19,6 +18,9 @@ from ...station_section import StationSection
 from ...theory import Theory
 from ...unit_blade import UnitBlade
 from .vectors import Frames, about_axis, turned
+
+if TYPE_CHECKING:
+    from ...beam import AnyBlade
 
 _POINTS = 40  # on each panel, for the unloaded line
 
