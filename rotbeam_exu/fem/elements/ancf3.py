@@ -120,16 +120,10 @@ class Ancf3(Sheared, SectionSlopeNodes):
         shear = self.shear_share
         d = np.zeros((*EA.shape, 6, 6))
         for i, j, value in (
-            (0, 0, plane * EA),
-            (0, 2, plane * EI),
-            (0, 3, plane * nu * EA),
-            (1, 1, plane * EI),
-            (2, 2, plane * 1.8 * EI**2 / EA),
-            (2, 3, plane * nu * EI),
-            (3, 3, plane * EA),
-            (4, 4, shear * EA),
-            (5, 5, shear * EI),
-        ):
+            (0, 0, plane * EA), (0, 2, plane * EI), (0, 3, plane * nu * EA), (1, 1, plane * EI),
+            (2, 2, plane * 1.8 * EI**2 / EA), (2, 3, plane * nu * EI), (3, 3, plane * EA),
+            (4, 4, shear * EA), (5, 5, shear * EI),
+        ):  # fmt: skip
             d[..., i, j] = d[..., j, i] = value
         return d
 
