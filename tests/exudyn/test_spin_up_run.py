@@ -64,7 +64,7 @@ def test_amplitude_and_frequency(beam, fine):
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
 def test_step_order_is_two(coarse, frame, fitted_order):
-    steps = np.array([4e-3, 2e-3, 1e-3])
+    steps = np.array([8e-3, 4e-3, 2e-3])
     times = np.arange(0.1, 6.01, 0.1)
     runs = [at(coarse(h, frame), times) for h in steps]
     changes = [np.abs(a - b).max() for a, b in pairwise(runs)]
@@ -91,11 +91,11 @@ def test_mesh_order_is_four(coarse, fine, fitted_order):
 def test_both_frames_converge_to_the_same(coarse):
     """Two formulations of drive, inertia and integrator; the difference falls with the step."""
     gaps = []
-    for step in (2e-3, 1e-3):
+    for step in (4e-3, 2e-3):
         inertial, rotating = (coarse(step, frame) for frame in ("inertial", "rotating"))
         gaps.append(np.abs(inertial["q"] - rotating["q"]).max().item())
     assert gaps[1] < 0.26 * gaps[0]
-    assert gaps[1] < 1e-3
+    assert gaps[1] < 4e-3
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
