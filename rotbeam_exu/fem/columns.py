@@ -114,10 +114,7 @@ def columns(
 def _clamp_loads(
     case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
 ) -> dict[str, tuple[FloatArray, str, str]]:
-    """Return what the blade exerts on the clamp, by the constraints' Lagrange multipliers.
-
-    `root` (samples, n) has the root's coordinates in the frame of the clamp, `frame` its axes.
-    """
+    """Return what the blade exerts on the clamp, whose axes are `frame`, by the multipliers."""
     model, count = case.model, case.model.dimensions
     onto = np.zeros_like(root)
     onto[:, :count] = trajectory.multipliers[:, :count]

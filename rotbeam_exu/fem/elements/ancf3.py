@@ -187,11 +187,8 @@ def _axis_vectors(length: float) -> FloatArray:
 
 
 def _mass(mesh: Mesh) -> FloatArray:
-    """Mass matrices (elements, 12, 12), Eq. 9, with ρI for the slopes.
-
-    Five points are exact for sections that vary as those of a taper do, by x⁴ at most.
-    """
-    xi, weights = gauss_points(5)
+    """Mass matrices (elements, 12, 12), Eq. 9, with ρI for the slopes."""
+    xi, weights = gauss_points(5)  # exact for tapers, whose sections vary by x⁴ at most
     section, values = mesh.sections_at(xi), lagrange(xi, 2)
     mass = np.zeros((mesh.elements, 3, 2, 3, 2))  # nodes, r or r_y
     for kind, density in enumerate((section.mass_per_length, section.rotary_inertia)):
