@@ -85,9 +85,15 @@ def integrals_from_clamp(count: int, x: FloatArray) -> FloatArray:
 
     Exact for polynomials of a degree below `count`.
     """
+    value = _normalized(count, _integrated(_legendre(count + 1, x)))
+    return np.asarray(value @ _onto_slopes(count).T)
+
+
+@cache
+def _onto_slopes(count: int) -> FloatArray:
+    """Return the matrix from values at `count` Gauss points to coefficients of ψ'."""
     points, weights = gauss_points(count)
-    onto = axial_basis(count, points).slope * weights[:, None]
-    return np.asarray(axial_basis(count, x).value @ onto.T)
+    return np.asarray(_normalized(count, _legendre(count, points)) * weights[:, None])
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,7 +137,7 @@ def start_table(case: Case, places: ArrayLike) -> str:
 def _self_check(case: Case) -> str:
     time, truth = _times(case), reference(case)
     said = f"case {case.name}: the reference, within {truth.bound:.0e} of max|q|; s, m, m/s"
-    return _table(said, {"time": time, "q": truth.history(time), "q_dot": truth.rate(time)})
+    return _table(said, {"time": time, "q": truth.history(time), "q_dot": truth.history(time, 1)})
 
 
 def _times(case: Case) -> FloatArray:

@@ -50,23 +50,17 @@ class Reference:
     _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
     _rows: dict[float, FloatArray] = field(default_factory=dict, repr=False)
 
-    def history(self, times: ArrayLike) -> FloatArray:
+    def history(self, times: ArrayLike, derivative: int = 0) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.
 
-        In space lag, flap and twist, along one more axis.
+        In space lag, flap and twist, along one more axis. Its first `derivative`, the rate in the
+        turning frame [m/s], has a larger error.
 
         Raises
         ------
         ValueError
             If the case asks for no history, or times lie outside of it.
         """
-        return self._evaluated(times, 0)
-
-    def rate(self, times: ArrayLike) -> FloatArray:
-        """Return dq/dt in the turning frame [m/s], as `history` does; its error is larger."""
-        return self._evaluated(times, 1)
-
-    def _evaluated(self, times: ArrayLike, derivative: int) -> FloatArray:
         if self._history is None:
             raise ValueError(
                 f"case {self.case.name} asks for no history, but for {self.case.asked}"

@@ -107,10 +107,10 @@ class LeavingBranch(SpaceOrbitSet, Branch):
                 ax, frequency, np.append(start, height), np.append(stable[:1], stable),
                 np.zeros(frequency.size, dtype=bool), label=name,
             )  # fmt: skip
+            ax.annotate(name, (frequency[-1], height[-1]), (3, 3), textcoords="offset points")
         ax.plot(self.born.frequency, self.born.amplitude, "o", color="black", ms=4.0)
         ax.set(xlabel="frequency of the lag [rad/s]", ylabel="largest value at the tip")
         ax.set_ylim(bottom=0.0)
-        ax.legend()
         return ax
 
     def __str__(self) -> str:

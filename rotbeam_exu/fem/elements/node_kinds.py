@@ -193,14 +193,8 @@ class FrameNodes(Formulation, abstract=True):
 
 
 def require_bare(element: Formulation, blade: AnyBlade) -> None:
-    """Refuse damping and point masses, which Exudyn's elements in space do not have."""
+    """Refuse point masses, which Exudyn's elements in space do not have."""
     require_blade(blade)
-    if any(blade.unit.damping):
-        raise ValueError(
-            f"element {element.name!r} is undamped, as Exudyn's geometrically exact beam ignores "
-            f"its damping, and this blade has {blade.unit.differences}: take "
-            "blade.with_damping(Damping())"
-        )
     if blade.unit.masses:
         raise ValueError(
             f"element {element.name!r} carries no point masses, and this blade has "

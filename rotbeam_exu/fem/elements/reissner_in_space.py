@@ -36,8 +36,8 @@ class SpaceExact(Sheared, FrameNodes):
     The screw from one node to the other, less that of the unloaded blade, is the strain, constant
     in the element; velocities and turning rates are linear. The nodes stand on the unloaded line
     and along its sections: a blade may have twist, precone, prebend, sweep and a setting angle.
-    Sections have their inertia and the propeller moment, but not the trapeze effect. Exudyn
-    ignores its damping and knows no center of mass or tension off the line.
+    Sections have their inertia and the propeller moment, but not the trapeze effect. Damping is
+    external only, for Exudyn ignores that of strains; centers of mass and tension are on the line.
 
     Parameters
     ----------
