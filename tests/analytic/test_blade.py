@@ -8,15 +8,11 @@ import numpy as np
 import pytest
 
 from analytic import (
-    Blade,
     PointMass,
     Section,
-    SpinUp,
     Theory,
     linear_modes,
-    periodic_orbits,
     reduced_model,
-    spin_up_response,
 )
 from analytic.exact.beam.continuum import Continuum
 from analytic.exact.beam.state import Driven
@@ -155,40 +151,6 @@ def test_a_blade_that_is_the_beam_has_its_numbers(beam):
     assert reduced_model(almost, 6.0, "FrM").lambda_omega == pytest.approx(
         reduced_model(beam, 6.0, "FrM").lambda_omega, rel=1e-10
     )
-
-
-def test_stations_of_a_taper_come_near_it(fitted_order):
-    counts, errors = np.array([4, 8, 16, 60]), []
-    exact = Section(
-        axial_stiffness=1e9, mass_per_length=1.0,
-        bending_stiffness=tuple(np.polynomial.polynomial.polypow([1.0, -0.5], 3)),
-    )  # fmt: skip
-    wanted = lag(Blade(length=1.0, section=exact), 4.0)[0]
-    for n in counts:
-        at = [(x, 1.0 - 0.5 * x) for x in np.linspace(0.0, 1.0, n + 1)]
-        cubed = [(x, y**3) for x, y in at]
-        bent = Section(axial_stiffness=1e9, bending_stiffness=cubed, mass_per_length=1.0)
-        errors.append(abs(lag(Blade(length=1.0, section=bent), 4.0)[0] / wanted - 1.0))
-    # A straight line between stations is off by the square of their distance.
-    assert fitted_order(1.0 / counts, errors) == pytest.approx(2.0, abs=0.1)
-
-
-def test_a_spin_up_on_a_hub_ends_on_the_backbone(beam):
-    """Until the ramp is long, the tip lags behind; after it, the first mode rings on."""
-    blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.2, 0.2)
-    time = np.linspace(0.0, 8.0, 1601)
-    found = spin_up_response(blade, SpinUp(omega=4.0, ramp_time=3.0), time, tolerance=1e-5)
-    assert found.q.min() < -0.1
-    late = found.q[time > 3.0]
-    rises = np.flatnonzero((late[:-1] < 0.0) & (late[1:] >= 0.0))
-    crossing = time[time > 3.0][rises] - late[rises] * 0.005 / (late[rises + 1] - late[rises])
-    period = np.diff(crossing).mean()
-    exact = periodic_orbits(blade, 4.0, [0.5 * np.ptp(late) / blade.length])
-    # Other modes shift single crossings.
-    assert 2.0 * np.pi / period == pytest.approx(exact.frequency[0], rel=5e-3)
-    reach = np.hypot(*found.tip.T)
-    assert blade.hub_radius < reach.min()
-    assert reach.max() <= (blade.hub_radius + blade.length) * 1.0001
 
 
 def test_blades_are_values():
