@@ -1,7 +1,6 @@
 from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
-from .damping import Damping as Damping
 from .exact.driven.forced import forced_response as forced_response
 from .exact.driven.forced_orbits import ResponseNotReachedError as ResponseNotReachedError
 from .exact.driven.response import spin_up_response as spin_up_response
@@ -21,11 +20,12 @@ from .loads import SpeedRipple as SpeedRipple
 from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp
 from .motion import SteadyRotation as SteadyRotation
-from .point_mass import PointMass as PointMass
+from .parts import Damping as Damping
+from .parts import PointMass as PointMass
 from .ramps import FourierRamp as FourierRamp
 from .ramps import SpeedTable as SpeedTable
 from .reduced.linear_frame import linear_response as linear_response
-from .reduced.model import reduced_model as reduced_model
+from .reduced.model_range import reduced_model as reduced_model
 from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant

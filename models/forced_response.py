@@ -27,7 +27,6 @@ for omega in (2.0, 6.0):
 
 figure, axes = plt.subplots(ncols=2, figsize=(7.2, 3.4))
 for ax, at_speed in zip(axes, curves.values(), strict=True):
-    ax.set_prop_cycle(color=["0.1", "C0", "C5"])  # also dark, middle and light without color
     figures.forced_response([dataset_of(curve) for curve in at_speed], ax=ax).legend().remove()
 handles, names = ax.get_legend_handles_labels()
 names[:3] = [f"damping ratio ζ = {100.0 * ratio:.2g} %" for ratio in ratios]

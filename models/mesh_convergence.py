@@ -23,7 +23,9 @@ for omega, look in ((0.0, "o-"), (4.0, "s--"), (8.0, "D:")):
     error = np.abs(found / exact - 1.0)
     order = -np.polyfit(np.log(meshes), np.log(error), 1)[0]
     ax.loglog(meshes, error, look, label=f"{omega:g} rad/s, order {order:.2f}")
-ax.set(xlabel="number of elements", ylabel="relative error of $ω_n$", xticks=meshes, xticklabels=meshes)
+ax.set(
+    xlabel="number of elements", ylabel="relative error of $ω_n$", xticks=meshes, xticklabels=meshes
+)
 ax.minorticks_off()
 ax.legend()
 plt.show()

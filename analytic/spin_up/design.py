@@ -15,8 +15,7 @@ from ..input_checks import peak_deflection, positive, rotation_speed, whole_numb
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
 from ..threads import one_thread
-from .modes import ModesOverSpeed
-from .residual import exact_residuals, modes_for, residuals, swing
+from .residual import ModesOverSpeed, exact_residuals, modes_for, residuals, swing
 
 _MORE_WAVES = 4
 _MOST_MODES = 20
@@ -283,10 +282,7 @@ def _solved(task: _Task, near: FloatArray, target: ComplexArray) -> FloatArray |
 def _closest(
     rows: FloatArray, sides: FloatArray, slopes: FloatArray, least: FloatArray
 ) -> FloatArray | None:
-    """Return y that makes |rows y - sides| least within slopes y ≥ least, None if there is none.
-
-    The least-distance problem of Lawson and Hanson (1974), chapter 23.
-    """
+    """Return the y of least |rows y - sides| with slopes y ≥ least (Lawson and Hanson, ch. 23)."""
     Q, R = np.linalg.qr(rows)
     free = Q.T @ sides
     slopes = linalg.solve_triangular(R, slopes.T, trans="T").T

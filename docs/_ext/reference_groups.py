@@ -84,7 +84,7 @@ GROUPS = (
         "The models of the paper, and improved ones.",
         analytic="reduced_model VARIANTS Variant paper_table",
         analytic__reduced__model="ReducedModel",
-        analytic__reduced__speeds="softening_speed divergence_speed",
+        analytic__reduced__model_range="softening_speed",
     ),
     _group(
         "Exudyn",

@@ -1,4 +1,4 @@
-"""`rotbeam compare`: the data of Figures 14 and 15 and where each error comes from."""
+"""`rotbeam compare`: the data of Figures 14 and 15, and where each model's error comes from."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..runs.attributes import beam_attributes
 from .job import Job, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
 from .options import RESULTS, WORKERS, Results, Workers
-from .output import formatted, print_columns, print_note
+from .output import formatted, print_columns
 
 
 def compare(
@@ -66,12 +66,10 @@ def compare(
                 duration=main.duration, step=main.step,
             ),
             "budget_models": models,
-            "budget_finite_elements": comparison.finite_element_budget(beam, **options),
         }  # fmt: skip
     for name, table in data.items():
         _write(table.assign_attrs(mine), name, results)
     _print_models(models, amplitude)
-    _print_elements(data["budget_finite_elements"], motion.step)
 
 
 def _write(data: xr.Dataset, name: str, results: Results) -> None:
@@ -108,15 +106,3 @@ def _print_models(models: xr.Dataset, amplitude: float) -> None:
             {"source": list(errors.index), **columns},
             title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
         )
-
-
-def _print_elements(elements: xr.Dataset, step: float) -> None:
-    errors = elements["error"].to_series().unstack("source")[elements["source"].to_numpy()]
-    grid = zip(("ω [rad/s]", "T [s]"), zip(*errors.index, strict=True), strict=True)
-    columns = {source: formatted(errors[source], "+.1e") for source in errors}
-    print_columns(
-        {name: list(values) for name, values in grid} | columns,
-        title=f"16 elements, {1e3 * step:g} ms: distance from the exact ω_NL/ω_n at its amplitude",
-    )
-    if errors.isna().any(axis=None):
-        print_note("-: the amplitude is above 0.6, where the budget ends")

@@ -26,9 +26,8 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 
-from .elements.energy_body import add_force, triplets
+from .elements.energy_body import add_force, add_point_inertias, triplets
 from .elements.formulation import Chain, Formulation
-from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
 Torque = Callable[[Any, float], float]

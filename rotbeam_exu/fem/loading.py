@@ -24,9 +24,9 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
+from ..runs.attributes import Frame
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
-from .frame import Frame
 from .lazily import exudyn
 from .solver import mass_matrix
 

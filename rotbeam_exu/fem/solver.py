@@ -13,8 +13,8 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
+from ..runs.attributes import Frame
 from .elements.formulation import Chain, Formulation
-from .frame import Frame
 from .lazily import exudyn, items
 
 _TOLERANCE = 1e-9

@@ -16,7 +16,7 @@ from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
 
 from ..paper import BLUE, ORANGE, RED
-from .style import colormap, column, cycle, house_axes, ink, label, quantity, takes_own
+from .style import colormap, column, cycle, house_axes, ink, label, quantity, ramp, takes_own
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
 _GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
@@ -46,7 +46,7 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
     highest = max(curves, key=lambda curve: float(curve["amplitude"].max()))
     folds = [curve["mark"].to_numpy() == "fold" for curve in curves]
     with house_axes(ax, column(), 3.2) as axes:
-        for curve, fold, color in zip(curves, folds, cycle(), strict=False):
+        for curve, fold, color in zip(curves, folds, ramp(len(curves)), strict=True):
             nu, a, stable = (curve[k].to_numpy() for k in ("frequency", "amplitude", "stable"))
             draw_response(axes, nu, a, stable, fold, color=color, label=_title(curve))
         if "backbone_frequency" in highest:

@@ -10,9 +10,10 @@ from analytic import Beam, Rectangle, Theory, backbone, planar_stability
 from analytic.exact.plane.growth import planar_orbits
 from analytic.methods.collocation import TANGENT_BEFORE, radau
 from analytic.threads import one_thread
-from tests.beams import unit_beam
 
-UNIT = unit_beam(1e-4)
+UNIT = Beam.from_stiffness(
+    length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0
+)
 STRIP = Beam.reference().with_shape(Rectangle())
 SOFT = Theory(extension=False, trapeze=False)
 FIRST = 3.5160152685  # first frequency of the cantilever

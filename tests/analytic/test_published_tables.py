@@ -7,8 +7,8 @@ import pytest
 from scipy.linalg import block_diag, eigh, eigvals
 
 from analytic import Blade, Section, Theory, linear_modes
-from analytic.quadrature import gauss_points, transverse_basis
-from tests.beams import UNIT
+from analytic.quadrature import gauss_points
+from tests.beams import UNIT, clamped_basis
 
 FLAP = UNIT.with_setting_angle(0.5 * math.pi)
 PRINTED = 5e-5 * (1.0 + 1e-3)
@@ -74,7 +74,7 @@ def unstretched_lag(w):
     s̈ - 2wv̇ - w²s = s''/μ, v̈ + 2wṡ - w²v = (Nv')' - v'''', N = w²(1 - x²)/2.
     """
     x, weights = gauss_points(72)
-    v, k = transverse_basis(24, x), (np.arange(24) + 0.5) * math.pi
+    v, k = clamped_basis(24, x), (np.arange(24) + 0.5) * math.pi
     s, s_slope = np.sin(np.outer(x, k)), k * np.cos(np.outer(x, k))
     tension = 0.5 * w**2 * (1.0 - x**2)
     M = block_diag(s.T @ (weights[:, None] * s), v.value.T @ (weights[:, None] * v.value))
@@ -102,7 +102,7 @@ def test_stretch_enters_flap_by_the_tension_and_the_curvature(w):
     x, weights = gauss_points(72)
     k = w / math.sqrt(SLENDERNESS)
     stretch, slope_of_it = np.cos(k * x) / math.cos(k), -k * np.sin(k * x) / math.cos(k)
-    basis = transverse_basis(24, x)
+    basis = clamped_basis(24, x)
     tension = SLENDERNESS * (stretch - 1.0) / stretch
     curvature = basis.curvature - basis.slope * (slope_of_it / stretch)[:, None]
     K = curvature.T @ ((weights / stretch**2)[:, None] * curvature)

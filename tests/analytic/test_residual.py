@@ -20,7 +20,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.reduced.any_blade import blade_oscillator
-from analytic.spin_up.modes import modes_over_speed
+from analytic.spin_up.residual import modes_over_speed
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 # By code that shares nothing with this one: speed, ramp time, what the exact transient leaves.
@@ -186,14 +186,6 @@ def test_largest_deflection_on_the_way_is_kept(beam):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("omega", "ramp_time"), [case[:2] for case in QUIET])
-def test_designed_ramps_of_all_quiet_durations(beam, omega, ramp_time):
-    left = residual_amplitude(beam, design_ramp(beam, omega, ramp_time), exact=True)
-    for T in (ramp_time, 2.0 * ramp_time):
-        assert left < 0.1 * residual_amplitude(beam, eq_1(omega, T), exact=True)
-
-
-@pytest.mark.slow
 def test_limits_are_kept(beam):
     limit = 0.8 * 2.0 * 6.0 / 7.6487
     ramp = design_ramp(beam, 6.0, 7.6487, acceleration_limit=limit)
@@ -230,8 +222,6 @@ def test_bad_input(beam):
         residual_amplitude(beam, eq_1(6.0, 3.0), [1.0, 0.0])
     with pytest.raises(ValueError, match="take a speed above zero"):
         quiet_ramp_times(beam, 0.0)
-    with pytest.raises(ValueError, match="take at most"):
-        quiet_ramp_times(beam, 6.0, longest=1e9)
 
 
 @pytest.mark.slow  # spin-ups in any units are in test_random_units

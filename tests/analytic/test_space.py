@@ -20,7 +20,6 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.damping import UNDAMPED
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
 from analytic.exact.driven.forced import DrivenBlade
@@ -28,10 +27,11 @@ from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
-from analytic.quadrature import axial_basis, gauss_points
+from analytic.parts import UNDAMPED
+from analytic.quadrature import gauss_points
 from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
-from tests.beams import unit_beam
+from tests.beams import clamped_basis, unit_beam
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -232,7 +232,7 @@ def test_the_propeller_moment_is_that_of_the_moving_plane():
         space.stiffness(planar, still, v, still)[0, n:, n:] for v in (still, swinging)
     )
     x, dx = gauss_points(24)
-    phi = axial_basis(n, x).value
+    phi = clamped_basis(n, x, 1).value
     iota = 1e-2 * (1.0 - 0.5) / (1.0 + 0.5)
     wanted = phi.T @ ((dx * iota * ((2.0 + 1.5 * x) ** 2 - 4.0))[:, None] * phi)
     # The tension of the swing adds what the trapeze effect makes of it: μ to 1e-2.

@@ -14,7 +14,7 @@ from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
 from analytic.exact.space.unit import SpaceUnit
 from analytic.exact.space.vectors import Frames
-from analytic.line import Line
+from analytic.parts import Line
 from analytic.theory import Theory
 
 ALL = SpaceUnit(

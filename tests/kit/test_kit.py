@@ -124,13 +124,6 @@ def test_another_column_is_a_line(monkeypatch):
     assert {row["id"]: row["besides"] for row in document["cases"]}["S5"] == ["drag 0.1 kg/(m s)"]
 
 
-def test_a_case_that_it_can_say_is_whole():
-    blade = S1.blade.with_tip_mass(0.3).with_hub_radius(0.5).with_damping(Damping(bending=0.01))
-    row = row_of(replace(S1, blade=blade, loads=(Gravity(2.0),)))
-    said = row["tip_mass"], row["hub_radius"], row["bending_damping"], row["gravity"]
-    assert said == (0.3, 0.5, 0.01, 2.0)
-
-
 def test_drives_read_back_to_the_last_bit(folder):
     for case in HISTORIES:
         drive = columns(folder / f"drive_{case.name}.csv")

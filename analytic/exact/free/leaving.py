@@ -102,15 +102,16 @@ class LeavingBranch(SpaceOrbitSet, Branch):
         frequency = np.append(self.born.frequency, self.periods * self.frequency)
         starts = (self.born.amplitude, 0.0, 0.0)
         names = ("lag, |q|/L", "flap, |w|/L", "twist [rad]")
-        for name, start, height in zip(names, starts, self.largest.T, strict=True):
+        courses = zip(names, starts, (2.0, 1.2, 0.6), self.largest.T, strict=True)
+        for name, start, width, height in courses:
             draw_response(
                 ax, frequency, np.append(start, height), np.append(stable[:1], stable),
-                np.zeros(frequency.size, dtype=bool), label=name,
+                np.zeros(frequency.size, dtype=bool), label=name, lw=width,
             )  # fmt: skip
-            ax.annotate(name, (frequency[-1], height[-1]), (3, 3), textcoords="offset points")
         ax.plot(self.born.frequency, self.born.amplitude, "o", color="black", ms=4.0)
         ax.set(xlabel="frequency of the lag [rad/s]", ylabel="largest value at the tip")
         ax.set_ylim(bottom=0.0)
+        ax.legend()
         return ax
 
     def __str__(self) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...line import STRAIGHT, Line, Offset, scaled
+from ...parts import STRAIGHT, Line, Offset, scaled
 from ...profiles import Profile, evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions

@@ -11,7 +11,7 @@ from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ..frame import Frame
+from ...runs.attributes import Frame
 from .ancf3 import Ancf3
 from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation

@@ -13,12 +13,10 @@ from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn
-from ..mesh import Mesh
-from .energy_body import Assembly, add_energy_body
+from ..mesh import Mesh, lagrange
+from .energy_body import Assembly, add_energy_body, add_point_masses
 from .formulation import POISSON_RATIO, Chain, Sheared
 from .node_kinds import SectionSlopeNodes
-from .point_masses import add_point_masses
-from .polynomials import lagrange
 
 Law = Literal["uncoupled", "coupled"]
 

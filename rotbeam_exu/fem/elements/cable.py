@@ -15,11 +15,10 @@ from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
-from ..mesh import Mesh
+from ..mesh import Mesh, shapes
+from .energy_body import add_point_masses
 from .formulation import Chain, Formulation
 from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
-from .point_masses import add_point_masses
-from .polynomials import shapes
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
 _GAUSS = tuple(zip(*gauss_points(2), strict=True))

@@ -21,8 +21,8 @@ from analytic.motion import Rotation
 from analytic.theory import Theory
 
 from ..lazily import exudyn, items
-from .point_masses import TurningNode, spins
-from .polynomials import lagrange
+from ..mesh import lagrange
+from .energy_body import TurningNode, spins
 
 POISSON_RATIO = 0.3
 """Default ν of beams that shear; the paper gives neither ν nor a shear modulus."""

@@ -18,8 +18,8 @@ from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import BeamState
 from analytic.lazily import Lazily
 
+from ..mesh import shapes
 from .formulation import Formulation, cells
-from .polynomials import shapes
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""

@@ -143,6 +143,12 @@ def below(folder: Path, file: str) -> Path | None:
     return real.relative_to(root) if real.is_relative_to(root) else None
 
 
+def files_in(folder: Path, name: str) -> list[str]:
+    """Return the CSV files of a folder below the folder, as S1/m032_h1e-3.csv."""
+    paths = sorted((folder / name).glob("*.csv")) if below(folder, name) else []
+    return [f"{name}/{printable(path.name)}" for path in paths]
+
+
 def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
     """Return the bytes of a regular file below a folder.
 
