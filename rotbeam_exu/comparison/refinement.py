@@ -24,7 +24,7 @@ from ..labels import dataset
 from ..lazily import xr
 from ..runs.attributes import versions
 from ..runs.check import SimulationError
-from ..sweeps.cache import cache_of
+from ..sweeps.cases import cache_of
 from ..sweeps.grid import solved
 from ..verification.convergence import converged
 from ..verification.judgement import FLOOR

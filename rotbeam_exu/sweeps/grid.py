@@ -29,8 +29,7 @@ from ..lazily import xr
 from ..runs.attributes import Frame, versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
-from .cache import Cache, cache_of
-from .workers import worker_pool
+from .cases import Cache, cache_of, worker_pool
 
 OnError = Literal["raise", "record"]
 

@@ -55,25 +55,13 @@ THICK = Blade(
 
 @pytest.mark.parametrize(
     ("omega", "element", "frame", "damping"),
-    # Cables and exact elements by default in either frame and damping; the other pairings are slow.
+    # Cables and exact elements in either frame and damping.
     [
         (6.0, "cable", "rotating", VISCOUS),
         (0.0, "cable", "inertial", "by mass"),
         (0.0, "exact", "rotating", VISCOUS),
         (6.0, "exact", "inertial", "by mass"),
-        *(
-            pytest.param(*case, marks=pytest.mark.slow)
-            for case in [
-                (6.0, "ancf3", "rotating", "by mass"),
-                (0.0, "cable", "rotating", VISCOUS),
-                (0.0, "cable", "inertial", Damping(bending=0.01)),
-                (6.0, "cable", "inertial", Damping(bending=0.01)),
-                (6.0, "cable", "inertial", "by mass"),
-                (6.0, "exact", "rotating", VISCOUS),
-                (0.0, "exact", "inertial", "by mass"),
-                (0.0, "ancf3", "rotating", "by mass"),
-            ]
-        ),
+        pytest.param(6.0, "ancf3", "rotating", "by mass", marks=pytest.mark.slow),
     ],
 )
 def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damping):
@@ -205,15 +193,11 @@ def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
 
 @pytest.mark.parametrize(
     ("element", "frame"),
-    # Each element and each frame by default.
     [
         ("cable", "inertial"),
         ("exact", "rotating"),
         ("ancf3", "rotating"),
         ("space_exact", "inertial"),
-        pytest.param("cable", "rotating", marks=pytest.mark.slow),
-        pytest.param("exact", "inertial", marks=pytest.mark.slow),
-        pytest.param("ancf3", "inertial", marks=pytest.mark.slow),
     ],
 )
 def test_the_energy_balance_closes_to_second_order_in_the_step(beam, element, frame):
